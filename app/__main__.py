@@ -46,6 +46,10 @@ def _parsed(given: list[str]) -> int:
     if given[0] in COMMANDS:
         return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
     options = screen_parser().parse_args(given)
+    if options.native:
+        from app.cli.native import run
+
+        return run(options.file, example=options.example, characters=options.characters)
     return screens(options.file, example=options.example, characters=options.characters)
 
 

@@ -1,0 +1,219 @@
+"""The App: owns the session, opens the screens, runs the workers."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual import on, work
+from textual.app import App
+from textual.binding import Binding, BindingType
+from textual.reactive import var
+from textual.screen import Screen
+
+from app import theme
+from app.screens.base import BaseScreen
+from app.screens.contour import ContourScreen
+from app.screens.dialogs import Answer, Question
+from app.screens.program import ProgramScreen
+from app.session.derivation import Request, derived, lookahead_table
+from app.session.messages import ProgramDerived, TableMade, Tone
+from app.session.session import SEGMENT, Session
+from app.widgets.status import Surroundings
+from core.pipeline.derived import DerivedBlock
+from core.program.edit import Edited, FormPlace, Refused
+from core.program.history import History
+from core.program.model import Program
+
+
+class CutcompApp(App[int]):
+    """The only place where the session changes.
+
+    `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session
+    as a half-typed number would make it.
+    """
+
+    CSS_PATH = "app.tcss"
+    TITLE = "cutcomp"
+    COMMAND_PALETTE_BINDING = "ctrl+k"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
+        Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
+        Binding("ctrl+q", "quit", "Quit", show=False, priority=True),
+    ]
+
+    session: var[Session] = var(lambda: Session.of(Program()), init=False)
+    shown: var[Session] = var(lambda: Session.of(Program()), init=False)
+
+    def __init__(
+        self,
+        session: Session,
+        *,
+        surroundings: Surroundings | None = None,
+        few_colors: bool = False,
+        light: bool = False,
+    ) -> None:
+        super().__init__(ansi_color=few_colors or None)
+        self.surroundings = surroundings or Surroundings()
+        self._wanted: Request | None = None
+        self._deriving = False
+        self._table_wanted: DerivedBlock | None = None
+        self._making_table = False
+        self.set_reactive(CutcompApp.session, session)
+        self.set_reactive(CutcompApp.shown, session)
+        for each in theme.themes():
+            self.register_theme(each)
+        self.theme = theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK
+
+    def get_default_screen(self) -> Screen[None]:
+        """MILL CONTOUR."""
+        return ContourScreen()
+
+    def on_ready(self) -> None:
+        """Once the first screen stands, work out what follows from the program."""
+        self._derive(Request(self.session.program))
+
+    # ---- the session
+
+    def apply(self, edited: Edited, label: str) -> bool:
+        """Take an edit, or say why it is refused; whether it was taken."""
+        if isinstance(edited, Refused):
+            self.say(edited.text, Tone.ERROR)
+            return False
+        self._change(self.session.with_program(edited, label))
+        return True
+
+    def move(self, place: FormPlace, field: str = SEGMENT) -> None:
+        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
+        self._change(self.session.at(place, field))
+
+    def action_undo(self) -> None:
+        """Take one edit back; what is half-typed is forgotten."""
+        self._forget_typed()
+        label = self.session.history.undo_label
+        if label is None:
+            self.say("There is nothing to undo.")
+            return
+        self._change(self.session.undone())
+        self.say(f"Undone: {label}. Ctrl+Y brings it back.")
+
+    def action_redo(self) -> None:
+        """Make one undone edit again; what is half-typed is forgotten."""
+        self._forget_typed()
+        label = self.session.history.redo_label
+        if label is None:
+            self.say("There is nothing to redo.")
+            return
+        self._change(self.session.redone())
+        self.say(f"Done again: {label}.")
+
+    def _forget_typed(self) -> None:
+        if isinstance(self.screen, BaseScreen):
+            self.screen.forget_typed()
+
+    def _change(self, session: Session) -> None:
+        """The journal first, then the session, then what follows from it."""
+        before = self.session
+        if session is before:
+            return
+        if session.history is not before.history:
+            self.keep(session.history)
+        self.session = session
+        self.shown = session
+        if session.program is not before.program:
+            self._derive(Request(session.program))
+
+    def keep(self, history: History) -> None:
+        """Put every edit where a crash does not lose it."""
+
+    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
+        """A sentence on the prompt line of the screen in front."""
+        if isinstance(self.screen, BaseScreen):
+            self.screen.say(text, tone)
+
+    # ---- what follows from the program
+
+    def try_out(self, program: Program | None) -> None:
+        """Show what a half-typed number would do; None for nothing half-typed."""
+        if program is not None:
+            self._derive(Request(program, trial=True))
+        elif self.shown is not self.session or self._wanted is not None:
+            self._wanted = self._wanted if self._wanted is not None and not self._wanted.trial else None
+            self.shown = self.session
+
+    def _derive(self, request: Request) -> None:
+        """Have a program derived; of several that wait only the newest is."""
+        self._wanted = request
+        if not self._deriving:
+            self._deriving, self._wanted = True, None
+            self._derive_in_thread(request)
+
+    @work(thread=True, group="derive")
+    def _derive_in_thread(self, request: Request) -> None:
+        self.post_message(ProgramDerived(derived(request), request.trial))
+
+    @on(ProgramDerived)
+    def _program_derived(self, message: ProgramDerived) -> None:
+        self._deriving = False
+        if message.derived.program is self.session.program:
+            self.session = self.session.knowing(message.derived)
+            self.shown = self.session
+        elif message.trial and self._wanted is None:
+            self.shown = self.session.trying(message.derived)
+        if self._wanted is not None:
+            self._derive(self._wanted)
+        else:
+            self._make_table()
+
+    def _make_table(self) -> None:
+        """Have the look-ahead table of the block in front made, where it is not known yet."""
+        block = self.session.derived_block
+        if self._making_table or not block.known or (self.session.table and self.session.table[0] is block):
+            return
+        self._making_table = True
+        self._make_table_in_thread(block, self.session.program)
+
+    @work(thread=True, group="table")
+    def _make_table_in_thread(self, block: DerivedBlock, program: Program) -> None:
+        self.post_message(TableMade(block, lookahead_table(block, program)))
+
+    @on(TableMade)
+    def _table_made(self, message: TableMade) -> None:
+        self._making_table = False
+        trial = self.shown is not self.session
+        self.session = self.session.with_table(message.block, message.table)
+        if not trial:
+            self.shown = self.session
+        self._make_table()
+
+    # ---- screens
+
+    def bring(self, kind: type[BaseScreen]) -> None:
+        """The screen of this kind to the front: the one that is open under others, else a new one over all."""
+        depths = [depth for depth, screen in enumerate(self.screen_stack) if isinstance(screen, kind)]
+        if not depths:
+            self.push_screen(kind())
+            return
+        for _ in self.screen_stack[depths[-1] + 1 :]:
+            self.pop_screen()
+
+    def action_contour(self) -> None:
+        """MILL CONTOUR, the form of the block with the cursor."""
+        self.bring(ContourScreen)
+
+    def action_program(self) -> None:
+        """PROGRAM, the list of blocks."""
+        self.bring(ProgramScreen)
+
+    async def action_quit(self) -> None:
+        """Leave; asks where something is not saved."""
+        self._leave()
+
+    @work(exclusive=True, group="question")
+    async def _leave(self) -> None:
+        if self.session.unsaved:
+            name = self.session.title or (self.session.file.stem if self.session.file else "This program")
+            lines = [f"{name} has {self.session.history.undo_count} changes that are not saved."]
+            answers = [Answer("DISCARD", "the changes are lost")]
+            if await self.push_screen_wait(Question("QUIT?", lines, answers, "GO BACK")) != "DISCARD":
+                return
+        self.exit(0)

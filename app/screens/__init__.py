@@ -1,0 +1,1 @@
+"""The screens: one Textual Screen or ModalScreen a module."""

@@ -1,0 +1,200 @@
+"""The frame of every screen: title lines, body, softkeys, prompt and status in the same places.
+
+To add a screen:
+
+1. Write `app/screens/NAME.py` with a class `NameScreen(BaseScreen)`: `compose_body` yields its widgets, `SOFTKEYS` are
+   its eight softkeys, `show_session` shows a new session, `prompt_text` says what the widget with the cursor takes.
+   A screen with fields is a `FormScreen` instead (`app/screens/form_screen.py`).
+2. Give the App a method `action_NAME` that calls `self.bring(NameScreen)` (`app/app.py`).  A softkey or a binding of
+   any screen then names `app.NAME`, and `app.back` closes it; a softkey whose action does not exist is dim.  Screens
+   never import each other.
+3. Put its looks into `app/app.tcss`: the sizes are style classes, see `HORIZONTAL_BREAKPOINTS`.
+
+A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Protocol, cast
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.events import DescendantFocus, Resize
+from textual.reactive import Reactive, var
+from textual.screen import Screen
+from textual.widget import Widget
+
+from app.session.messages import Sentence, Tone
+from app.session.session import SEGMENT, Session
+from app.widgets.prompt import Prompt
+from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
+from app.widgets.status import Status, Surroundings
+from core.program.edit import Edited, FormPlace
+from core.program.model import Program
+
+COMMON_KEYS = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
+"""The keys under the softkeys."""
+
+
+class Host(Protocol):
+    """What screens ask of the App."""
+
+    @property
+    def session(self) -> Session:
+        """The work as it has been accepted."""
+
+    @property
+    def surroundings(self) -> Surroundings:
+        """Where the status line takes the clock and the free room from."""
+
+    def apply(self, edited: Edited, label: str) -> bool:
+        """Take an edit, or say why it is refused; whether it was taken."""
+
+    def move(self, place: FormPlace, field: str = SEGMENT) -> None:
+        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
+
+    def try_out(self, program: Program | None) -> None:
+        """Show what a half-typed number would do; None for nothing half-typed."""
+
+    def action_contour(self) -> None:
+        """MILL CONTOUR, the form of the block with the cursor."""
+
+
+class BaseScreen(Screen[None]):
+    """A screen in the common frame; `session` follows the App's while the screen is the one in front."""
+
+    focused: Reactive[Widget | None] = Reactive(None, repaint=False)
+    """Moving the cursor repaints two fields, not the screen."""
+
+    AUTO_FOCUS: ClassVar[str | None] = ""
+    HORIZONTAL_BREAKPOINTS = [  # noqa: RUF012  # Textual declares it so
+        (0, "-narrow"),
+        (80, "-native"),
+        (100, "-medium"),
+        (132, "-wide"),
+        (190, "-huge"),
+    ]
+    VERTICAL_BREAKPOINTS = [(0, "-short"), (28, "-tall")]  # noqa: RUF012  # Textual declares it so
+    BINDINGS: ClassVar[list[BindingType]] = [
+        *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = COMMON_KEYS
+
+    session: var[Session | None] = var(None, init=False)
+    said: var[Sentence | None] = var(None, init=False)
+    """A sentence in place of the prompt, until the next accepted key."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._marked: dict[str, Widget | None] = {}
+
+    @property
+    def host(self) -> Host:
+        """The App as far as a screen knows it."""
+        return cast(Host, self.app)
+
+    @property
+    def current_session(self) -> Session:
+        """The session as it is now."""
+        return self.host.session
+
+    def compose(self) -> ComposeResult:
+        """The frame round the body."""
+        with Horizontal(id="main"):
+            with Vertical(id="desk"):
+                yield from self.compose_body()
+            yield Softkeys(self.SOFTKEYS, self.MORE_KEYS, self.key_acts)
+        yield Prompt()
+        yield Status(self.host.surroundings)
+
+    def compose_body(self) -> ComposeResult:
+        """The widgets of the screen itself."""
+        raise NotImplementedError
+
+    def show_session(self, session: Session) -> None:
+        """Show what has changed in the session."""
+
+    def prompt_text(self) -> Sentence:
+        """What the widget with the cursor takes."""
+        return Sentence("")
+
+    def on_mount(self) -> None:
+        """Follow the App's session."""
+        self.watch(self.app, "session", self._follow)
+
+    def on_screen_resume(self) -> None:
+        """Catch up with what has changed while another screen was in front."""
+        self._follow(self.host.session)
+
+    def _follow(self, session: Session) -> None:
+        if self.is_current and session is not self.session:
+            self.session = session
+            self.show_session(session)
+            self.query_exactly_one(Status).show(session)
+            self.refresh_frame()
+
+    def refresh_frame(self) -> None:
+        """Prompt and softkeys as they are now."""
+        self.query_exactly_one(Prompt).show(self.said or self.prompt_text())
+        self.query_exactly_one(Softkeys).refresh_keys()
+
+    def forget_typed(self) -> None:
+        """Forget what has been typed and not been taken."""
+
+    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
+        """A sentence on the prompt line, until the next accepted key."""
+        self.said = Sentence(text, tone)
+        self.refresh_frame()
+
+    def quiet(self) -> None:
+        """The prompt again."""
+        if self.said is not None:
+            self.said = None
+            self.refresh_frame()
+
+    @on(DescendantFocus)
+    def _mark_focus(self, event: DescendantFocus) -> None:
+        """Mark the row and the panel with the cursor by classes: `:focus-within` would repaint far more."""
+        row = event.widget.parent if isinstance(event.widget.parent, Widget) else None
+        panel = next(
+            (each for each in event.widget.ancestors if isinstance(each, Widget) and "panel" in each.classes), None
+        )
+        self._mark("-at", row)
+        self._mark("-here", panel if isinstance(panel, Widget) else None)
+        self.refresh_frame()
+
+    def _mark(self, name: str, widget: Widget | None) -> None:
+        before = self._marked.get(name)
+        if before is widget:
+            return
+        if before is not None:
+            before.remove_class(name)
+        if widget is not None:
+            widget.add_class(name)
+        self._marked[name] = widget
+
+    @on(Resize)
+    def _fit_softkeys(self) -> None:
+        self.call_after_refresh(lambda: self.query_exactly_one(Softkeys).refresh_keys())
+
+    @on(SoftkeyLabel.Pressed)
+    async def _softkey_clicked(self, event: SoftkeyLabel.Pressed) -> None:
+        await self.action_softkey(event.number)
+
+    async def action_softkey(self, number: int) -> None:
+        """Press a softkey."""
+        key = self.SOFTKEYS[number - 1]
+        if key is None or not self.key_acts(key):
+            self.say("" if key is None else key.idle)
+            return
+        self.quiet()
+        await self.run_action(key.action)
+
+    def key_acts(self, key: Softkey) -> bool:
+        """Whether a softkey does anything now."""
+        target, _, name = key.action.partition("(")[0].rpartition(".")
+        owner: Any = self.app if target == "app" else self
+        return hasattr(owner, f"action_{name}") and key.acts(self)

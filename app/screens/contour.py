@@ -1,0 +1,347 @@
+"""MILL CONTOUR: START and the segments of one block, keyed in field by field."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Final
+
+from textual import events, on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.message import Message
+from textual.widgets import Label
+
+from app.screens.contour_cells import SOLUTIONS, cells_at, fields_at, form_at, value_at
+from app.screens.form_screen import FormScreen
+from app.session.messages import Sentence, Tone
+from app.session.session import SEGMENT, Cursor, Session
+from app.widgets.field import ChoiceField, NumberField
+from app.widgets.form import Form
+from app.widgets.softkeys import Softkey
+from core.finding import Severity
+from core.program import fields as table
+from core.program.edit import (
+    Edited,
+    FormPlace,
+    choose,
+    delete_segment,
+    insert_segment,
+    recalculate_lookahead,
+    type_field,
+)
+from core.program.fields import SEGMENT_PROMPT, Field, read_typed
+from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
+from core.program.solve.solved import Value
+from core.units import Kind, sentence
+
+NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
+"""Errors that only say that a block is still to be typed."""
+FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
+NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {"l": LineSegment, "a": ArcSegment, "b": BlendSegment}
+"""The letters that make a new segment, and of which kind."""
+
+
+class SegmentField(NumberField):
+    """SEGMENT: a number goes to that segment, left and right walk."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("left", "screen.walk(-1)", "Segment before", show=False),
+        Binding("right", "screen.walk(1)", "Next segment", show=False),
+    ]
+
+    class New(Message):
+        """A letter that makes a new segment was typed."""
+
+        def __init__(self, letter: str) -> None:
+            super().__init__()
+            self.letter = letter
+
+    def on_key(self, event: events.Key) -> None:
+        """Letters make a new segment; only digits are typed here."""
+        letter = (event.character or "").lower()
+        if letter in NEW_SEGMENTS:
+            self.post_message(self.New(letter))
+        if event.is_printable and not letter.isdigit():
+            event.prevent_default()
+            if letter in NEW_SEGMENTS:
+                event.stop()
+
+
+class ContourScreen(FormScreen):
+    """The form of one block; the cursor stands on SEGMENT or in a field."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("pageup", "walk(-1)", "Segment before", show=False),
+        Binding("pagedown", "walk(1)", "Next segment", show=False),
+        Binding("ctrl+home", "go(0)", "START", show=False),
+        Binding("ctrl+end", "go(-1)", "Last segment", show=False),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey(
+            "DELETE SEGMENT", "delete_segment", "DELETE", lambda screen: screen.on_segment, "START cannot be deleted."
+        ),
+        Softkey(
+            "INSERT SEGMENT BEFORE",
+            "insert_segment",
+            "INSERT",
+            lambda screen: screen.on_segment,
+            "START is always first.",
+        ),
+        Softkey(
+            "RECALCULATE LOOKAHEAD",
+            "recalculate",
+            "RECALC",
+            lambda screen: screen.has_lookahead,
+            "RECALCULATE LOOKAHEAD is on START, with CUTTER COMP. LEFT or RIGHT.",
+        ),
+        Softkey("PROGRAM PARAMETERS", "app.parameters", "PARAMS"),
+        Softkey("PART SETUP", "app.part_setup", "SETUP"),
+        Softkey("TOOL SETUP", "app.tools", "TOOLS"),
+        Softkey("DRAW", "app.draw", "DRAW"),
+        Softkey("EXIT to program", "app.program", "EXIT"),
+    )
+
+    FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset({"lookahead"})
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._forms: dict[table.Form, Form] = {}
+        self._form = table.Form.START
+        self._cursor: Cursor | None = None
+
+    # ---- what is shown
+
+    def compose_body(self) -> ComposeResult:
+        """Title lines, the form, the verdict, the drawings."""
+        session = self.host.session
+        with Vertical(id="work"):
+            with Vertical(id="form", classes="panel"):
+                with Horizontal(id="block", classes="head"):
+                    yield Label("BLOCK", classes="head-label")
+                    yield Label(id="block-number", classes="head-value")
+                    yield Label("MILL CONTOUR", classes="head-kind")
+                    yield Label(id="file", classes="head-note")
+                with Horizontal(id="segment-line", classes="head"):
+                    yield Label("SEGMENT", id="segment-label", classes="head-label")
+                    yield SegmentField(SEGMENT, str(session.place.segment), id=SEGMENT)
+                    yield Label(id="segment-kind", classes="head-kind")
+                    yield Label(id="segment-count", classes="head-note")
+                with Vertical(id="fields"):
+                    yield self._made_form(session)
+            yield Vertical(id="verdict", classes="panel")
+        yield Horizontal(id="picture")
+
+    def _made_form(self, session: Session) -> Form:
+        self._form = form_at(session)
+        form = Form(cells_at(session), classes="fields")
+        self._forms[self._form] = form
+        return form
+
+    def form(self) -> Form:
+        """The form of the segment with the cursor."""
+        return self._forms[self._form]
+
+    def show_session(self, session: Session) -> None:
+        """The form of the segment with the cursor; a move of the cursor takes the focus along."""
+        wanted = form_at(session)
+        if wanted is not self._form:
+            self._switch_form(session, wanted)
+        self.form().show(cells_at(session))
+        self._show_titles(session)
+        if session.cursor is not self._cursor:
+            self._cursor = session.cursor
+            self.focus_field(session.cursor.field)
+
+    def _switch_form(self, session: Session, wanted: table.Form) -> None:
+        """Each kind of segment has a form of its own, made when it is first needed."""
+        self.form().display = False
+        self._form = wanted
+        if wanted in self._forms:
+            self.form().display = True
+        else:
+            self.call_next(self._mount_form, self._made_form(session))
+
+    async def _mount_form(self, form: Form) -> None:
+        """A new form, and the cursor on its field: the next key comes when it stands."""
+        await self.query_exactly_one("#fields").mount(form)
+        self.focus_field(self.current_session.cursor.field)
+        self.refresh_frame()
+
+    def _show_titles(self, session: Session) -> None:
+        last, segment = len(session.block.segments), session.place.segment
+        name = f"{session.title} (example)" if session.title and session.file is None else ""
+        file = name or (session.file.stem if session.file else "NO NAME")
+        texts = {
+            "block-number": str(session.place.block),
+            "file": f"{file}{' *' if session.unsaved else ''}",
+            "segment-kind": str(form_at(session)),
+            "segment-count": f"of {last}" if last else "",
+        }
+        for name, text in texts.items():
+            label = self.query_exactly_one(f"#{name}", Label)
+            if str(label.content) != text:
+                label.update(text)
+        self.query_exactly_one(f"#{SEGMENT}", SegmentField).show(str(segment))
+
+    # ---- the fields
+
+    def fields(self) -> tuple[Field, ...]:
+        """The fields of START or of the segment."""
+        return fields_at(self.current_session)
+
+    def names(self) -> list[str]:
+        """SEGMENT stands before the first field."""
+        return [SEGMENT, *super().names()]
+
+    def widget(self, name: str) -> NumberField | ChoiceField | None:
+        """SEGMENT, or a field of the form."""
+        return self.query_exactly_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
+
+    def value(self, name: str) -> Value | str:
+        """What a field holds."""
+        return value_at(self.current_session, name)
+
+    def edited(self, field: Field, text: str) -> Edited:
+        """The program with this text in a field of the form."""
+        session = self.current_session
+        if field.name == "choice":
+            return choose(session.program, session.place, field.name, SOLUTIONS.index(text))
+        if field.kind is Kind.CHOICE:
+            return choose(session.program, session.place, field.name, text)
+        typed = read_typed(text, field, session.program.unit)
+        return type_field(session.program, session.place, field.name, typed)
+
+    def label(self, field: Field) -> str:
+        """FIELD of START or of a segment."""
+        place = self.current_session.place
+        where = "START" if place.segment == 0 else f"segment {place.segment}"
+        return f"{field.label} of {where}, block {place.block}"
+
+    def trouble(self, field: Field) -> Sentence | None:
+        """An error that names this field; warnings stand with the verdict, so that the prompt stays."""
+        session = self.current_session
+        for finding in session.derived_block.findings:
+            here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
+            if here and finding.severity is Severity.ERROR and (session.block.segments or finding.code not in NOT_YET):
+                tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
+                return Sentence(sentence(finding, session.program.unit), tone)
+        return None
+
+    def prompt_text(self) -> Sentence:
+        """On SEGMENT the prompt of SEGMENT."""
+        if isinstance(self.current, SegmentField):
+            return Sentence(SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT)
+        return super().prompt_text()
+
+    def refresh_frame(self) -> None:
+        """SEGMENT gets its > while it has the cursor."""
+        super().refresh_frame()
+        label = self.query_exactly_one("#segment-label", Label)
+        text = "SEGMENT >" if isinstance(self.current, SegmentField) else "SEGMENT"
+        if str(label.content) != text:
+            label.update(text, layout=False)
+
+    # ---- walking
+
+    def take(self) -> bool:
+        """A segment number that no Enter followed is forgotten."""
+        if isinstance(self.current, SegmentField):
+            self.current.restore()
+            return True
+        return super().take()
+
+    def action_accept(self) -> None:
+        """Take the field and go on; on SEGMENT a typed number goes to that segment."""
+        widget = self.current
+        if isinstance(widget, SegmentField) and widget.edited:
+            self._jump(widget)
+        elif widget is not None and widget.name == self.names()[-1] and self._leads_on():
+            self.quiet()
+            if self.take():
+                self.action_walk(1)
+        else:
+            super().action_accept()
+
+    def _leads_on(self) -> bool:
+        """Enter on the last field goes to the next segment; on START only while there is none yet."""
+        session = self.current_session
+        return session.place.segment > 0 or not session.block.segments
+
+    def _jump(self, widget: SegmentField) -> None:
+        text, session = widget.value.strip(), self.current_session
+        last = len(session.block.segments)
+        widget.restore()
+        if not (text.isascii() and text.isdigit()):
+            self.say(f"{text} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
+        elif int(text) > last:
+            self.say(f"No segment {text}. 0 to {last}, or right arrow past {last} for a new one.", Tone.ERROR)
+        else:
+            self.quiet()
+            self.go(int(text))
+
+    def go(self, segment: int, field: str = SEGMENT) -> None:
+        """The cursor to a segment of this block."""
+        self.host.move(FormPlace(self.current_session.place.block, segment), field)
+
+    def action_go(self, segment: int) -> None:
+        """To a segment, -1 is the last one."""
+        if self.take():
+            self.go(len(self.current_session.block.segments) if segment < 0 else segment)
+
+    def action_walk(self, by: int) -> None:
+        """To the segment before or after; past the last one a new one is offered."""
+        self.quiet()
+        if not self.take():
+            return
+        session = self.current_session
+        there = session.place.segment + by
+        if there < 0:
+            self.say("START is the first segment.")
+        elif there > len(session.block.segments):
+            self.go(session.place.segment)
+            self.say("New segment: L LINE, A ARC, B BLEND ARC.")
+        else:
+            self.go(there)
+
+    @on(SegmentField.New)
+    def _new_segment(self, message: SegmentField.New) -> None:
+        """A new segment after the one with the cursor."""
+        message.stop()
+        self._insert(self.current_session.place.segment + 1, NEW_SEGMENTS[message.letter]())
+
+    def action_insert_segment(self) -> None:
+        """A new LINE before the segment with the cursor."""
+        self._insert(self.current_session.place.segment, LineSegment())
+
+    def _insert(self, number: int, segment: Segment) -> None:
+        place = FormPlace(self.current_session.place.block, number)
+        outcome = insert_segment(self.current_session.program, place, segment)
+        form = table.form_of(segment)
+        if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
+            self.go(number, table.TABLES[form][0].name)
+
+    # ---- softkeys
+
+    @property
+    def on_segment(self) -> bool:
+        """The cursor is on a segment, not on START."""
+        return self.current_session.place.segment > 0
+
+    @property
+    def has_lookahead(self) -> bool:
+        """The cursor is on START, and the block has a look-ahead."""
+        return not self.on_segment and self.current_session.derived_block.side is not None
+
+    def action_delete_segment(self) -> None:
+        """Delete the segment with the cursor."""
+        session, place = self.current_session, self.current_session.place
+        label = f"DELETE SEGMENT {place.segment}, block {place.block}"
+        if self.host.apply(delete_segment(session.program, place), label):
+            self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
+
+    def action_recalculate(self) -> None:
+        """The calculated look-ahead comes back."""
+        session = self.current_session
+        number = session.place.block
+        self.host.apply(recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}")
+        self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived_block.lookahead.calculated}.")

@@ -1,0 +1,140 @@
+"""The cells of the MILL CONTOUR form: START and the LINE, ARC and BLEND ARC segments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Final
+
+from app.screens.values import cell_of
+from app.session.session import Session
+from app.widgets.field import Cell, State
+from core.pipeline.derived import DerivedBlock, Tag
+from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
+from core.program.model import Block, Entry, Segment, Unread
+from core.program.solve.block import ZERO_IF_BLANK
+from core.program.solve.solved import Solved, SolvedSegment, Value
+from core.units import Kind, Unit, from_mm, show
+
+RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
+    {
+        Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead"}),
+        Form.LINE: frozenset({"length", "angle", "feed", "choice"}),
+        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "feed", "choice"}),
+        Form.BLEND: frozenset({"feed"}),
+    }
+)
+"""The fields that stand in the right column of their form; the others stand in the left one."""
+SOLUTIONS: Final = ("1 of 2", "2 of 2")
+"""The choices of SOLUTION as the form shows them, in the order of their indices."""
+
+
+def form_at(session: Session) -> Form:
+    """The form of the segment with the cursor."""
+    return Form.START if session.segment is None else form_of(session.segment)
+
+
+def fields_at(session: Session) -> tuple[Field, ...]:
+    """The fields shown there, in the order in which the cursor goes through them."""
+    return tuple(field for field in _every_field(form_at(session)) if _visible(session, field))
+
+
+def _every_field(form: Form) -> tuple[Field, ...]:
+    return (*TABLES[form], SOLUTION) if form in (Form.LINE, Form.ARC) else TABLES[form]
+
+
+def _visible(session: Session, field: Field) -> bool:
+    match field.name:
+        case "lookahead":
+            return session.derived_block.side is not None
+        case "choice":
+            return len(solved_segment(session).choices) > 1
+        case _:
+            return True
+
+
+def cells_at(session: Session) -> tuple[Cell, ...]:
+    """Every cell of the form there, also those that are not visible just now."""
+    form, unit, missing = form_at(session), session.program.unit, _missing(session)
+    cells = (
+        _cell(session, field, int(field.name in RIGHT_COLUMN[form]), unit, needed=field.name in missing)
+        for field in _every_field(form)
+    )
+    extra = (
+        _tool_cells(session.derived_block, unit)
+        if session.segment is None
+        else _end_cells(solved_segment(session), form, unit)
+    )
+    return (*cells, *extra)
+
+
+def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bool) -> Cell:
+    visible = _visible(session, field)
+    if field.name == "choice":
+        picked = getattr(session.segment, "choice", None)
+        text = "" if picked is None else SOLUTIONS[picked]
+        return Cell("choice", field.label, text, column, choices=SOLUTIONS, visible=visible)
+    tag = None
+    if field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR:
+        tag = State.OVERRIDDEN
+    if field.name in ZERO_IF_BLANK:
+        tag = State.USUAL
+    return cell_of(field, value_at(session, field.name), unit, column, needed=needed, special=tag, visible=visible)
+
+
+def value_at(session: Session, name: str) -> Value | str:
+    """What a field holds there: typed or calculated."""
+    block, segment = session.derived_block, session.segment
+    typed: Block | Segment = session.block if segment is None else segment
+    if name in ("cutter_comp", "direction"):
+        return str(getattr(typed, name))
+    if name == "lookahead":
+        return _lookahead(block)
+    values = block.solved.values if segment is None else solved_segment(session).values
+    held: Value = values.get(name, getattr(typed, name))
+    return held
+
+
+def _lookahead(block: DerivedBlock) -> Value:
+    typed = block.block.lookahead
+    if isinstance(typed, Unread):
+        return typed
+    value = float(block.lookahead.value)
+    return Entry(value) if block.lookahead.tag is Tag.USR else Solved(value)
+
+
+def _missing(session: Session) -> tuple[str, ...]:
+    """The blank fields of which the contour needs one more, or all on START."""
+    if session.segment is not None:
+        return solved_segment(session).missing
+    findings = session.derived_block.solved.findings
+    return tuple(finding.field for finding in findings if finding.code == "MISSING" and finding.field)
+
+
+def solved_segment(session: Session) -> SolvedSegment:
+    """What became of the segment with the cursor."""
+    return session.derived_block.solved.segments[session.place.segment - 1]
+
+
+def _tool_cells(block: DerivedBlock, unit: Unit) -> Iterator[Cell]:
+    diameter = block.solved.tool_diameter
+    yield _read_only("TOOL DIAMETER", "" if diameter is None else _length(diameter, unit), 1)
+    yield _read_only("TYPE", block.solved.tool_type, 1)
+
+
+def _end_cells(solved: SolvedSegment, form: Form, unit: Unit) -> Iterator[Cell]:
+    start = solved.start
+    yield _read_only("X START", "" if start is None else _length(start[0], unit), 0, visible=start is not None)
+    yield _read_only("Y START", "" if start is None else _length(start[1], unit), 0, visible=start is not None)
+    if form is Form.BLEND:
+        end = None if solved.piece is None else solved.piece.end
+        yield _read_only("X END", "" if end is None else _length(end[0], unit), 1, visible=end is not None)
+        yield _read_only("Y END", "" if end is None else _length(end[1], unit), 1, visible=end is not None)
+
+
+def _read_only(label: str, text: str, column: int, *, visible: bool = True) -> Cell:
+    return Cell(label, f"({label}", f"{text})", column, State.READ_ONLY, visible=visible)
+
+
+def _length(millimeters: float, unit: Unit) -> str:
+    return show(from_mm(millimeters, unit), Kind.LENGTH, unit)

@@ -1,0 +1,75 @@
+"""Dialogs: questions over the screen they are about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from textual import events, on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical
+from textual.screen import ModalScreen
+from textual.widgets import OptionList, Static
+from textual.widgets.option_list import Option
+
+GO_BACK = "GO BACK"
+"""The answer that changes nothing; Esc and F8 give it too."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """An answer to a question: its word, whose first letter is its key, and what it does."""
+
+    word: str
+    effect: str = ""
+
+
+class Question(ModalScreen[str]):
+    """A question: its title, what would be lost, and the answers; the screen's result is the word of one.
+
+    `safe` is the answer that is chosen at first.  Esc and F8 answer GO BACK.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "answer('GO BACK')", "Go back", show=False)]
+
+    def __init__(self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str) -> None:
+        super().__init__()
+        self.question, self.lines, self.safe = title, tuple(lines), safe
+        self.answers = (*answers, Answer(GO_BACK, "nothing changes"))
+
+    def compose(self) -> ComposeResult:
+        """A framed box: the loss, then one answer a line."""
+        with Vertical(id="question"):
+            yield Static("\n".join(self.lines), id="loss", markup=False)
+            yield OptionList(
+                *(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers", compact=True
+            )
+
+    def on_mount(self) -> None:
+        """The safe answer is chosen."""
+        self.query_exactly_one("#question").border_title = self.question
+        words = [answer.word for answer in self.answers]
+        self.query_exactly_one(OptionList).highlighted = words.index(self.safe)
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        self.dismiss(event.option_id or GO_BACK)
+
+    def action_answer(self, word: str) -> None:
+        """Give an answer."""
+        self.dismiss(word)
+
+    def on_key(self, event: events.Key) -> None:
+        """A letter gives its answer at once."""
+        letter = (event.character or "").upper()
+        word = next((answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter)), None)
+        if word is not None:
+            event.stop()
+            self.dismiss(word)
+
+
+def _line(answer: Answer) -> str:
+    key = "Esc" if answer.word == GO_BACK else answer.word[0]
+    return f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"

@@ -1,0 +1,228 @@
+"""FormScreen: what every screen with fields has in common, from the first character typed to the accepted value."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from textual import on
+from textual.binding import Binding, BindingType
+from textual.widgets import Input, Select
+
+from app.screens.base import BaseScreen
+from app.screens.values import prompt_of, unread_text, unusable
+from app.session.messages import Sentence, Tone
+from app.widgets.field import ChoiceField, NumberField
+from app.widgets.form import Form
+from core.finding import Severity
+from core.program.edit import Edited, Refused
+from core.program.fields import Field, read_typed
+from core.program.model import Entry, Unread
+from core.program.solve.solved import Value
+from core.units import Kind, sentence
+
+
+class FormScreen(BaseScreen):
+    """A screen with a form.
+
+    A field is taken when the cursor leaves it by a key or a click, when Enter is pressed, and before any softkey acts.
+    A number that the field does not take, and a text that cannot be read, keep the cursor.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("tab,down", "step(1)", "Next field", show=False),
+        Binding("shift+tab,up", "step(-1)", "Field before", show=False),
+        Binding("enter", "accept", "Take the field", show=False),
+        Binding("escape", "restore", "Old value back", show=False),
+    ]
+
+    FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset()
+    """Fields whose old value comes back where a text is refused; in all others the text stays to be mended."""
+
+    def form(self) -> Form:
+        """The form that is shown."""
+        raise NotImplementedError
+
+    def fields(self) -> tuple[Field, ...]:
+        """The fields that the cursor can go to, in order."""
+        raise NotImplementedError
+
+    def value(self, name: str) -> Value | str:
+        """What the program holds in a field."""
+        raise NotImplementedError
+
+    def edited(self, field: Field, text: str) -> Edited:
+        """The program with this text typed into a field, or picked in it."""
+        raise NotImplementedError
+
+    def label(self, field: Field) -> str:
+        """What undo calls an edit of this field."""
+        return field.label
+
+    def names(self) -> list[str]:
+        """The names of what the cursor goes through, in order."""
+        return [field.name for field in self.fields()]
+
+    def widget(self, name: str) -> NumberField | ChoiceField | None:
+        """The widget of a name."""
+        return self.form().field(name)
+
+    @property
+    def current(self) -> NumberField | ChoiceField | None:
+        """The field with the cursor, or whose list is open."""
+        if self.focused is None:
+            return None
+        return next(
+            (each for each in self.focused.ancestors_with_self if isinstance(each, NumberField | ChoiceField)), None
+        )
+
+    @property
+    def current_field(self) -> Field | None:
+        """What the table of fields says of it."""
+        widget = self.current
+        return None if widget is None else self._field(widget.name or "")
+
+    def _field(self, name: str) -> Field | None:
+        return next((field for field in self.fields() if field.name == name), None)
+
+    def focus_field(self, name: str) -> None:
+        """Put the cursor on a field."""
+        if (widget := self.widget(name)) is not None:
+            self.set_focus(widget)
+
+    # ---- taking what was typed
+
+    def take(self) -> bool:
+        """Take what was typed into the field with the cursor; whether the cursor may go on."""
+        widget, field = self.current, self.current_field
+        if not isinstance(widget, NumberField) or field is None:
+            return True
+        return self.take_text(widget, field)
+
+    def take_text(self, widget: NumberField, field: Field) -> bool:
+        """Take the text of a field; False where it is refused or cannot be read."""
+        if not widget.edited:
+            return True
+        text = widget.value
+        outcome = self.edited(field, text)
+        if isinstance(outcome, Refused):
+            if field.name in self.FORGETS_REFUSED:
+                widget.restore()
+            self.say(outcome.text, Tone.ERROR)
+            return False
+        self.host.apply(outcome, self.label(field))
+        widget.restore()
+        typed = None if field.kind is Kind.TEXT else read_typed(text, field, self.current_session.program.unit)
+        if isinstance(typed, Unread):
+            self.say(unread_text(typed, field, self.current_session.program.unit), Tone.ERROR)
+            return False
+        return True
+
+    @on(Input.Submitted)
+    def _entered(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.action_accept()
+
+    @on(Input.Changed)
+    def _typing(self, event: Input.Changed) -> None:
+        """Try a half-typed number out: the verdict and the drawings show what it would do."""
+        event.stop()
+        widget, field = event.input, self._field(event.input.name or "")
+        if widget is not self.current or not isinstance(widget, NumberField):
+            return
+        self.quiet()
+        if field is None or field.kind is Kind.TEXT:
+            return
+        typed = read_typed(widget.value, field, self.current_session.program.unit) if widget.edited else None
+        outcome: Any = self.edited(field, widget.value) if isinstance(typed, Entry) else None
+        self.host.try_out(None if outcome is None or isinstance(outcome, Refused) else outcome)
+        self.refresh_frame()
+
+    @on(Input.Blurred)
+    def _left(self, event: Input.Blurred) -> None:
+        """A field that a click has left with something typed in it is taken all the same."""
+        event.stop()
+        widget, field = event.input, self._field(event.input.name or "")
+        if (
+            isinstance(widget, NumberField)
+            and widget.edited
+            and field is not None
+            and not self.take_text(widget, field)
+        ):
+            self.set_focus(widget)
+
+    @on(Select.Changed)
+    def _picked(self, event: Select.Changed) -> None:
+        event.stop()
+        field = self._field(event.select.name or "")
+        if field is None or not isinstance(event.value, str) or event.value == self.form().rows[field.name].cell.text:
+            return
+        self.quiet()
+        self.host.apply(self.edited(field, event.value), self.label(field))
+
+    @on(ChoiceField.Unknown)
+    def _no_choice(self, event: ChoiceField.Unknown) -> None:
+        event.stop()
+        self.say(f"{event.letter} is not a choice.", Tone.ERROR)
+
+    # ---- keys
+
+    def action_step(self, by: int) -> None:
+        """Take the field and go to the next one, or to the one before, round."""
+        self.quiet()
+        if self.take():
+            self.step_from(self.current.name or "" if self.current is not None else "", by)
+
+    def step_from(self, name: str, by: int) -> None:
+        """The cursor to the field after or before this one."""
+        names = self.names()
+        here = names.index(name) if name in names else -1
+        self.focus_field(names[(here + by) % len(names)])
+
+    def action_accept(self) -> None:
+        """Take the field and go on."""
+        self.action_step(1)
+
+    def action_restore(self) -> None:
+        """The old value back."""
+        self.quiet()
+        self.forget_typed()
+
+    def forget_typed(self) -> None:
+        """The field shows what the program holds."""
+        if isinstance(self.current, NumberField):
+            self.current.restore()
+            self.host.try_out(None)
+            self.refresh_frame()
+
+    async def action_softkey(self, number: int) -> None:
+        """Take the field, then press the softkey."""
+        if self.take():
+            await super().action_softkey(number)
+
+    # ---- what stands on the prompt line
+
+    def prompt_text(self) -> Sentence:
+        """What the field with the cursor takes, or what is wrong with it."""
+        field, widget = self.current_field, self.current
+        if field is None or widget is None:
+            return Sentence("")
+        if isinstance(widget, NumberField) and widget.edited:
+            return self._half_typed(widget, field) or Sentence(prompt_of(field))
+        held = unusable(self.value(field.name), field, self.current_session.program.unit)
+        if held is not None:
+            return Sentence(held, Tone.ERROR)
+        return self.trouble(field) or Sentence(prompt_of(field))
+
+    def _half_typed(self, widget: NumberField, field: Field) -> Sentence | None:
+        """That a text is no number yet, and which one counts until it is."""
+        typed = None if field.kind is Kind.TEXT else read_typed(widget.value, field, self.current_session.program.unit)
+        if not isinstance(typed, Unread):
+            return None
+        return Sentence(f"{widget.value.strip()} is not a number. Still using {widget.resting or 'blank'}.")
+
+    def trouble(self, field: Field) -> Sentence | None:
+        """What the verdict on any block says of a field that all blocks share."""
+        derived, tones = self.current_session.derived, {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING}
+        findings = (finding for block in derived.blocks for finding in block.findings if finding.severity in tones)
+        first = next((finding for finding in findings if finding.field == field.name), None)
+        return None if first is None else Sentence(sentence(first, derived.program.unit), tones[first.severity])

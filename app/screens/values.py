@@ -1,0 +1,87 @@
+"""Values of fields as texts and cells, and what is wrong with them."""
+
+from __future__ import annotations
+
+from app.widgets.field import Cell, State
+from core.pipeline.derived import Tag
+from core.program.fields import TYPE_AGAIN, Field, check, check_text, unread_reason, unread_sentence
+from core.program.model import Entry, Unread
+from core.program.solve.solved import Solved, Value
+from core.units import Kind, Unit, show
+
+TAGS = {State.CALCULATED: str(Tag.CAL), State.OVERRIDDEN: str(Tag.USR), State.USUAL: "DEF", State.UNREAD: "ERR"}
+"""The tag of a field in each state that has one."""
+
+
+def cell_of(
+    field: Field,
+    value: Value | str,
+    unit: Unit,
+    column: int,
+    *,
+    needed: bool = False,
+    special: State | None = None,
+    visible: bool = True,
+) -> Cell:
+    """A field's cell with the state that its value gives it.
+
+    `special` is the state of a typed value that overrides a calculated one, or of a blank that has a usual value.
+    """
+    state = _state(field, value, unit, needed=needed, special=special)
+    text = "?" if state is State.NEEDED else shown_text(value, field, unit)
+    full = full_text(value, field, unit) if isinstance(value, Entry) else ""
+    return Cell(field.name, field.label, text, column, state, TAGS.get(state, ""), full, field.choices, visible)
+
+
+def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, special: State | None) -> State:
+    match value:
+        case Unread() | Entry() if unusable(value, field, unit) is not None:
+            return State.UNREAD
+        case Solved():
+            return State.USUAL if special is State.USUAL else State.CALCULATED
+        case Entry() if special is State.OVERRIDDEN:
+            return special
+        case None if needed:
+            return State.NEEDED
+        case _:
+            return State.TYPED
+
+
+def shown_text(value: Value | str, field: Field, unit: Unit) -> str:
+    """A value as a form prints it."""
+    match value:
+        case None:
+            return ""
+        case str(text):
+            return text
+        case Unread(text, _):
+            return text
+        case Entry(number) | Solved(number):
+            return show(number, field.kind, unit)
+
+
+def full_text(entry: Entry, field: Field, unit: Unit) -> str:
+    """A typed number, in full where the form's decimals would lose some of what was typed."""
+    text = show(entry.value, field.kind, unit)
+    return text if float(text) == entry.value else f"{entry.value:.12g}"
+
+
+def unusable(value: Value | str, field: Field, unit: Unit) -> str | None:
+    """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
+    if isinstance(value, Unread):
+        return unread_text(value, field, unit)
+    return check(field, value.value, unit) if isinstance(value, Entry) else None
+
+
+def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
+    """What is said of a text that cannot be read."""
+    if outside := check_text(unread.text, field, unit):
+        return outside
+    if unread_reason(unread.text, field, unit) == TYPE_AGAIN:
+        return f"{unread.text.strip()} has not been taken yet: type it again."
+    return unread_sentence(unread)
+
+
+def prompt_of(field: Field) -> str:
+    """The field's prompt; a choice names its choices and how they are picked."""
+    return f"{field.prompt} Letters spell: {', '.join(field.choices)}." if field.kind is Kind.CHOICE else field.prompt

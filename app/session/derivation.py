@@ -1,0 +1,34 @@
+"""Derivation in the background: what the workers of the App run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from core.pipeline.derived import Derived, DerivedBlock
+from core.program.model import Program
+
+if TYPE_CHECKING:
+    from core.advice.lookahead_table import Table
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Request:
+    """A program to derive; `trial` where it is that of a half-typed number."""
+
+    program: Program
+    trial: bool = False
+
+
+def derived(request: Request) -> Derived:
+    """Everything that follows from a program; imports the numeric libraries, which the first paint does without."""
+    from core.pipeline.derive import derive
+
+    return derive(request.program)
+
+
+def lookahead_table(block: DerivedBlock, program: Program) -> Table | None:
+    """What every look-ahead value makes of a block, None where there is nothing to compensate."""
+    from core.pipeline.derive import look_ahead_table
+
+    return look_ahead_table(block, program)

@@ -1,0 +1,68 @@
+"""The themes: one table of roles and colors; TCSS and the drawing name the roles alone, as `$c-role`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from textual.theme import BUILTIN_THEMES, Theme
+
+DARK: Final = "cutcomp-dark"
+LIGHT: Final = "cutcomp-light"
+SIXTEEN: Final = "cutcomp-16"
+"""The terminal's own sixteen colors, or none where NO_COLOR is set."""
+
+_ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
+    {
+        "bg": ("#10161d", "#fbfaf6", "ansi_default"),
+        "bar": ("#1a232e", "#e9edf1", "ansi_default"),
+        "well": ("#1d2833", "#eef1f4", "ansi_default"),
+        "frame": ("#5b6e81", "#7f8c99", "ansi_default"),
+        "ink": ("#dce3ea", "#1d2733", "ansi_default"),
+        "label": ("#9fb0c0", "#4a5a69", "ansi_default"),
+        "value": ("#f4f7fa", "#0b1118", "ansi_default"),
+        "cal": ("#7cc4ff", "#0b5cad", "ansi_cyan"),
+        "usr": ("#ffb86b", "#a04a00", "ansi_yellow"),
+        "def": ("#94a6b8", "#566575", "ansi_default"),
+        "err": ("#ff8078", "#b3202c", "ansi_red"),
+        "warn": ("#f2cc60", "#7a5600", "ansi_yellow"),
+        "good": ("#86d992", "#1f6e34", "ansi_green"),
+        "gouge": ("#ff6f91", "#b0164f", "ansi_red"),
+        "uncut": ("#e3b341", "#855c00", "ansi_yellow"),
+        "deleted": ("#d2a8ff", "#7440b8", "ansi_magenta"),
+        "part": ("#eef2f6", "#121a23", "ansi_default"),
+        "path": ("#4fc1d6", "#00697a", "ansi_cyan"),
+        "cutter": ("#8797a8", "#5c6b79", "ansi_default"),
+        "begin": ("#86d992", "#1f6e34", "ansi_green"),
+        "focus": ("#7cc4ff", "#0b5cad", "ansi_default"),
+    }
+)
+"""Role: color in the dark, the light, and the sixteen-color theme."""
+
+
+def themes() -> tuple[Theme, ...]:
+    """The three themes."""
+    return tuple(_theme(name, column) for column, name in enumerate((DARK, LIGHT, SIXTEEN)))
+
+
+def _theme(name: str, column: int) -> Theme:
+    colors = {role: each[column] for role, each in _ROLES.items()}
+    ansi = name == SIXTEEN
+    # an ANSI theme without these variables is refused by Textual's own style sheets
+    base = BUILTIN_THEMES["ansi-dark"].variables if ansi else {}
+    return Theme(
+        name,
+        ansi=ansi,
+        dark=name != LIGHT,
+        primary=colors["focus"],
+        accent=colors["focus"],
+        warning=colors["warn"],
+        error=colors["err"],
+        success=colors["good"],
+        foreground=colors["ink"],
+        background=colors["bg"],
+        surface=colors["bar"],
+        panel=colors["bar"],
+        variables={**base, **{f"c-{role}": color for role, color in colors.items()}},
+    )

@@ -1,0 +1,243 @@
+"""One field of a form: its label, its tag, and the widget that takes its value."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, ClassVar
+
+from rich.segment import Segment
+from textual import events
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal
+from textual.content import Content
+from textual.message import Message
+from textual.strip import Strip
+from textual.widgets import Input, Label, Select, Static
+
+MAX_TYPED: int = 200
+"""Characters a field takes; more is a key that got stuck."""
+
+
+class State(StrEnum):
+    """What a field's value is; the value is the style class of its row."""
+
+    TYPED = "-typed"
+    CALCULATED = "-cal"
+    USUAL = "-def"
+    OVERRIDDEN = "-usr"
+    NEEDED = "-needed"
+    UNREAD = "-err"
+    READ_ONLY = "-fixed"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A field as the form shows it.
+
+    `full` is the text with every digit that was typed: the field shows it while it has the cursor.  `choices` are the
+    texts of a field that is picked from a list, in order; `text` is one of them, or empty.
+    """
+
+    name: str
+    label: str
+    text: str
+    column: int
+    state: State = State.TYPED
+    tag: str = ""
+    full: str = ""
+    choices: tuple[str, ...] = ()
+    visible: bool = True
+
+
+class NumberField(Input):
+    """A line of text whose value stands at the right edge, as on the control.
+
+    `resting` is what the program holds; the value differs from it only while something is being typed.
+    """
+
+    def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
+        super().__init__(text, compact=True, name=name, id=id, max_length=MAX_TYPED)
+        self.cursor_blink = False
+        self.resting, self.full = text, full or text
+
+    @property
+    def edited(self) -> bool:
+        """Something has been typed that the program does not hold."""
+        return self.value.strip() not in (self.resting, self.full)
+
+    def show(self, text: str, full: str = "") -> None:
+        """Show what the program holds; a half-typed text stays."""
+        edited = self.edited
+        self.resting, self.full = text, full or text
+        if not edited:
+            self.restore()
+
+    def restore(self) -> None:
+        """Forget what has been typed."""
+        text = self.full if self.has_focus else self.resting
+        if self.value != text:
+            with self.prevent(Input.Changed):
+                self.value = text
+        if self.has_focus:
+            self.select_all()
+
+    def on_focus(self) -> None:
+        """Show every digit while the field has the cursor."""
+        if self.value == self.resting != self.full:
+            with self.prevent(Input.Changed):
+                self.value = self.full
+
+    def on_blur(self) -> None:
+        """Show the digits of the form again."""
+        if not self.edited and self.value != self.resting:
+            with self.prevent(Input.Changed):
+                self.value = self.resting
+
+    def render_line(self, y: int) -> Strip:
+        """The text at the right edge, with a cell for the cursor while the field has it."""
+        strip = super().render_line(y)
+        cursor = 1 if self.has_focus else 0
+        blank = max(self.size.width - max(len(self.value), 1) - cursor - (1 - cursor), 0)
+        if not blank:
+            return strip
+        return Strip([Segment(" " * blank, self.rich_style), *strip.crop(0, self.size.width - blank)])
+
+
+class ChoiceField(Select[str], inherit_bindings=False):
+    """A choice: Space lists, left and right step, letters spell."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("space", "show_overlay", "List", show=False),
+        Binding("left", "step(-1)", "Choice before", show=False),
+        Binding("right", "step(1)", "Next choice", show=False),
+    ]
+
+    class Unknown(Message):
+        """A letter was typed that no choice begins with."""
+
+        def __init__(self, name: str, letter: str) -> None:
+            super().__init__()
+            self.name, self.letter = name, letter
+
+    def __init__(self, name: str, choices: Sequence[str], text: str = "") -> None:
+        self.choices = tuple(choices)
+        self._spelled = ""
+        super().__init__(
+            [(choice, choice) for choice in choices],
+            prompt="?",
+            value=text if text in self.choices else Select.NULL,
+            allow_blank=text not in self.choices,
+            compact=True,
+            name=name,
+        )
+
+    def show(self, text: str) -> None:
+        """Show the choice that the program holds."""
+        value: Any = text if text in self.choices else Select.NULL
+        if value != self.value:
+            with self.prevent(Select.Changed):
+                self.value = value
+
+    def action_step(self, by: int) -> None:
+        """Go to the next choice, or to the one before."""
+        here = self.choices.index(self.value) if self.value in self.choices else -1 if by > 0 else 0
+        self.value = self.choices[(here + by) % len(self.choices)]
+
+    def on_blur(self) -> None:
+        """Begin another word the next time."""
+        self._spelled = ""
+
+    def on_key(self, event: events.Key) -> None:
+        """Letters spell a choice: one goes to the next choice that begins with it, more go on spelling."""
+        if event.character is None or not event.character.isalnum():
+            return
+        event.stop()
+        letter = event.character.upper()
+        for spelled in (self._spelled + letter, letter):
+            choice = self._choice_spelled(spelled)
+            if choice is not None:
+                self._spelled, self.value = spelled, choice
+                return
+        self._spelled = ""
+        self.post_message(self.Unknown(self.name or "", letter))
+
+    def _choice_spelled(self, spelled: str) -> str | None:
+        here = self.choices.index(self.value) if self.value in self.choices else -1
+        # the first letter goes on from the choice that is held, a longer beginning may stay on it
+        first = here + 1 if len(spelled) == 1 else max(here, 0)
+        order = (*self.choices[first:], *self.choices[:first])
+        return next((choice for choice in order if choice.startswith(spelled)), None)
+
+
+class FieldLabel(Static):
+    """A field's label at the left of its room and its tag at the right; one widget, since most fields have no tag."""
+
+    def __init__(self, cell: Cell) -> None:
+        super().__init__(classes="label", markup=False)
+        self.cell = cell
+
+    def show(self, cell: Cell) -> None:
+        """Show another tag."""
+        self.cell = cell
+        self.refresh()
+
+    def render(self) -> Content:
+        """Label, blanks, tag."""
+        label, tag = self.cell.label, self.cell.tag
+        if not tag:
+            return Content(label)
+        blank = max(self.size.width - len(label) - len(tag) - 1, 1)
+        return Content.assemble(label, " " * blank, (tag, f"not italic bold $c{self.cell.state}"))
+
+
+class FieldRow(Horizontal):
+    """A field with its label and its tag."""
+
+    def __init__(self, cell: Cell) -> None:
+        super().__init__(classes="field")
+        self.cell = cell
+        self.add_class(cell.state)
+        self.visible = cell.visible
+
+    def compose(self) -> ComposeResult:
+        """Label, tag, value."""
+        cell = self.cell
+        yield FieldLabel(cell)
+        if cell.state is State.READ_ONLY:
+            yield Label(cell.text, classes="value")
+        elif cell.choices:
+            yield ChoiceField(cell.name, cell.choices, cell.text)
+        else:
+            yield NumberField(cell.name, cell.text, cell.full)
+
+    @property
+    def input(self) -> NumberField | ChoiceField | None:
+        """The widget that takes the value, None of a row that only shows one."""
+        last = self.children[-1] if self.children else None
+        return last if isinstance(last, NumberField | ChoiceField) else None
+
+    def show(self, cell: Cell) -> None:
+        """Show what has changed, and nothing else."""
+        before, self.cell = self.cell, cell
+        if not self.children:
+            # not composed yet: it will be with this cell
+            self.set_classes(f"field {cell.state}")
+            self.visible = cell.visible
+            return
+        if cell.state is not before.state:
+            self.remove_class(before.state)
+            self.add_class(cell.state)
+        if cell.visible is not before.visible:
+            self.visible = cell.visible
+        if cell.tag != before.tag:
+            self.query_exactly_one(FieldLabel).show(cell)
+        match self.input:
+            case NumberField() as field:
+                field.show(cell.text, cell.full)
+            case ChoiceField() as field:
+                field.show(cell.text)
+            case None if cell.text != before.text:
+                self.query_exactly_one(".value", Label).update(cell.text, layout=False)

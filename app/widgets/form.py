@@ -1,0 +1,36 @@
+"""A form: fields in two columns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from textual.app import ComposeResult
+from textual.containers import Horizontal, Vertical
+
+from app.widgets.field import Cell, ChoiceField, FieldRow, NumberField
+
+
+class Form(Horizontal):
+    """Fields in two columns, in the order of their cells; the same names for as long as it lives."""
+
+    def __init__(self, cells: Sequence[Cell], *, id: str | None = None, classes: str | None = None) -> None:
+        super().__init__(id=id, classes=classes)
+        self.rows = {cell.name: FieldRow(cell) for cell in cells}
+
+    def compose(self) -> ComposeResult:
+        """The columns."""
+        for column in range(1 + max(row.cell.column for row in self.rows.values())):
+            with Vertical(classes="column"):
+                yield from (row for row in self.rows.values() if row.cell.column == column)
+
+    def show(self, cells: Sequence[Cell]) -> None:
+        """Show these values; rows that stay as they are cost nothing."""
+        for cell in cells:
+            row = self.rows[cell.name]
+            if row.cell != cell:
+                row.show(cell)
+
+    def field(self, name: str) -> NumberField | ChoiceField | None:
+        """The field of this name where it can have the cursor."""
+        row = self.rows.get(name)
+        return row.input if row is not None and row.cell.visible else None

@@ -1,0 +1,106 @@
+"""The softkeys at the right edge: what F1 to F8 do on a screen, and whether they act just now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rich.text import Text
+from textual import events
+from textual.app import ComposeResult
+from textual.containers import Vertical
+from textual.message import Message
+from textual.widgets import Static
+
+LONGEST_LINE = 14
+"""Characters of a label that stand on one line; a longer one is broken after its first word."""
+
+
+@dataclass(frozen=True, slots=True)
+class Softkey:
+    """A softkey: its label, the action it runs, and its short name for narrow terminals.
+
+    `acts` is asked with the screen: where it says no the key is dim, and pressing it says `idle`.
+    """
+
+    label: str
+    action: str
+    short: str
+    acts: Callable[[Any], bool] = lambda _: True
+    idle: str = ""
+
+
+class SoftkeyLabel(Static):
+    """One softkey as it is shown; a click presses it."""
+
+    class Pressed(Message):
+        """A softkey was clicked."""
+
+        def __init__(self, number: int) -> None:
+            super().__init__()
+            self.number = number
+
+    def __init__(self, number: int, key: Softkey | None) -> None:
+        super().__init__(id=f"f{number}")
+        self.number, self.key = number, key
+        self._state: tuple[Softkey | None, bool, bool] | None = None
+
+    def show(self, key: Softkey | None, *, acts: bool) -> None:
+        """Show the key bright or dim; nothing happens where it is shown so already."""
+        short = self.screen.has_class("-narrow")
+        if self._state == (key, acts, short):
+            return
+        self.key, self._state = key, (key, acts, short)
+        self.update(_short_label(self.number, key, acts) if short else _label(self.number, key, acts), layout=False)
+
+    def on_click(self, event: events.Click) -> None:
+        """Press the key."""
+        event.stop()
+        self.post_message(self.Pressed(self.number))
+
+
+def _label(number: int, key: Softkey | None, acts: bool) -> Text:
+    cap = (f" F{number} ", "reverse bold" if acts else "dim")
+    if key is None:
+        return Text.assemble((f" F{number} ", "dim"))
+    lines = _lines(key.label)
+    return Text.assemble(cap, " ", ("\n     ".join(lines), "" if acts else "dim"))
+
+
+def _short_label(number: int, key: Softkey | None, acts: bool) -> Text:
+    cap = (f"F{number}", "reverse bold" if acts else "dim")
+    return Text.assemble(cap, " ", ("" if key is None else key.short, "" if acts else "dim"))
+
+
+def _lines(label: str) -> list[str]:
+    return [label] if len(label) <= LONGEST_LINE else label.split(" ", 1)
+
+
+class Softkeys(Vertical):
+    """F1 to F8, the keys that are the same everywhere, and the legend where there is room."""
+
+    def __init__(
+        self,
+        keys: Sequence[Softkey | None],
+        more: Sequence[tuple[str, str]] = (),
+        acts: Callable[[Softkey], bool] = lambda _: True,
+    ) -> None:
+        super().__init__(id="softkeys")
+        self.keys, self.more, self.acts = tuple(keys), tuple(more), acts
+
+    def compose(self) -> ComposeResult:
+        """Eight labels, then the rest."""
+        yield from (SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1))
+        more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
+        yield Static(Text("\n").join(more), id="more")
+        yield Static(id="legend")
+
+    def on_mount(self) -> None:
+        """Show the keys as they are."""
+        self.refresh_keys()
+
+    def refresh_keys(self) -> None:
+        """Show which of them act now."""
+        for label, key in zip(self.query(SoftkeyLabel), self.keys, strict=True):
+            label.show(key, acts=key is not None and self.acts(key))

@@ -1,0 +1,76 @@
+"""The status line: units, free room on the disk, what is saved and can be undone, the clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from shutil import disk_usage
+from time import strftime
+
+from textual.app import ComposeResult
+from textual.containers import Horizontal
+from textual.widgets import Label
+
+from app.session.session import Session
+
+MINUTE = 60.0
+LOW_ON_DISK = 50_000_000
+"""Bytes below which the free room is shown as a warning."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What the status line shows of the machine; tests hand in a fixed clock and a fixed disk."""
+
+    clock: Callable[[], str] = lambda: strftime("%H:%M")
+    free: Callable[[], int] = lambda: disk_usage(Path.cwd()).free
+
+
+class Status(Horizontal):
+    """One line; the clock and the free room are read once a minute."""
+
+    def __init__(self, surroundings: Surroundings) -> None:
+        super().__init__(id="status")
+        self.surroundings = surroundings
+        self._texts: dict[str, str] = {}
+        self._unit = ""
+
+    def compose(self) -> ComposeResult:
+        """Three labels."""
+        yield Label("", id="units")
+        yield Label("", id="undo")
+        yield Label("", id="clock")
+
+    def on_mount(self) -> None:
+        """Read the clock from now on."""
+        self.set_interval(MINUTE, self.read_machine)
+        self.read_machine()
+
+    def read_machine(self) -> None:
+        """The time of day and the free room."""
+        free = self.surroundings.free()
+        self._show("clock", self.surroundings.clock())
+        self._show("units", f"Prog Units: {self._unit}   Free: {size_text(free)}")
+        self.query_exactly_one("#units").set_class(free < LOW_ON_DISK, "-warning")
+
+    def show(self, session: Session) -> None:
+        """The units, and how much can be undone."""
+        undo, redo = session.history.undo_count, session.history.redo_count
+        texts = ["not saved" if session.unsaved else "saved" if session.file else ""]
+        texts += [f"undo {undo}"] if undo else []
+        texts += [f"redo {redo}"] if redo else []
+        self._show("undo", "   ".join(text for text in texts if text))
+        if session.program.unit != self._unit:
+            self._unit = str(session.program.unit)
+            self.read_machine()
+
+    def _show(self, name: str, text: str) -> None:
+        if self._texts.get(name) != text:
+            self._texts[name] = text
+            self.query_exactly_one(f"#{name}", Label).update(text, layout=False)
+
+
+def size_text(size: int) -> str:
+    """Bytes as whole gigabytes or megabytes."""
+    return f"{size // 10**9} GB" if size >= 10**9 else f"{size // 10**6} MB"

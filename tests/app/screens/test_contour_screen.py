@@ -1,0 +1,138 @@
+"""MILL CONTOUR, as an operator meets it: fields, walking, undo, softkeys."""
+
+from __future__ import annotations
+
+from core.program.edit import FormPlace
+from core.program.model import Entry, Unread
+from tests.app.widget_pilot import operator
+
+
+async def test_a_typed_number_is_taken_and_the_cursor_goes_on():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'5.5", "enter")
+        assert one.session.block.segments[0].x_end == Entry(5.5)
+        assert (one.value("x_end"), one.at) == ("5.5000", "y_end")
+        assert one.session.derived_block.known
+
+
+async def test_a_text_that_cannot_be_read_stays_marked_and_keeps_the_cursor():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'1a5", "enter")
+        assert isinstance(one.session.block.segments[0].x_end, Unread)
+        assert (one.value("x_end"), one.tag("x_end"), one.at) == ("1a5", "ERR", "x_end")
+        assert "1a5" in one.prompt
+
+
+async def test_a_refused_look_ahead_leaves_the_old_one():
+    async with operator() as one:
+        await one.press(*["down"] * 11, "'21", "enter")
+        assert one.session.block.lookahead is None
+        assert (one.value("lookahead"), one.tag("lookahead"), one.at) == ("8", "CAL", "lookahead")
+
+
+async def test_a_typed_look_ahead_is_usr_and_f3_brings_cal_back():
+    async with operator() as one:
+        await one.press(*["down"] * 11, "2", "enter")
+        assert (one.value("lookahead"), one.tag("lookahead")) == ("2", "USR")
+        await one.press("f3")
+        assert (one.value("lookahead"), one.tag("lookahead")) == ("8", "CAL")
+
+
+async def test_escape_brings_the_old_value_back():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'77", "escape")
+        assert one.value("x_end") == "4.0000"
+        assert one.session.history.undo_count == 0
+
+
+async def test_a_half_typed_number_is_tried_out_and_not_taken():
+    async with operator() as one:
+        await one.press(*["down"] * 11, "1")
+        assert one.app.shown.derived_block.lookahead.value == 1
+        assert one.session.derived_block.lookahead.value == 8
+        await one.press("escape")
+        assert one.app.shown is one.session
+
+
+async def test_undo_and_redo_put_the_cursor_on_what_they_change():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'5.5", "enter", "pagedown", "pagedown", "ctrl+z")
+        assert one.session.place == FormPlace(1, 1)
+        assert (one.at, one.value("x_end")) == ("x_end", "4.0000")
+        await one.press("ctrl+y")
+        assert one.value("x_end") == "5.5000"
+
+
+async def test_undo_forgets_what_is_half_typed():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'5.5", "enter", "'9", "ctrl+z")
+        assert one.session.history.redo_count == 1
+        assert one.value("y_end") == "0.2500"
+
+
+async def test_walking_shows_the_form_of_each_kind_of_segment():
+    async with operator() as one:
+        kinds = []
+        for _ in range(5):
+            await one.press("right")
+            kinds.append(str(one.screen.query_exactly_one("#segment-kind").render()))
+        assert kinds == ["LINE", "ARC", "LINE", "BLEND ARC", "LINE"]
+        assert one.at == "segment"
+
+
+async def test_a_number_on_segment_goes_to_that_segment():
+    async with operator() as one:
+        await one.press("'8", "enter")
+        assert one.session.place.segment == 8
+        await one.press("'12", "enter")
+        assert one.session.place.segment == 8
+        assert "No segment 12" in one.prompt
+
+
+async def test_deleting_a_segment_can_be_undone():
+    async with operator() as one:
+        await one.press("'3", "enter", "f1")
+        assert len(one.session.block.segments) == 10
+        await one.press("ctrl+z")
+        assert len(one.session.block.segments) == 11
+
+
+async def test_f1_on_start_deletes_nothing():
+    async with operator() as one:
+        await one.press("f1")
+        assert one.prompt == "START cannot be deleted."
+        assert one.session.history.undo_count == 0
+
+
+async def test_a_choice_is_spelled_stepped_and_listed():
+    async with operator() as one:
+        await one.press("down", "down", "r")
+        assert str(one.session.block.cutter_comp) == "RIGHT"
+        await one.press("'p", "'r")
+        assert str(one.session.block.cutter_comp) == "PROFILE LEFT"
+        await one.press("left")
+        assert str(one.session.block.cutter_comp) == "RIGHT"
+        await one.press("space", "up", "enter")
+        assert str(one.session.block.cutter_comp) == "LEFT"
+        await one.press("q")
+        assert one.prompt == "Q is not a choice."
+
+
+async def test_a_block_is_left_and_a_new_one_begun():
+    async with operator() as one:
+        await one.press("f8")
+        assert type(one.screen).__name__ == "ProgramScreen"
+        await one.press("f2")
+        assert one.session.place == FormPlace(2, 0)
+        assert type(one.screen).__name__ == "ContourScreen"
+        await one.press("tab", "'3", "enter")
+        assert one.session.block.tool == Entry(3.0)
+
+
+async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
+    async with operator() as one:
+        await one.press("tab", "'3", "enter", "ctrl+q")
+        assert type(one.app.screen).__name__ == "Question"
+        await one.press("escape")
+        assert one.session.block.tool == Entry(3.0)
+        assert type(one.app.screen).__name__ == "ContourScreen"
