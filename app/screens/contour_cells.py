@@ -11,7 +11,7 @@ from app.session.session import Session
 from app.widgets.field import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
-from core.program.model import Block, Entry, Segment, Unread
+from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.block import ZERO_IF_BLANK
 from core.program.solve.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
@@ -100,7 +100,7 @@ def _lookahead(block: DerivedBlock) -> Value:
     if isinstance(typed, Unread):
         return typed
     value = float(block.lookahead.value)
-    return Entry(value) if block.lookahead.tag is Tag.USR else Solved(value)
+    return Number(value) if block.lookahead.tag is Tag.USR else Solved(value)
 
 
 def _missing(session: Session) -> tuple[str, ...]:

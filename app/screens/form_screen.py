@@ -16,7 +16,7 @@ from app.widgets.form import Form
 from core.finding import Severity
 from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed
-from core.program.model import Entry, Unread
+from core.program.model import Number, Unread
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
@@ -133,7 +133,7 @@ class FormScreen(BaseScreen):
         if field is None or field.kind is Kind.TEXT:
             return
         typed = read_typed(widget.value, field, self.current_session.program.unit) if widget.edited else None
-        outcome: Any = self.edited(field, widget.value) if isinstance(typed, Entry) else None
+        outcome: Any = self.edited(field, widget.value) if isinstance(typed, Number) else None
         self.host.try_out(None if outcome is None or isinstance(outcome, Refused) else outcome)
         self.refresh_frame()
 

@@ -17,7 +17,7 @@ from app.widgets.softkeys import Softkey
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import FormPlace, delete_block, insert_block
-from core.program.model import Entry
+from core.program.model import Number
 
 COLUMNS = (("BLOCK", 5), ("KIND", 13), ("CUTTER COMP.", 14), ("TOOL", 4), ("SEG", 4), ("VERDICT", 10))
 
@@ -93,7 +93,7 @@ class ProgramScreen(BaseScreen):
 
 
 def _row(block: DerivedBlock) -> tuple[Text, ...]:
-    tool = f"{block.block.tool.value:g}" if isinstance(block.block.tool, Entry) else "?"
+    tool = f"{block.block.tool.value:g}" if isinstance(block.block.tool, Number) else "?"
     texts = (str(block.number), "MILL CONTOUR", str(block.block.cutter_comp), tool, str(len(block.block.segments)))
     return (*(Text(text) for text in texts), Text(verdict_word(block)))
 
@@ -107,5 +107,5 @@ def verdict_word(block: DerivedBlock) -> str:
         return "✖ gouge" if gouges else "? not ready"
     if any(finding.severity is Severity.WARNING for finding in block.findings):
         return "▲ warning"
-    uncut = block.work is not None and block.work.verdict is not None and block.work.verdict.uncut
+    uncut = block.paths is not None and block.paths.verdict is not None and block.paths.verdict.uncut
     return "▲ uncut" if uncut else "✓ clean"

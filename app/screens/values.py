@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from app.widgets.field import Cell, State
 from core.pipeline.derived import Tag
-from core.program.fields import TYPE_AGAIN, Field, check, check_text, unread_reason, unread_sentence
-from core.program.model import Entry, Unread
+from core.program.fields import TYPE_AGAIN, Field, text_refusal, unread_reason, unread_sentence, value_refusal
+from core.program.model import Number, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, show
 
@@ -29,17 +29,17 @@ def cell_of(
     """
     state = _state(field, value, unit, needed=needed, special=special)
     text = "?" if state is State.NEEDED else shown_text(value, field, unit)
-    full = full_text(value, field, unit) if isinstance(value, Entry) else ""
+    full = full_text(value, field, unit) if isinstance(value, Number) else ""
     return Cell(field.name, field.label, text, column, state, TAGS.get(state, ""), full, field.choices, visible)
 
 
 def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, special: State | None) -> State:
     match value:
-        case Unread() | Entry() if unusable(value, field, unit) is not None:
+        case Unread() | Number() if unusable(value, field, unit) is not None:
             return State.UNREAD
         case Solved():
             return State.USUAL if special is State.USUAL else State.CALCULATED
-        case Entry() if special is State.OVERRIDDEN:
+        case Number() if special is State.OVERRIDDEN:
             return special
         case None if needed:
             return State.NEEDED
@@ -56,11 +56,11 @@ def shown_text(value: Value | str, field: Field, unit: Unit) -> str:
             return text
         case Unread(text, _):
             return text
-        case Entry(number) | Solved(number):
+        case Number(number) | Solved(number):
             return show(number, field.kind, unit)
 
 
-def full_text(entry: Entry, field: Field, unit: Unit) -> str:
+def full_text(entry: Number, field: Field, unit: Unit) -> str:
     """A typed number, in full where the form's decimals would lose some of what was typed."""
     text = show(entry.value, field.kind, unit)
     return text if float(text) == entry.value else f"{entry.value:.12g}"
@@ -70,12 +70,12 @@ def unusable(value: Value | str, field: Field, unit: Unit) -> str | None:
     """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
     if isinstance(value, Unread):
         return unread_text(value, field, unit)
-    return check(field, value.value, unit) if isinstance(value, Entry) else None
+    return value_refusal(field, value.value, unit) if isinstance(value, Number) else None
 
 
 def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
     """What is said of a text that cannot be read."""
-    if outside := check_text(unread.text, field, unit):
+    if outside := text_refusal(unread.text, field, unit):
         return outside
     if unread_reason(unread.text, field, unit) == TYPE_AGAIN:
         return f"{unread.text.strip()} has not been taken yet: type it again."

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from core.program.edit import FormPlace
-from core.program.model import Entry, Unread
+from core.program.model import Number, Unread
 from tests.app.widget_pilot import operator
 
 
 async def test_a_typed_number_is_taken_and_the_cursor_goes_on():
     async with operator() as one:
         await one.press("pagedown", "tab", "'5.5", "enter")
-        assert one.session.block.segments[0].x_end == Entry(5.5)
+        assert one.session.block.segments[0].x_end == Number(5.5)
         assert (one.value("x_end"), one.at) == ("5.5000", "y_end")
         assert one.session.derived_block.known
 
@@ -126,7 +126,7 @@ async def test_a_block_is_left_and_a_new_one_begun():
         assert one.session.place == FormPlace(2, 0)
         assert type(one.screen).__name__ == "ContourScreen"
         await one.press("tab", "'3", "enter")
-        assert one.session.block.tool == Entry(3.0)
+        assert one.session.block.tool == Number(3.0)
 
 
 async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
@@ -134,5 +134,5 @@ async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
         await one.press("tab", "'3", "enter", "ctrl+q")
         assert type(one.app.screen).__name__ == "Question"
         await one.press("escape")
-        assert one.session.block.tool == Entry(3.0)
+        assert one.session.block.tool == Number(3.0)
         assert type(one.app.screen).__name__ == "ContourScreen"
