@@ -40,6 +40,9 @@ MAX_CHORD_LENGTHS: Final = 8.0
 """Median lengths of the pieces from which on a piece is parted: what is long has no piece that is nearest to all of
 it."""
 
+BLUR: Final = 1e-15
+"""What rounding may do to a difference of coordinates, as a share of them."""
+
 EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
 """The box of what has no known place."""
 
@@ -107,6 +110,13 @@ def gathered(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
     return i[order], j[order]
 
 
+def changes(values: Rows) -> Rows:
+    """Where each run of equal values begins."""
+    begins = np.ones(len(values), np.bool_)
+    np.not_equal(values[1:], values[:-1], out=begins[1:])
+    return begins.nonzero()[0]
+
+
 def _diagonals(boxes: Floats) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
     """A line in each box from corner to corner: the tree looks at nothing but its box, and it is small."""
     known = np.where(np.isnan(boxes), EVERYWHERE, boxes)
@@ -123,18 +133,36 @@ def _apart(first: Floats, second: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chords:
-    """(n,) straight lines, each of which has a piece, or a run of pieces, within `slack` of it."""
+    """(n,) straight lines from `middle` - `half` to `middle` + `half`, each of which has a piece, or a run of pieces,
+    within `slack` of it and within `reach` of its middle; `square` is the square of half its length, and never 0."""
 
-    start: Points
-    end: Points
+    middle: Points
+    half: Points
     slack: Floats
+    reach: Floats
+    square: Floats
+
+    @staticmethod
+    def between(start: Points, end: Points, slack: Floats) -> Chords:
+        """The chords from starts to ends."""
+        half = (end - start) / 2.0
+        square = np.maximum((half * half.conj()).real, np.finfo(float).tiny)
+        return Chords((start + end) / 2.0, half, slack, np.abs(half) + slack, square)
 
     def __len__(self) -> int:
-        return len(self.start)
+        return len(self.middle)
 
-    def take(self, rows: Rows) -> Chords:
-        """The chords of these indices."""
-        return Chords(self.start.take(rows), self.end.take(rows), self.slack.take(rows))
+    @property
+    def ends(self) -> tuple[Points, Points]:
+        """(n,) first and last points."""
+        return self.middle - self.half, self.middle + self.half
+
+    def off(self, rows: Rows, points: Points) -> Points:
+        """The way to each point (m,) from the nearest place of the chord of its row."""
+        away, half = points - self.middle.take(rows), self.half.take(rows)
+        share = (away * half.conj()).real / self.square.take(rows)
+        off: Points = away - np.minimum(np.maximum(share, -1.0), 1.0) * half
+        return off
 
 
 Runs = tuple[Chords, ...]
@@ -152,20 +180,12 @@ def runs_of(chords: Chords) -> Runs:
 def _grouped(members: Chords) -> Chords:
     """The chords from the start of every FAN members to their end, with all of these within their slack."""
     begins = np.arange(0, len(members), FAN)
-    ends = np.append(begins[1:], len(members)) - 1
-    start, end = members.start[begins], members.end[ends]
+    lasts = np.append(begins[1:], len(members)) - 1
+    starts, ends = members.ends
+    chords = Chords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
     group = np.arange(len(members)) // FAN
-    off = [_off_chord(start[group], end[group], points) for points in (members.start, members.end)]
-    return Chords(start, end, np.maximum.reduceat(np.maximum(*off) + members.slack, begins))
-
-
-def _off_chord(start: Points, end: Points, points: Points) -> Floats:
-    """Distance of each point from its chord."""
-    chord, away = end - start, points - start
-    square = np.maximum((chord * chord.conj()).real, np.finfo(float).tiny)
-    share = np.minimum(np.maximum((away * chord.conj()).real / square, 0.0), 1.0)
-    off: Floats = np.abs(away - share * chord)
-    return off
+    off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends)))
+    return Chords.between(starts[begins], ends[lasts], np.maximum.reduceat(off + members.slack, begins))
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
@@ -183,9 +203,7 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
     pairs = np.concatenate(batches)
     # np.unique takes ten times as long
     pairs.sort()
-    first = np.ones(len(pairs), np.bool_)
-    np.not_equal(pairs[1:], pairs[:-1], out=first[1:])
-    return np.divmod(pairs[first], len(others))
+    return np.divmod(pairs[changes(pairs)], len(others))
 
 
 def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Rows]:
@@ -203,7 +221,7 @@ def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Row
         parted, count = pieces.take(rows[inner]), counts[rows[inner]]
         start[inner], end[inner] = at(parted, part[inner] / count), at(parted, (part[inner] + 1) / count)
     bow = pieces.radius[rows] * (1.0 - np.cos(pieces.angle[rows] / counts[rows] / 2.0))
-    return Chords(start, end, bow), rows
+    return Chords.between(start, end, bow), rows
 
 
 def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Rows]]:
@@ -238,45 +256,55 @@ def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Ro
 
 def _jumps(runs: Runs) -> list[Floats]:
     """For each run of each level the largest gap between chords in it: no place of it is so near to its chord."""
-    chords = runs[0]
-    gap = np.zeros(len(chords))
-    gap[:-1] = np.abs(chords.start[1:] - chords.end[:-1])
-    levels = [np.zeros(len(chords))]
+    starts, ends = runs[0].ends
+    gap = np.zeros(len(starts))
+    gap[:-1] = np.abs(starts[1:] - ends[:-1])
+    levels = [np.zeros(len(starts))]
     for level in runs[1:]:
         size = FAN ** len(levels)
         inner = gap.copy()
         # the gap after the last member belongs to no run
         inner[size - 1 :: size] = 0.0
-        levels.append(np.maximum.reduceat(inner, np.arange(0, len(chords), size))[: len(level)])
+        levels.append(np.maximum.reduceat(inner, np.arange(0, len(gap), size))[: len(level)])
     return levels
 
 
 def _contenders(
     one: Chords, i: Rows, other: Chords, j: Rows, jump: Floats, within: Floats, tie: float
 ) -> tuple[Rows, Rows]:
-    """Pairs, by rising i, that come as near as some run does to all of the other; updates `within`.
+    """Pairs, by rising i, of which j may be nearest to some place of i; updates `within`.
 
-    Seen along the line through both middles, chords take up room by how far they reach along it.
+    Along a chord the distance from another one is convex.  So from j it is nowhere less than on the tangent at i's
+    middle, and from the j that is closest there nowhere more than between its values at i's ends: as both are straight,
+    what is farther at both ends is farther everywhere.
     """
-    half, reach = (one.end - one.start) / 2.0, (other.end - other.start) / 2.0
-    between = (other.start + reach).take(j) - (one.start + half).take(i)
-    apart = np.abs(between)
-    toward = np.conj(between)
-    taken = np.abs((half.take(i) * toward).real) + np.abs((reach.take(j) * toward).real)
-    least = apart - taken / np.where(apart == 0.0, 1.0, apart) - one.slack.take(i) - other.slack.take(j)
-    keep = ~(least > within.take(i) + tie)
-    i, j, apart, least = i[keep], j[keep], apart[keep], least[keep]
+    middles = one.middle.take(i)
+    apart = np.abs(middles - other.middle.take(j)) - one.reach.take(i) - other.reach.take(j)
+    keep = (~(apart > within.take(i) + tie)).nonzero()[0]
+    i, j = i[keep], j[keep]
+    off, half = other.off(j, middles[keep]), one.half.take(i)
+    apart = np.abs(off)
+    # what is no number counts as nearest, and then nothing is known to be farther
+    size = np.fmax(apart, np.finfo(float).tiny)
+    slope = (off.conj() * half).real / size
+    # a way as short as the rounding of coordinates has no direction
+    blur = BLUR * np.abs(middles[keep]) * one.reach.take(i) / size
+    least = apart - blur - one.slack.take(i) - other.slack.take(j)
+    keep = (~(least - np.abs(slope) > within.take(i) + tie)).nonzero()[0]
+    i, j, size, least, slope = i[keep], j[keep], size[keep], least[keep], slope[keep]
     if not len(i):
         return i, j
-    starts = np.flatnonzero(np.concatenate(([True], i[1:] != i[:-1])))
-    closest = np.minimum.reduceat(apart, starts).repeat(np.diff(starts, append=len(i)))
-    best = (apart == closest).nonzero()[0]
+    begins = changes(i)
+    counts = np.diff(begins, append=len(i))
+    best = (size == np.minimum.reduceat(size, begins).repeat(counts)).nonzero()[0]
+    best = best[changes(i[best])]
     a, b = i[best], j[best]
-    start, end = other.start.take(b), other.end.take(b)
-    ends = np.maximum(_off_chord(start, end, one.start.take(a)), _off_chord(start, end, one.end.take(a)))
-    np.minimum.at(within, a, ends + one.slack.take(a) + other.slack.take(b) + jump.take(b))
-    keep = ~(least > within.take(i) + tie)
-    return i[keep], j[keep]
+    room = one.slack.take(a) + other.slack.take(b) + jump.take(b)
+    middle, half = one.middle.take(a), one.half.take(a)
+    at_start, at_end = (np.abs(other.off(b, end)) + room for end in (middle - half, middle + half))
+    within[a] = np.minimum(within[a], np.maximum(at_start, at_end))
+    farther = (least - slope > at_start.repeat(counts) + tie) & (least + slope > at_end.repeat(counts) + tie)
+    return i[~farther], j[~farther]
 
 
 def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:

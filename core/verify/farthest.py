@@ -17,10 +17,11 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
+from core.geometry.nearby import changes
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at
 from core.tolerance import ON_PATH
-from core.verify.pairs import Pairs, changes, nearest
+from core.verify.pairs import Pairs, nearest
 from core.verify.stretches import Stretches
 
 FINE: Final = 1e-8

@@ -9,10 +9,11 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, foot, nearest_places
+from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import at, blocks
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.pairs import Pairs, changes, measured, uneven_slack
+from core.verify.pairs import Pairs, measured, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
 

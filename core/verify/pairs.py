@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import distance, on_circle
-from core.geometry.nearby import nearest_pairs
+from core.geometry.nearby import changes, nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
 from core.tolerance import GOUGE, LARGEST, ON_PATH, STOCK, UNCUT
@@ -254,10 +254,3 @@ def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
         apart[block] = distance(pairs.others.take(j[block]), points[k[block]])
     keep = (apart <= np.minimum.reduceat(apart, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
     return Nearest(k[keep], j[keep], apart[keep])
-
-
-def changes(owner: Rows) -> Rows:
-    """Where each run of equal values begins."""
-    begins = np.ones(len(owner), np.bool_)
-    np.not_equal(owner[1:], owner[:-1], out=begins[1:])
-    return begins.nonzero()[0]

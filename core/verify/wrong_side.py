@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot, on_line
+from core.geometry.nearby import changes
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, at, direction, place
@@ -20,7 +21,7 @@ from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.crossing import SelfCrossings, at_joints
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging, approaches
-from core.verify.pairs import Nearest, Pairs, changes, keeping, nearest
+from core.verify.pairs import Nearest, Pairs, keeping, nearest
 from core.verify.stretches import NO_STRETCHES, Stretches, union
 
 CLEARLY: Final = 1e-6

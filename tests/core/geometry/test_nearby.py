@@ -107,3 +107,27 @@ def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arc
 def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
     wall, move = waves(2000, 1.0), waves(2000, 7.0)
     assert len(nearest_pairs(move, wall, 1e-9)[0]) < 8 * 2000
+
+
+def test_nearest_pairs_of_a_move_that_gouges_fine_chords_stay_few_as_the_chords_get_finer() -> None:
+    for count in (1000, 8000):
+        wall, move = waves(count, 1.0), waves(count, 1.3)
+        assert len(nearest_pairs(move, wall, 1e-9)[0]) < 4 * count
+        assert len(nearest_pairs(wall, move, 1e-9)[0]) < 4 * count
+
+
+@pytest.mark.parametrize("aside", [0.0, 1e-9, 1e-7, 1e-4])
+@pytest.mark.parametrize("origin", [0.0, 1e3, 1e6])
+def test_nearest_pairs_miss_nothing_where_pieces_all_but_lie_on_each_other(aside: float, origin: float) -> None:
+    random = np.random.default_rng(7)
+    points = np.cumsum(random.normal(size=(201, 2)), axis=0) + origin
+    again = points + random.normal(scale=aside, size=points.shape)
+    one, other = (piece_arrays(Path.of(way, way[:-1], np.zeros(200, np.int8))) for way in (points, again))
+    tie = 1e-9 + 1e-15 * origin
+    i, j = nearest_pairs(one, other, tie)
+    for part in random.uniform(size=40):
+        places = at(one, np.full(len(one), part))
+        least = distance(other, np.repeat(places[:, None], len(other), axis=1)).min(axis=1)
+        held = np.full(len(one), np.inf)
+        np.minimum.at(held, i, distance(other.take(j), places[i]))
+        assert np.all(held <= least + tie)
