@@ -40,6 +40,9 @@ MAX_CHORD_LENGTHS: Final = 8.0
 """Median lengths of the pieces from which on a piece is parted: what is long has no piece that is nearest to all of
 it."""
 
+AROUND: Final = range(-FAN // 2, FAN + FAN // 2)
+"""The members of a run and, on either side, half as many of the runs beside it."""
+
 BLUR: Final = 1e-15
 """What rounding may do to a difference of coordinates, as a share of them."""
 
@@ -110,6 +113,11 @@ def gathered(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
     return i[order], j[order]
 
 
+def point_boxes(points: Points) -> Floats:
+    """(4, k) boxes of points."""
+    return np.array((points.real, points.imag, points.real, points.imag))
+
+
 def changes(values: Rows) -> Rows:
     """Where each run of equal values begins."""
     begins = np.ones(len(values), np.bool_)
@@ -133,8 +141,11 @@ def _apart(first: Floats, second: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chords:
-    """(n,) straight lines from `middle` - `half` to `middle` + `half`, each of which has a piece, or a run of pieces,
-    within `slack` of it and within `reach` of its middle; `square` is the square of half its length, and never 0."""
+    """(n,) straight lines from `middle` - `half` to `middle` + `half` that stand for a piece or a run of pieces each.
+
+    No place of the one is farther from the other than `slack`, and no place of the pieces is farther from the middle
+    than `reach`.  `square` is the square of half the length, and never 0.
+    """
 
     middle: Points
     half: Points
@@ -178,14 +189,21 @@ def runs_of(chords: Chords) -> Runs:
 
 
 def _grouped(members: Chords) -> Chords:
-    """The chords from the start of every FAN members to their end, with all of these within their slack."""
+    """The chords from the start of every FAN members to their end.
+
+    A way without gaps passes each place of its chord on the way from end to end, so that its slack is how far its
+    members are off; where there are gaps these count too.
+    """
     begins = np.arange(0, len(members), FAN)
     lasts = np.append(begins[1:], len(members)) - 1
     starts, ends = members.ends
     chords = Chords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
     group = np.arange(len(members)) // FAN
-    off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends)))
-    return Chords.between(starts[begins], ends[lasts], np.maximum.reduceat(off + members.slack, begins))
+    off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends))) + members.slack
+    gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
+    gaps[begins] = 0.0
+    slack = np.maximum.reduceat(off, begins) + np.maximum.reduceat(gaps, begins)
+    return Chords.between(starts[begins], ends[lasts], slack)
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
@@ -225,13 +243,9 @@ def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Row
 
 
 def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Rows]]:
-    """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches.
-
-    `within` are for each run lengths within which all of its places have something of the other path.
-    """
+    """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches."""
     first, second = runs_of(one), runs_of(other)
-    jumps = _jumps(second)
-    within = [np.full(len(level), np.inf) for level in first]
+    within = _within(first, second)
     high, low = len(first) - 1, len(second) - 1
     i, j = np.divmod(np.arange(len(first[high]) * len(second[low])), len(second[low]))
     stack = [(high, low, i, j)]
@@ -241,12 +255,11 @@ def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Ro
             half = max(int(i.searchsorted(i[len(i) // 2])), int(i.searchsorted(i[0], side="right")))
             stack += [(high, low, i[half:], j[half:]), (high, low, i[:half], j[:half])]
             continue
-        i, j = _contenders(first[high], i, second[low], j, jumps[low], within[high], tie)
+        i, j = _contenders(first[high], i, second[low], j, within[high], tie)
         if not high and not low:
             yield i, j
         elif high >= low:
             members, j = _members(i, j, len(first[high - 1]))
-            within[high - 1][members] = np.minimum(within[high - 1][members], within[high][members // FAN])
             order = np.argsort(members, kind="stable")
             stack.append((high - 1, low, members[order], j[order]))
         else:
@@ -254,56 +267,70 @@ def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Ro
             stack.append((high, low - 1, i, j))
 
 
-def _jumps(runs: Runs) -> list[Floats]:
-    """For each run of each level the largest gap between chords in it: no place of it is so near to its chord."""
-    starts, ends = runs[0].ends
-    gap = np.zeros(len(starts))
-    gap[:-1] = np.abs(starts[1:] - ends[:-1])
-    levels = [np.zeros(len(starts))]
-    for level in runs[1:]:
-        size = FAN ** len(levels)
-        inner = gap.copy()
-        # the gap after the last member belongs to no run
-        inner[size - 1 :: size] = 0.0
-        levels.append(np.maximum.reduceat(inner, np.arange(0, len(gap), size))[: len(level)])
-    return levels
+def _within(first: Runs, second: Runs) -> list[Floats]:
+    """For each run of each level a length within which all of its places have something of the other path.
+
+    A guess tells what: the nearest of the members of what was nearest to the run, and of those around them.
+    """
+    high, low = len(first) - 1, len(second) - 1
+    guess = np.abs(first[high].middle[:, None] - second[low].middle).argmin(axis=1)
+    while high or low:
+        if high >= low:
+            high -= 1
+            guess = guess[np.arange(len(first[high])) // FAN]
+        else:
+            low -= 1
+            guess = _closest_member(first[high].middle, second[low].middle, guess)
+    one, other = first[0], second[0]
+    apart = np.maximum(*(np.abs(other.off(guess, end)) for end in one.ends))
+    within = [apart + one.slack + other.slack[guess]]
+    while len(within) < len(first):
+        within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), FAN)))
+    return within
 
 
-def _contenders(
-    one: Chords, i: Rows, other: Chords, j: Rows, jump: Floats, within: Floats, tie: float
-) -> tuple[Rows, Rows]:
-    """Pairs, by rising i, of which j may be nearest to some place of i; updates `within`.
+def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
+    """Of the middles of each point's run, and of those around, the one that is closest to the point."""
+    closest, least = np.zeros(len(points), np.intp), np.full(len(points), np.inf)
+    for step in AROUND:
+        members = np.minimum(np.maximum(runs * FAN + step, 0), len(middles) - 1)
+        apart = np.abs(points - middles.take(members))
+        closer = apart < least
+        closest, least = np.where(closer, members, closest), np.where(closer, apart, least)
+    return closest
+
+
+def _contenders(one: Chords, i: Rows, other: Chords, j: Rows, within: Floats, tie: float) -> tuple[Rows, Rows]:
+    """Pairs, by rising i, of which j may be nearest to some place of i, where all of i has something `within` reach.
 
     Along a chord the distance from another one is convex.  So from j it is nowhere less than on the tangent at i's
     middle, and from the j that is closest there nowhere more than between its values at i's ends: as both are straight,
     what is farther at both ends is farther everywhere.
     """
-    middles = one.middle.take(i)
-    apart = np.abs(middles - other.middle.take(j)) - one.reach.take(i) - other.reach.take(j)
-    keep = (~(apart > within.take(i) + tie)).nonzero()[0]
-    i, j = i[keep], j[keep]
-    off, half = other.off(j, middles[keep]), one.half.take(i)
-    apart = np.abs(off)
+    limit = within.take(i) + tie
+    apart = np.abs(one.middle.take(i) - other.middle.take(j)) - one.reach.take(i) - other.reach.take(j)
+    keep = (~(apart > limit)).nonzero()[0]
+    i, j, limit = i[keep], j[keep], limit[keep]
+    middle, half = one.middle.take(i), one.half.take(i)
+    off = other.off(j, middle)
     # what is no number counts as nearest, and then nothing is known to be farther
-    size = np.fmax(apart, np.finfo(float).tiny)
-    slope = (off.conj() * half).real / size
+    apart = np.fmax(np.abs(off), np.finfo(float).tiny)
+    slope = (off.conj() * half).real / apart
     # a way as short as the rounding of coordinates has no direction
-    blur = BLUR * np.abs(middles[keep]) * one.reach.take(i) / size
+    blur = BLUR * np.abs(middle) * one.reach.take(i) / apart
     least = apart - blur - one.slack.take(i) - other.slack.take(j)
-    keep = (~(least - np.abs(slope) > within.take(i) + tie)).nonzero()[0]
-    i, j, size, least, slope = i[keep], j[keep], size[keep], least[keep], slope[keep]
+    keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
+    i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]
     if not len(i):
         return i, j
     begins = changes(i)
     counts = np.diff(begins, append=len(i))
-    best = (size == np.minimum.reduceat(size, begins).repeat(counts)).nonzero()[0]
+    best = (apart == np.minimum.reduceat(apart, begins).repeat(counts)).nonzero()[0]
     best = best[changes(i[best])]
-    a, b = i[best], j[best]
-    room = one.slack.take(a) + other.slack.take(b) + jump.take(b)
-    middle, half = one.middle.take(a), one.half.take(a)
-    at_start, at_end = (np.abs(other.off(b, end)) + room for end in (middle - half, middle + half))
-    within[a] = np.minimum(within[a], np.maximum(at_start, at_end))
-    farther = (least - slope > at_start.repeat(counts) + tie) & (least + slope > at_end.repeat(counts) + tie)
+    nearest, room = j[best], tie + one.slack.take(i[best]) + other.slack.take(j[best])
+    middle, half = one.middle.take(i[best]), one.half.take(i[best])
+    at_start, at_end = (np.abs(other.off(nearest, end)) + room for end in (middle - half, middle + half))
+    farther = (least - slope > at_start.repeat(counts)) & (least + slope > at_end.repeat(counts))
     return i[~farther], j[~farther]
 
 

@@ -13,11 +13,12 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.path import Flags, Path, Rows
+from core.geometry.nearby import gathered, near_pairs, point_boxes
+from core.geometry.path import Flags, Floats, Path, Rows
 from core.geometry.piece import Point
-from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
+from core.geometry.piece_arrays import PieceArrays, at, blocks, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
-from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
+from core.verify.pairs import Pairs, along, keeping, measurable, paired, pairs_of, rounding_of
 from core.verify.uncut import POINT, gaps_of
 
 PARALLEL: Final = 1e-6
@@ -81,14 +82,50 @@ def _point(place: complex) -> Point:
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
+    way = _ways(pairs, radius)
+    gouging = np.zeros(len(pairs.pieces), np.bool_)
+    gouging[pairs.i[pairs.least < radius - pairs.grant]] = True
+    undecided = (gouging & (way == 0)).nonzero()[0]
+    if len(undecided):
+        way += _ways(_behind_nearer_walls(pairs, undecided, radius), radius)
+    return tuple(pairs.pieces.rows[way < 0].tolist())
+
+
+def _ways(pairs: Pairs, radius: float) -> Rows:
+    """(n,) +1 for pieces that run the way of some wall they touch, -1 for those that run against all, else 0."""
     touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
     way = np.zeros(len(touching), np.intp)
     for block in blocks(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
         way[block] = _way(pairs.keep(touching[block]), radius)
-    against = np.zeros(len(pairs.pieces), np.bool_)
-    against[pairs.i[touching[way < 0]]] = True
-    against[pairs.i[touching[way > 0]]] = False
-    return tuple(pairs.pieces.rows[against].tolist())
+    ways = np.zeros(len(pairs.pieces), np.intp)
+    ways[pairs.i[touching[way < 0]]] = -1
+    ways[pairs.i[touching[way > 0]]] = 1
+    return ways
+
+
+def _behind_nearer_walls(pairs: Pairs, index: Rows, radius: float) -> Pairs:
+    """Pairs of the pieces `index` with all walls that they touch along more than a point, nearest or not.
+
+    There an end of the piece is a radius beside the wall, or the wall's middle is beside the piece.
+    """
+    pieces, walls, rounding = pairs.pieces.take(index), pairs.others, rounding_of(pairs.others)
+    room = 2.0 * float(pairs.grant.max()) + ON_PATH
+    i, j = [], []
+    for share in (0.0, 1.0):
+        k, wall = gathered(near_pairs(_sideways(pieces, share, radius), walls.boxes, room))
+        i.append(k % len(pieces))
+        j.append(wall)
+    wall, k = gathered(near_pairs(_sideways(walls, 0.5, radius), pieces.boxes, room))
+    return paired(
+        pairs.pieces, walls, index[np.concatenate((*i, k))], np.concatenate((*j, wall % len(walls))), rounding
+    )
+
+
+def _sideways(pieces: PieceArrays, share: float, radius: float) -> Floats:
+    """(4, 2 n) boxes of the points a radius beside the pieces at a fraction of them, on the left and on the right."""
+    t = np.full(len(pieces), share)
+    points, across = at(pieces, t), 1j * radius * direction(pieces, t)
+    return point_boxes(np.concatenate((points + across, points - across)))
 
 
 def _way(pairs: Pairs, radius: float) -> Rows:

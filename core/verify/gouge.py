@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 from typing import Final
@@ -11,11 +12,14 @@ import numpy as np
 from core.geometry.distance import between, foot, nearest_places
 from core.geometry.nearby import changes
 from core.geometry.path import Floats, Path, Rows, coordinates
-from core.geometry.piece_arrays import at, blocks
+from core.geometry.piece_arrays import PieceArrays, at, blocks
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import Pairs, measured, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
+
+PAIRS_AT_A_TIME: Final = 20_000
+"""Pairs that gouge of which the parts and places are held at a time."""
 
 LOOP_GAP: Final = 1.0
 """Millimeters between two loops, far more than ends that touch miss each other by."""
@@ -45,9 +49,23 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
     if not len(near):
         none = np.zeros(0)
         return Gouging(NO_STRETCHES, none, none, near, near)
-    parts = within(pairs, near, limits[near])
-    spots, apart, pair = approaches(pairs, near, limits[near])
-    return _deepest(pairs, joined((parts, Parts(spots, spots, spots, apart, pair))))
+    gaps = LOOP_GAP * _loops(pairs.pieces).astype(np.float64)
+    deepest = [_deepest(pairs, _near_parts(pairs, rows, limits[rows]), gaps) for rows in _some_at_a_time(near)]
+    parts = _deepest(pairs, joined(deepest), gaps)
+    stretches = Stretches(parts.first, parts.last)
+    return Gouging(stretches, parts.middle, parts.apart, pairs.i[parts.pair], pairs.j[parts.pair])
+
+
+def _some_at_a_time(rows: Rows) -> Iterator[Rows]:
+    """The rows in order, so many at a time that what is worked out for them stays small."""
+    for first in range(0, len(rows), PAIRS_AT_A_TIME):
+        yield rows[first : first + PAIRS_AT_A_TIME]
+
+
+def _near_parts(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
+    """What of the pieces of these pairs is nearer than the limit, and the places where it may be nearest."""
+    spots, apart, pair = approaches(pairs, rows, limit)
+    return joined((within(pairs, rows, limit), Parts(spots, spots, spots, apart, pair)))
 
 
 def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:
@@ -86,21 +104,24 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
     return Approach(float(least), (x, y), (u, v), float(surface.numbers[wall.rows[0]]))
 
 
-def _deepest(pairs: Pairs, parts: Parts) -> Gouging:
-    """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path.
+def _loops(moves: PieceArrays) -> Rows:
+    """(n,) which loop each move is part of: one begins wherever a move does not begin at the end of the one before."""
+    loops: Rows = np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
+    return loops
 
-    Stretches at the end of one loop and at the beginning of the next are two: loops are held LOOP_GAP apart meanwhile.
+
+def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
+    """Parts joined to stretches, each with the least distance measured in it; of equal ones that of the first pair.
+
+    Meanwhile they are moved on by the `gaps` (n,) of their pieces, so that those of two loops do not touch.
     """
-    moves = pairs.pieces
-    loops = np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
-    shift = LOOP_GAP * loops[pairs.i[parts.pair]]
-    shifted = union(parts.first + shift, parts.last + shift)
-    owner, apart = shifted.index(parts.middle + shift), np.round(parts.apart / ON_PATH)
+    gap = gaps[pairs.i[parts.pair]]
+    stretches = union(parts.first + gap, parts.last + gap)
+    owner, apart = stretches.index(parts.middle + gap), np.round(parts.apart / ON_PATH)
     order = np.lexsort((parts.pair, apart, owner))
     best = order[changes(owner[order])]
-    pair = parts.pair[best]
-    stretches = Stretches(shifted.first - shift[best], shifted.last - shift[best])
-    return Gouging(stretches, parts.middle[best], parts.apart[best], pairs.i[pair], pairs.j[pair])
+    first, last = stretches.first - gap[best], stretches.last - gap[best]
+    return Parts(first, last, parts.middle[best], parts.apart[best], parts.pair[best])
 
 
 def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
@@ -129,14 +150,22 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: 
             *(column.tolist() for column in columns), strict=True
         )
     ]
-    if len(every) > 1 and _over_seam(found.stretches, pairs):
-        deeper, less = sorted((every[0], every[-1]), key=lambda gouge: -gouge.depth)
-        every = [*every[1:-1], replace(deeper, extent=deeper.extent + less.extent)]
+    for first, last in reversed(_over_seams(found, pairs)):
+        less, deeper = sorted((every.pop(last), every[first]), key=lambda gouge: gouge.depth)
+        every[first] = replace(deeper, extent=deeper.extent + less.extent)
     # of equal ones the earliest along the path comes first, whatever the last digits say
     return tuple(sorted(every, key=lambda gouge: -round(gouge.depth / ON_PATH)))
 
 
-def _over_seam(stretches: Stretches, pairs: Pairs) -> bool:
-    """The first and the last stretch are one: the path ends where it begins, and gouges there."""
-    meets = bool(abs(pairs.pieces.end[-1] - pairs.pieces.start[0]) <= JOINED)
-    return meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.stations[-1] - JOINED)
+def _over_seams(found: Gouging, pairs: Pairs) -> list[tuple[int, int]]:
+    """The first and the last stretch of each loop that ends where it begins and gouges there: these two are one."""
+    moves, stations, loops = pairs.pieces, pairs.stations, _loops(pairs.pieces)
+    owner = loops[found.i]
+    first = changes(owner)
+    last = owner.searchsorted(owner[first], side="right") - 1
+    begin, end = loops.searchsorted(owner[first]), loops.searchsorted(owner[first], side="right") - 1
+    closed = np.abs(moves.end[end] - moves.start[begin]) <= JOINED
+    at_start = found.stretches.first[first] <= stations[begin] + JOINED
+    at_end = found.stretches.last[last] >= stations[end + 1] - JOINED
+    over = closed & at_start & at_end & (first < last)
+    return list(zip(first[over].tolist(), last[over].tolist(), strict=True))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from core.verify.contact import backwards, loose
 from core.verify.gouge import closest, gouges, gouging
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Surface
-from core.verify.uncut import uncut
+from core.verify.uncut import covered_walls, uncut
 from core.verify.verdict import NOTHING, UnevenArc, Verdict
 from core.verify.wrong_side import sided, wrong_side
 
@@ -71,18 +72,19 @@ def _uneven(pieces: PieceArrays, row: int, numbers: Floats, *, on_surface: bool)
 
 
 def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats) -> Verdict:
-    walls, side, rounding = surface.walls, surface.side, rounding_of(surface.walls)
-    pairs = pairs_of(moves, walls, rounding)
+    walls, side = surface.walls, surface.side
+    pairs = pairs_of(moves, walls, rounding_of(walls))
     if np.isnan(pairs.least).any():
         return _unjudged(radius)
     found = gouging(pairs, radius - GOUGE)
     wrong, deepest = wrong_side(pairs, found, sided(side, walls, surface.crossings, closed=surface.closed), radius)
+    covered = covered_walls(pairs, radius, closed=surface.closed)
     crossed = surface.crossings.points[:1].tolist()
-    return Verdict(
+    verdict = Verdict(
         radius=radius,
         closest=closest(pairs, surface.path),
         gouges=gouges(deepest, pairs, radius, surface.path, numbers),
-        uncut=uncut(pairs, radius, surface.path, side, rounding, closed=surface.closed),
+        uncut=NOTHING,
         surface_length=float(walls.stations[-1]),
         crosses_itself=bool(crossed),
         wrong_side=tuple(moves.rows[wrong].tolist()),
@@ -92,3 +94,7 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         over_run_at=surface.over_run_at,
         radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )
+    # the pairs of the walls need the room of those of the moves
+    del pairs
+    left = uncut(walls, moves, covered, radius, surface.path, side, closed=surface.closed)
+    return replace(verdict, uncut=left)

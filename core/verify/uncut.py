@@ -14,8 +14,8 @@ from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, at, blocks
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
-from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of
-from core.verify.stretches import Parts, Stretches, joined, within
+from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, rounding_of
+from core.verify.stretches import Stretches, within
 from core.verify.verdict import NOTHING, UncutStretches
 
 POINT: Final = 1e-6
@@ -44,19 +44,25 @@ class Gaps:
     area: Floats
 
 
-def uncut(pairs: Pairs, radius: float, surface: Path, side: Side, rounding: float, *, closed: bool) -> UncutStretches:
-    """Stretches farther than the radius from the path, in the contour's order, each over its joints in one.
-
-    `pairs` are those of the center path's pieces with the surface.  In a closed contour a stretch that runs over START
-    stands last.  What is nowhere thicker than STOCK is left out.
-    """
-    walls = pairs.others
-    whole = np.zeros(len(walls), np.bool_)
+def covered_walls(pairs: Pairs, radius: float, *, closed: bool) -> Flags:
+    """(n,) which walls leave nothing worth a word, as the pairs of the center path's pieces with them show."""
+    whole = np.zeros(len(pairs.others), np.bool_)
     whole[pairs.j[covering(pairs, radius + pairs.grant)]] = True
-    whole |= _in_thin_runs(pairs, whole, radius, closed=closed)
-    if whole.all():
+    return whole | _in_thin_runs(pairs, whole, radius, closed=closed)
+
+
+def uncut(
+    walls: PieceArrays, moves: PieceArrays, covered: Flags, radius: float, surface: Path, side: Side, *, closed: bool
+) -> UncutStretches:
+    """Stretches farther than the radius from the moves, in the contour's order, each over its joints in one.
+
+    Walls that are `covered` are known to be reached.  In a closed contour a stretch that runs over START stands last.
+    What is nowhere thicker than STOCK is left out.
+    """
+    if covered.all():
         return NOTHING
-    gaps = gaps_of(pairs_of(walls, pairs.pieces, rounding, (~whole).nonzero()[0]), whole, radius)
+    pairs = pairs_of(walls, moves, rounding_of(walls), (~covered).nonzero()[0])
+    gaps = gaps_of(pairs, covered, radius)
     if not len(gaps.stretches):
         return NOTHING
     numbers, stretches = surface.numbers[walls.rows], gaps.stretches
@@ -126,13 +132,15 @@ def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
     unsure |= pairs.least[rows] < radius - pairs.grant[rows]
     sure = (~unsure & (begin <= end)).nonzero()[0]
     start, length = stations[piece[sure]], pairs.pieces.length[piece[sure]]
-    proved = Parts(start + begin[sure] * length, start + end[sure] * length, start, start, rows[sure])
     known = whole.nonzero()[0]
-    covered = Parts(stations[known], stations[known + 1], stations[known], stations[known], np.full(len(known), -1))
     measured = within(pairs, rows[unsure], limit[rows[unsure]])
     drawn = np.zeros(len(pairs.i) + 1, np.bool_)
-    drawn[rows[unsure]] = True
-    return _settled(pairs, joined((covered, proved, measured)), drawn, radius)
+    drawn[measured.pair] = True
+    first = np.concatenate((stations[known], start + begin[sure] * length, measured.first))
+    last = np.concatenate((stations[known + 1], start + end[sure] * length, measured.last))
+    pair = np.concatenate((np.full(len(known), -1), rows[sure], measured.pair))
+    del limit, begin, end, piece, bent, unsure, sure, start, length, measured
+    return _settled(pairs, first, last, pair, drawn, radius)
 
 
 def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats]:
@@ -151,11 +159,11 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
     return np.where(near, places, 2.0).min(axis=0), np.where(near, places, -2.0).max(axis=0)
 
 
-def _settled(pairs: Pairs, parts: Parts, drawn: Flags, radius: float) -> Stretches:
-    """Parts as stretches; their ends drawn in to where one of the pairs that are `drawn` reaches them with the radius
-    alone."""
-    order = parts.first.argsort(kind="stable")
-    first, last = parts.first[order], parts.last[order]
+def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Stretches:
+    """Parts from `first` to `last` as stretches; their ends drawn in to where a pair that is `drawn` reaches them with
+    the radius alone."""
+    order = first.argsort(kind="stable")
+    first, last = first[order], last[order]
     furthest = np.maximum.accumulate(last)
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1]
@@ -164,7 +172,7 @@ def _settled(pairs: Pairs, parts: Parts, drawn: Flags, radius: float) -> Stretch
         return Stretches(first, last)
     holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
     end = holder[np.append(begin[1:], len(first)) - 1]
-    pair = parts.pair[order[np.concatenate((begin, end))]]
+    pair = pair[order[np.concatenate((begin, end))]]
     ends = np.concatenate((first[begin], last[end]))
     loose = drawn[pair].nonzero()[0]
     inward = np.repeat((1.0, -1.0), len(begin))

@@ -16,7 +16,7 @@ from core.geometry.distance import foot, on_line
 from core.geometry.nearby import changes
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import PieceArrays, at, direction, place
+from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.crossing import SelfCrossings, at_joints
 from core.verify.farthest import FINE, farthest
@@ -84,8 +84,7 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> t
     spots = np.concatenate((_gouged(found, surface), parts.middle))
     owners, shares = place(pairs.pieces, pairs.stations, spots)
     count, index, t = len(index), np.concatenate((index, owners)), np.concatenate((t, shares))
-    points = at(pairs.pieces.take(index), t)
-    behind = on_part_side(pairs.others, points, nearest(pairs, index, points), surface)
+    behind = _behind(pairs, index, t, surface)
     if surface.crossed:
         s = np.concatenate((pairs.stations[index[:count]] + t[:count] * pairs.pieces.length[index[:count]], spots))
         behind &= ~found.stretches.holds(s)
@@ -93,6 +92,16 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> t
     moves, inside = behind[: len(behind) - len(parts)], behind[len(behind) - len(parts) :]
     wrong[index[: len(moves)][moves]] = True
     return _with_depth(pairs, parts.keep(inside), found, wrong, radius)
+
+
+def _behind(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags:
+    """Which places at the fractions `t` of pieces `index` are on the part's side."""
+    behind = np.zeros(len(index), np.bool_)
+    for first in range(0, len(index), BLOCK_PAIRS):
+        block = slice(first, first + BLOCK_PAIRS)
+        points = at(pairs.pieces.take(index[block]), t[block])
+        behind[block] = on_part_side(pairs.others, points, nearest(pairs, index[block], points), surface)
+    return behind
 
 
 def _with_depth(pairs: Pairs, inside: Stretches, found: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
@@ -228,9 +237,7 @@ def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
 
 def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
     """Which places along the center path are on the part's side."""
-    index, t = place(pairs.pieces, pairs.stations, s)
-    points = at(pairs.pieces.take(index), t)
-    return on_part_side(pairs.others, points, nearest(pairs, index, points), surface)
+    return _behind(pairs, *place(pairs.pieces, pairs.stations, s), surface)
 
 
 def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:

@@ -14,8 +14,8 @@ import numpy as np
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices, least_of_connected
 from core.geometry.distance import distance
-from core.geometry.nearby import near_pairs
-from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex
+from core.geometry.nearby import near_pairs, point_boxes
+from core.geometry.path import Flags, Path, Points, Rows, as_complex
 from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import CLEAR
 
@@ -79,11 +79,6 @@ def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius:
             good &= apart >= radius - CLEAR
         step *= 2
     return good
-
-
-def point_boxes(points: Points) -> Floats:
-    """(4, k) boxes of points."""
-    return np.array((points.real, points.imag, points.real, points.imag))
 
 
 def _rank(group: Rows) -> Rows:

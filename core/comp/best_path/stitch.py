@@ -13,10 +13,10 @@ from math import sqrt
 
 import numpy as np
 
-from core.comp.best_path.clearance import clear, point_boxes
+from core.comp.best_path.clearance import clear
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices
-from core.geometry.nearby import gathered, near_pairs
+from core.geometry.nearby import gathered, near_pairs, point_boxes
 from core.geometry.path import Flags, Floats, Path, Pieces, Rows, coordinates, lengths, next_in_ring
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 

@@ -354,6 +354,16 @@ def test_a_gouge_at_a_loops_end_and_one_where_the_next_begins_are_two(surface: P
     assert [gouge.depth for gouge in alone.gouges] == pytest.approx([4.0])
 
 
+def test_a_gouge_over_a_loops_start_is_one_however_many_loops_there_are() -> None:
+    wall = lines((-20, 0), (20, 0))
+    loops = [lines((x, 0.5), (x + 2, 3), (x - 2, 3), (x, 0.5)) for x in (-8, 0, 8)]
+    alone = [judge(wall, Side.LEFT, 1.0, loop).gouges for loop in loops]
+    together = judge_together(wall, Side.LEFT, 1.0, loops).gouges
+    assert [len(gouges) for gouges in alone] == [1, 1, 1]
+    assert [gouge.extent for gouge in together] == pytest.approx([gouge.extent for (gouge,) in alone])
+    assert [gouge.path_piece for gouge in together] == [0, 3, 6]
+
+
 def test_no_loop_at_all_leaves_everything() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     assert judge_together(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
