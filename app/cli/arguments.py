@@ -53,7 +53,7 @@ def command_parser(name: str) -> argparse.ArgumentParser:
     if name == "path":
         parser.add_argument("--lookahead", metavar="N|cal", help="use this look-ahead instead of the program's")
     if name in ("post", "plot"):
-        what = "an .svg file to write" if name == "plot" else "write here"
+        what = "an .svg or .dxf file to write" if name == "plot" else "write here"
         parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=f"{what} instead of standard output")
     if name == "post":
         parser.add_argument("--override", metavar="SENTENCE", help="post in spite of a gouge; refusals name the words")

@@ -29,7 +29,7 @@ DASH: Final = "-"
 """In place of a file: standard input, or standard output."""
 STDIN: Final = "standard input"
 OTHER_PICTURES: Final = frozenset(
-    (".bmp", ".dxf", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
+    (".bmp", ".dwg", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
 )
 """Endings of pictures that a drawing is not written as: who opens the file would be told that it is broken."""
 
@@ -182,13 +182,15 @@ def _control(options: argparse.Namespace) -> str | None:
 
 
 def plot(options: argparse.Namespace) -> int:
-    """`cutcomp plot`: the program as an SVG drawing."""
-    from core.pipeline.plot import svg_of
+    """`cutcomp plot`: the program as an SVG or a DXF drawing."""
+    from core.pipeline.plot import dxf_of, svg_of
 
     if options.output is not None and options.output.suffix.lower() in OTHER_PICTURES:
-        raise Unusable(f"-o {options.output}: plot writes SVG only; name a file that ends in .svg.")
+        raise Unusable(f"-o {options.output}: plot writes SVG and DXF; name a file that ends in .svg or .dxf.")
     derived = _derived(options.file)
-    _deliver(svg_of(derived, title=_name(options.file)), options.output)
+    as_dxf = options.output is not None and options.output.suffix.lower() == ".dxf"
+    text = dxf_of(derived) if as_dxf else svg_of(derived, title=_name(options.file))
+    _deliver(text, options.output)
     _report(derived, None)
     return _status(derived, None)
 

@@ -13,7 +13,7 @@ HELP: Final = {
     "path": "the center path of every block",
     "lookahead": "what becomes of the path at every look-ahead value",
     "post": "write the NC file",
-    "plot": "draw the program as SVG",
+    "plot": "draw the program as SVG or DXF",
 }
 SHOP_HELP: Final = {
     "sheet": "the setup sheet, as text or as a page with the drawing",

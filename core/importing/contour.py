@@ -11,6 +11,7 @@ from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.arc_fitting import Fitted, fit_arcs
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.nesting import box_of, signed_area
+from core.importing.nodes import SAME_POINT
 from core.units import Kind, Unit, from_mm, show
 
 KEY_DECIMALS: Final = 6
@@ -178,8 +179,8 @@ def _started_on(contour: Contour, row: int, share: float) -> Contour:
     if contour.circle is not None and isinstance(piece, Arc):
         point = piece.point_at(share)
         return replace(contour, pieces=(Arc(point, point, piece.center, piece.turn),))
-    if share <= 0.0 or share >= 1.0:
-        row = row if share <= 0.0 else (row + 1) % len(pieces)
+    if min(share, 1.0 - share) * piece.length <= SAME_POINT:
+        row = row if share < 0.5 else (row + 1) % len(pieces)
         return replace(contour, pieces=(*pieces[row:], *pieces[:row]))
     whole = _undivided(contour)
     if whole is not contour:

@@ -31,6 +31,7 @@ from core.draw.view import TALL, View
 from core.geometry.path import EMPTY, Floats, Path, as_complex
 from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
 from core.geometry.piece import Line, Piece, Point, Side
+from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.tolerance import JOINED
@@ -55,6 +56,12 @@ def svg_of(derived: Derived, *, title: str) -> str:
     """The whole program as one SVG drawing."""
     scenes = [block_scene(block, None, derived.program.unit) for block in derived.blocks]
     return svg(joined_scenes(scenes), title=title)
+
+
+def dxf_of(derived: Derived) -> str:
+    """The whole program as one DXF drawing."""
+    unit = derived.program.unit
+    return dxf(joined_scenes([block_scene(block, None, unit) for block in derived.blocks]), unit)
 
 
 def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
