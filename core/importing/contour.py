@@ -120,6 +120,7 @@ def started_at_usual_place(contour: Contour) -> Contour:
         (x, y), radius = circle.center, circle.radius
         start = (x - radius, y)
         return replace(contour, pieces=(Arc(start, start, circle.center, circle.turn),))
+    contour = _undivided(contour)
     lines = [row for row, piece in enumerate(contour.pieces) if isinstance(piece, Line)]
     rows = lines or list(range(len(contour.pieces)))
     longest = max(contour.pieces[row].length for row in rows)
@@ -133,11 +134,12 @@ def started_at(contour: Contour, point: Point) -> Contour:
     if not contour.closed:
         first, last = (dist(point, end) for end in (contour.pieces[0].start, contour.pieces[-1].end))
         return contour if first <= last else reversed_contour(contour)
+    whole = _undivided(contour)
     row, share = min(
-        ((row, _nearest_share(piece, point)) for row, piece in enumerate(contour.pieces)),
-        key=lambda place: dist(point, contour.pieces[place[0]].point_at(place[1])),
+        ((row, _nearest_share(piece, point)) for row, piece in enumerate(whole.pieces)),
+        key=lambda place: dist(point, whole.pieces[place[0]].point_at(place[1])),
     )
-    return _started_on(contour, row, share)
+    return _started_on(whole, row, share)
 
 
 def started_at_corner(contour: Contour, step: int) -> Contour:
@@ -174,7 +176,7 @@ def _undivided(contour: Contour) -> Contour:
 
 
 def _started_on(contour: Contour, row: int, share: float) -> Contour:
-    """A closed contour from a part of one of its pieces on, which is divided there."""
+    """An undivided closed contour from a part of one of its pieces on, which is divided there."""
     pieces, piece = contour.pieces, contour.pieces[row]
     if contour.circle is not None and isinstance(piece, Arc):
         point = piece.point_at(share)
@@ -182,10 +184,6 @@ def _started_on(contour: Contour, row: int, share: float) -> Contour:
     if min(share, 1.0 - share) * piece.length <= SAME_POINT:
         row = row if share < 0.5 else (row + 1) % len(pieces)
         return replace(contour, pieces=(*pieces[row:], *pieces[:row]))
-    whole = _undivided(contour)
-    if whole is not contour:
-        # divided once, it is divided anew in its other place
-        return started_at(whole, piece.point_at(share))
     middle = piece.point_at(share)
     if isinstance(piece, Arc):
         first: Piece = Arc(piece.start, middle, piece.center, piece.turn)

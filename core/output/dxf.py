@@ -75,7 +75,8 @@ def _tables() -> Iterator[str]:
 def _entities(scene: Scene, unit: Unit) -> Iterator[str]:
     for layer in scene.layers:
         if layer.style in _PENS and not _is_sketch(layer):
-            for path in layer.parts:
+            # the contour is whole on its layer, also where a screen shows a part of it in another role
+            for path in [layer.path] if layer.style is Style.SURFACE else layer.parts:
                 for piece in path:
                     yield from _entity(piece, _PENS[layer.style].layer, unit)
 

@@ -59,7 +59,8 @@ def test_a_drawing_is_not_written_into_another_kind_of_picture(
     assert main(["plot", str(example("flange")), "-o", str(tmp_path / name)]) == 2
     said = capsys.readouterr()
     assert (said.out, list(tmp_path.iterdir())) == ("", [])
-    assert said.err == f"cutcomp: -o {tmp_path / name}: plot writes SVG and DXF; name a file that ends in .svg or .dxf.\n"
+    words = "plot writes SVG and DXF; name a file that ends in .svg or .dxf."
+    assert said.err == f"cutcomp: -o {tmp_path / name}: {words}\n"
 
 
 @pytest.mark.parametrize("name", ["p.svg", "P.SVG", "drawing", "p.xml"])
