@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,8 +36,54 @@ class Stamp:
     digest: str
 
     def same_content(self, other: Stamp) -> bool:
-        """Whether both are of the same content; the time does not count, since a copy changes it."""
-        return (self.size, self.digest) == (other.size, other.digest)
+        """Whether both are of the same content; the time does not count, since a copy changes it.
+
+        Journals of format 1 hold only the first half of the sum.
+        """
+        digits = min(len(self.digest), len(other.digest))
+        return self.size == other.size and self.digest[:digits] == other.digest[:digits]
+
+
+class NotAFileError(OSError):
+    """Something else stands where a file was to be read: `what` says what."""
+
+    def __init__(self, path: Path, mode: int) -> None:
+        super().__init__(errno.EISDIR, "no file", str(path))
+        self.what = next(what for test, what in _OTHER_THINGS if test(mode))
+
+
+_OTHER_THINGS: Final[tuple[tuple[Callable[[int], bool], str], ...]] = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (lambda mode: stat.S_ISCHR(mode) or stat.S_ISBLK(mode), "a device"),
+    (lambda _: True, "no file"),
+)
+
+
+def read_file(path: Path, most: int) -> tuple[bytes, os.stat_result]:
+    """A file's content, and its status; OSError at once for what is no file, and for one of more than `most` bytes.
+
+    Nothing else is opened: a pipe would be waited for, and opening a device may do something.
+    """
+    _only_a_file(path, path.stat())
+    handle = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        _only_a_file(path, status)
+        return _whole(file, most), status
+
+
+def read_start(path: Path, most: int) -> bytes:
+    """The first bytes of a file; OSError at once for what is no file."""
+    _only_a_file(path, path.stat())
+    with path.open("rb") as file:
+        return file.read(most)
+
+
+def _only_a_file(path: Path, status: os.stat_result) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        raise NotAFileError(path, status.st_mode)
 
 
 def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
@@ -45,12 +92,11 @@ def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
     return Stamp(len(data), changed, f"{crc32(data):08x}{adler32(data):08x}")
 
 
-def stamp_of(path: Path) -> Stamp | None:
+def stamp_of(path: Path, most: int = LARGEST_FILE) -> Stamp | None:
     """The file's stamp as it is now, None where there is no file that can be read."""
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
-            return stamp_of_data(data, os.fstat(file.fileno()).st_mtime_ns)
+        data, status = read_file(path, most)
+        return stamp_of_data(data, status.st_mtime_ns)
     except (OSError, ValueError):
         return None
 
@@ -59,7 +105,7 @@ def load(path: str | Path) -> Program:
     """The program of a file; StoreError says what is wrong with it and what to do."""
     path = Path(path)
     try:
-        data = _content(path)
+        data, _ = read_file(path, LARGEST_FILE)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} cannot be read: {why(error)}") from error
     return loads_bytes(data, str(path))
@@ -74,16 +120,9 @@ def load_from(stream: BinaryIO, name: str) -> Program:
     return loads_bytes(data, name)
 
 
-def _content(path: Path) -> bytes:
-    if not stat.S_ISREG(path.stat().st_mode):
-        raise IsADirectoryError(errno.EISDIR, "no file")
-    with path.open("rb") as file:
-        return _whole(file)
-
-
-def _whole(file: BinaryIO) -> bytes:
-    data = file.read(LARGEST_FILE + 1)
-    if len(data) > LARGEST_FILE:
+def _whole(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
+    data = file.read(most + 1) or b""
+    if len(data) > most:
         raise OSError(errno.EFBIG, "too large")
     return data
 
@@ -129,13 +168,9 @@ def refuse_program(path: Path) -> None:
 def _is_program(path: Path) -> bool:
     if path.suffix.lower() == ".toml":
         return True
-    if not path.is_file():
-        # a pipe would be waited for
-        return False
     try:
-        with path.open("rb") as file:
-            return file.readline(80).startswith(b"format =")
-    except OSError:
+        return read_start(path, 80).startswith(b"format =")
+    except (OSError, ValueError):
         return False
 
 
@@ -166,7 +201,7 @@ def _status(target: Path) -> os.stat_result | None:
     except FileNotFoundError:
         return None
     if not stat.S_ISREG(old.st_mode):
-        raise IsADirectoryError(errno.EISDIR, "no file")
+        raise NotAFileError(target, old.st_mode)
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, "write protected")
     return old
@@ -191,6 +226,8 @@ def sync_folder(folder: Path) -> None:
 
 def why(error: OSError | ValueError) -> str:
     """The reason why a file cannot be read or written, and the remedy."""
+    if isinstance(error, NotAFileError):
+        return f"this is {error.what}. Choose the name of a file."
     match error.errno if isinstance(error, OSError) else None:
         case errno.ENOSPC | errno.EDQUOT:
             return "the disk is full. Make room or save elsewhere."

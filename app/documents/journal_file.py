@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 from zlib import crc32
 
-from app.documents.files import sync_folder, write_all, write_text
+from app.documents.files import sync_folder, write_all
 
 Record = Mapping[str, Any]
 """One line of the journal."""
@@ -102,7 +102,7 @@ class JournalFile:
         except OSError:
             return None
         try:
-            self._fill(handle)
+            self._fill(handle, self.unwritten)
             _name(handle, self.path)
         except OSError:
             os.close(handle)
@@ -112,7 +112,7 @@ class JournalFile:
     def _named_first(self) -> int:
         handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
         try:
-            self._fill(handle)
+            self._fill(handle, self.unwritten)
         except OSError:
             os.close(handle)
             with suppress(OSError):
@@ -120,14 +120,14 @@ class JournalFile:
             raise
         return handle
 
-    def _fill(self, handle: int) -> None:
+    def _fill(self, handle: int, data: bytes) -> None:
         if self.program is not None:
             _share(handle, self.program)
-        write_all(handle, self.unwritten)
+        write_all(handle, data)
         os.fsync(handle)
 
     def replace(self, records: Iterable[Record]) -> None:
-        """Put a shorter journal in the place of this one, in one step; StoreError leaves the long one."""
+        """Put a journal with these lines in the place of this one, in one step; OSError leaves the one that stands."""
         data, total = lines(records)
         if self.handle is not None and self.standing() != self.path:
             # somebody has taken over: what stands in the place is not ours
@@ -135,10 +135,25 @@ class JournalFile:
             self.unwritten, self.total = data, total
             self._create()
             return
-        write_text(self.path, data.decode())
+        handle = self._beside_first(data)
         self.close()
-        self.unwritten, self.total, self.length = b"", total, len(data)
-        self.handle = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
+        self.unwritten, self.total, self.length, self.handle = b"", total, len(data), handle
+
+    def _beside_first(self, data: bytes) -> int:
+        """The open file, written beside its place and renamed into it."""
+        new = new_path(self.path)
+        new.unlink(missing_ok=True)
+        handle = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
+        try:
+            self._fill(handle, data)
+            new.replace(self.path)
+        except OSError:
+            os.close(handle)
+            with suppress(OSError):
+                new.unlink()
+            raise
+        sync_folder(self.path.parent)
+        return handle
 
     def put_away(self) -> bool:
         """Remove the file after a save; its lines go first into the next one.  False where they are too many."""
@@ -168,6 +183,12 @@ class JournalFile:
                 if os.path.samestat(path.stat(), status):
                     return path
         return None
+
+    def lost(self) -> bool:
+        """Whether the file that was written is gone: removed, moved away, replaced, or not as long as it was."""
+        if self.handle is None:
+            return False
+        return os.fstat(self.handle).st_size != self.length or self.standing() is None
 
     def close(self) -> None:
         """Leave the file where it is."""
@@ -201,6 +222,11 @@ def journal_path(path: Path) -> Path:
     """The journal of a program file: hidden, next to the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
     return target.with_name(f".{target.name[:200]}{SUFFIX}")
+
+
+def new_path(path: Path) -> Path:
+    """Where a journal is written that is to take the place of another; a program that was killed may leave it."""
+    return path.with_name(f"{path.name}.new")
 
 
 def asides(path: Path) -> list[Path]:

@@ -7,11 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from app.documents.files import read_start
 from core.program.edit import new_block
 from core.program.model import Number, Program, Tool
 from core.units import Unit
 
 _PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
+SEARCHED_BYTES: Final = 4096
+"""Bytes in which a program says that it is one."""
 
 
 def example(name: str) -> Path:
@@ -32,11 +35,15 @@ def empty_program(unit: Unit = Unit.IN) -> Program:
     return replace(program, blocks=(new_block(program),))
 
 
+def holds_program(data: bytes) -> bool:
+    """Whether the content of a file, or its beginning, is that of one of our own programs."""
+    return _PROGRAM.search(data[:SEARCHED_BYTES]) is not None
+
+
 def is_program(path: Path) -> bool:
     """Whether a file may be one of our own programs; one that cannot be read may be."""
     try:
-        with path.open("rb") as file:
-            return _PROGRAM.search(file.read(4096)) is not None
+        return holds_program(read_start(path, SEARCHED_BYTES))
     except OSError:
         return True
 

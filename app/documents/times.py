@@ -31,6 +31,17 @@ def told(text: str, today: str) -> str:
     return f"on {time.day} {time:%b %Y} at {time:%H:%M}"
 
 
+def short(text: str, today: str) -> str:
+    """`12:32 today`, `3 May 2025 12:32`; a time that cannot be read as it stands."""
+    try:
+        time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
+    except ValueError:
+        return printable(text) or "at an unknown time"
+    if time.date() == day.date():
+        return f"{time:%H:%M} today"
+    return f"{time.day} {time:%b %Y %H:%M}"
+
+
 def stamp(text: str) -> str:
     """A time as part of a file's name."""
     return "".join(one for one in text[:19].replace("T", "-") if one.isdigit() or one == "-")

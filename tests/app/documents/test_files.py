@@ -65,14 +65,14 @@ def refusal(act: Callable[[], object]) -> str:
 
 
 def test_loading_what_is_no_file(tmp_path):
-    assert refusal(lambda: load(tmp_path)).endswith("this is not a file. Choose the name of a file.")
+    assert refusal(lambda: load(tmp_path)).endswith("this is a folder. Choose the name of a file.")
     missing = tmp_path / "none.toml"
     words = f"{missing} cannot be read: there is no such file or folder. Check the name."
     assert refusal(lambda: load(missing)) == words
     assert refusal(lambda: load(tmp_path / "a\0b")).endswith("that is not a file name. Choose another.")
     assert refusal(lambda: load(tmp_path / ("n" * 300))).endswith("the name is too long. Choose a shorter one.")
     os.mkfifo(tmp_path / "pipe")
-    assert refusal(lambda: load(tmp_path / "pipe")).endswith("this is not a file. Choose the name of a file.")
+    assert refusal(lambda: load(tmp_path / "pipe")).endswith("this is a pipe. Choose the name of a file.")
 
 
 def test_loading_what_is_no_text(tmp_path):
@@ -90,12 +90,12 @@ def test_loading_what_may_not_be_read(tmp_path, monkeypatch):
     def forbidden(*_args: object, **_named: object) -> None:
         raise PermissionError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", forbidden)
+    monkeypatch.setattr(os, "open", forbidden)
     assert refusal(lambda: load(path)).endswith("it is protected. Ask for permission, or choose another place.")
 
 
 def test_saving_where_no_file_can_be(tmp_path):
-    assert refusal(lambda: save(PART, tmp_path)).endswith("this is not a file. Choose the name of a file.")
+    assert refusal(lambda: save(PART, tmp_path)).endswith("this is a folder. Choose the name of a file.")
     nowhere = tmp_path / "none" / "part.toml"
     assert refusal(lambda: save(PART, nowhere)).startswith(f"{nowhere} is not saved: there is no such file or folder.")
     assert refusal(lambda: save(PART, tmp_path / "a\0b")).endswith("that is not a file name. Choose another.")
@@ -216,5 +216,5 @@ def test_output_is_never_written_over_a_program(tmp_path):
 
 def test_output_does_not_wait_for_a_pipe(tmp_path):
     os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(StoreError, match="this is not a file"):
+    with pytest.raises(StoreError, match="this is a pipe"):
         write_output(tmp_path / "pipe", "M2")

@@ -1,0 +1,305 @@
+"""What is open: a contour program or an NC text, each with its file, behind one protocol."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final, Protocol, Self, TypeVar
+
+from app.documents import contour_journal, nc_journal
+from app.documents.files import LARGEST_FILE, Stamp
+from app.documents.journal import Journal, Kind, Place
+from app.documents.journal_file import Record
+from app.documents.lock import Owner
+from app.documents.nc_text import MAX_NC_BYTES, NcText
+from core.program import history as program_history
+from core.program.edit import FormPlace
+from core.program.file.read import StoreError, loads_bytes
+from core.program.file.write import dumps
+from core.program.history import History
+from core.program.model import Program
+
+SEGMENT: Final = "segment"
+"""The field on which the cursor stands when a program is opened."""
+FIRST_START: Final = FormPlace(1, 0)
+"""START of block 1."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FileState:
+    """The file of a document.
+
+    `path` is None until it has a name.  `stamp` is the file's as it was read or saved last, None where there was none
+    that could be read.  `holder` is somebody else who has it open: then the document may only be looked at.
+    `link_agreed` says that the operator agreed to write where a link leads.  `opening` tells one opening of a file from
+    another.
+    """
+
+    path: Path | None = None
+    stamp: Stamp | None = None
+    holder: Owner | None = None
+    link_agreed: bool = False
+    opening: object = field(default_factory=object)
+
+
+class Document(Protocol):
+    """What both kinds of document can do; a value, so that every edit makes a new one."""
+
+    @property
+    def kind(self) -> Kind:
+        """Which of the two it is."""
+        ...
+
+    @property
+    def file(self) -> FileState:
+        """Its file."""
+        ...
+
+    @property
+    def unsaved(self) -> bool:
+        """The file does not hold the document as it is now."""
+        ...
+
+    @property
+    def place(self) -> Place:
+        """Where the operator is, for the journal."""
+        ...
+
+    def data(self) -> bytes:
+        """The text of the file as it would be written."""
+        ...
+
+    def with_file(self, file: FileState) -> Self:
+        """The same work on another file."""
+        ...
+
+    def saved(self, file: FileState) -> Self:
+        """After the file was written with the document as it is now."""
+        ...
+
+    def same_edits(self, other: Self) -> bool:
+        """Whether nothing was edited, undone or redone between the two."""
+        ...
+
+    def whole_records(self) -> Iterator[Record]:
+        """All work, as the records of a journal that begins."""
+        ...
+
+    def records_since(self, before: Self) -> list[Record] | None:
+        """The edits since an earlier state; None where the one does not lead to the other."""
+        ...
+
+    def restored(self, journal: Journal) -> Self:
+        """The work of a journal in this one's place; ValueError where it is of the other kind."""
+        ...
+
+    def holds(self, journal: Journal) -> bool:
+        """Whether this is the work of a journal already."""
+        ...
+
+    def differences(self, journal: Journal) -> tuple[str, ...]:
+        """What the work of a journal has otherwise, in an operator's words."""
+        ...
+
+    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        """What a file's content has otherwise than the file when it was opened, and what this has otherwise than it.
+
+        None where the content is no document of this kind.
+        """
+        ...
+
+
+AnyDocument = TypeVar("AnyDocument", bound=Document)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ContourDocument:
+    """A contour program with its undo and the cursor; `title` names the example that it began with."""
+
+    history: History
+    saved_program: Program
+    file: FileState = field(default_factory=FileState)
+    cursor: FormPlace = FIRST_START
+    field_name: str = SEGMENT
+    title: str = ""
+
+    @classmethod
+    def of(cls, program: Program, file: FileState | None = None, *, title: str = "") -> Self:
+        """A program that its file holds, or that nobody has edited."""
+        return cls(History(program), program, FileState() if file is None else file, title=title)
+
+    @classmethod
+    def read(cls, data: bytes, file: FileState) -> Self:
+        """The program of a file's content; StoreError says what is wrong with it."""
+        return cls.of(loads_bytes(data, str(file.path)), file)
+
+    @property
+    def kind(self) -> Kind:
+        """A contour program."""
+        return Kind.CONTOUR
+
+    @property
+    def program(self) -> Program:
+        """The program as it is now."""
+        return self.history.program
+
+    @property
+    def unsaved(self) -> bool:
+        """The file does not hold the program as it is now."""
+        return self.program is not self.saved_program and self.program != self.saved_program
+
+    @property
+    def place(self) -> Place:
+        """Block, segment and name of the field."""
+        return (self.cursor.block, self.cursor.segment, self.field_name)
+
+    def edited(self, history: History, cursor: FormPlace, name: str) -> Self:
+        """After an edit, an undo, or a move of the cursor."""
+        return replace(self, history=history, cursor=cursor, field_name=name)
+
+    def data(self) -> bytes:
+        """The text of the program's file."""
+        return dumps(self.program).encode()
+
+    def with_file(self, file: FileState) -> Self:
+        """The same work on another file."""
+        return replace(self, file=file)
+
+    def saved(self, file: FileState) -> Self:
+        """After the file was written."""
+        return replace(self, file=file, saved_program=self.program)
+
+    def same_edits(self, other: Self) -> bool:
+        """Whether nothing was edited, undone or redone between the two."""
+        return self.history is other.history
+
+    def whole_records(self) -> Iterator[Record]:
+        """All work, as the records of a journal that begins."""
+        return contour_journal.whole_records(self.history)
+
+    def records_since(self, before: Self) -> list[Record] | None:
+        """The edits since an earlier state."""
+        return contour_journal.records_between(before.history, self.history)
+
+    def restored(self, journal: Journal) -> Self:
+        """The work of a journal, the cursor where it was."""
+        history, place = _history_of(journal), journal.place
+        match place:
+            case (int(block), int(segment), str(name)):
+                return replace(self, history=history, cursor=FormPlace(block, segment), field_name=name)
+            case _:
+                return replace(self, history=history)
+
+    def holds(self, journal: Journal) -> bool:
+        """Whether this is the program of a journal already."""
+        return _history_of(journal).program == self.program
+
+    def differences(self, journal: Journal) -> tuple[str, ...]:
+        """What the program of a journal has otherwise."""
+        return program_history.differences(self.program, _history_of(journal).program)
+
+    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        """What a file's program has otherwise than the saved one, and what this has otherwise than it."""
+        try:
+            theirs = loads_bytes(data, "")
+        except StoreError:
+            return None
+        return program_history.differences(self.saved_program, theirs), program_history.differences(
+            theirs, self.program
+        )
+
+
+def _history_of(journal: Journal) -> History:
+    if not isinstance(journal.work, History):
+        raise ValueError("a journal of an NC text")
+    return journal.work
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NcDocument:
+    """An NC text with its undo, and the row of the cursor."""
+
+    text: NcText = field(default_factory=NcText)
+    file: FileState = field(default_factory=FileState)
+    row: int = 0
+
+    @classmethod
+    def read(cls, data: bytes, file: FileState) -> Self:
+        """The text of a file's content."""
+        return cls(NcText.read(data), file)
+
+    @property
+    def kind(self) -> Kind:
+        """An NC text."""
+        return Kind.NC
+
+    @property
+    def unsaved(self) -> bool:
+        """The file does not hold the lines as they are."""
+        return self.text.unsaved
+
+    @property
+    def place(self) -> Place:
+        """The row of the cursor, from 0."""
+        return (self.row,)
+
+    def edited(self, text: NcText, row: int) -> Self:
+        """After an edit, an undo, or a move of the cursor."""
+        return replace(self, text=text, row=row)
+
+    def data(self) -> bytes:
+        """The file's content: what nobody touched byte by byte."""
+        return self.text.data
+
+    def with_file(self, file: FileState) -> Self:
+        """The same work on another file."""
+        return replace(self, file=file)
+
+    def saved(self, file: FileState) -> Self:
+        """After the file was written."""
+        return replace(self, file=file, text=self.text.written(self.text.data))
+
+    def same_edits(self, other: Self) -> bool:
+        """Whether nothing was edited, undone or redone between the two."""
+        return self.text.past is other.text.past and self.text.future is other.text.future
+
+    def whole_records(self) -> Iterator[Record]:
+        """All work, as the records of a journal that begins."""
+        return nc_journal.whole_records(self.text)
+
+    def records_since(self, before: Self) -> list[Record] | None:
+        """The edits since an earlier state."""
+        return nc_journal.records_between(before.text, self.text)
+
+    def restored(self, journal: Journal) -> Self:
+        """The work of a journal; where an undo of it leads back to this text, nothing is unsaved there."""
+        text = _text_of(journal)
+        work = replace(text, origin=self.text.origin)
+        if self.file.stamp is not None:
+            work = nc_journal.known_in_file(work, self.text)
+        row = journal.place[0] if journal.place else work.past[-1].row if work.past else 0
+        return replace(self, text=work, row=row if isinstance(row, int) else 0)
+
+    def holds(self, journal: Journal) -> bool:
+        """Whether these are the lines of a journal already."""
+        return "".join(_text_of(journal).lines) == "".join(self.text.lines)
+
+    def differences(self, journal: Journal) -> tuple[str, ...]:
+        """What the lines of a journal have otherwise."""
+        return nc_journal.differences(self.text, _text_of(journal))
+
+    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        """What a file's lines have otherwise than the file as it was opened, and what these have otherwise than it."""
+        theirs = NcText.read(data)
+        return nc_journal.differences(NcText.read(self.text.origin), theirs), nc_journal.differences(theirs, self.text)
+
+
+def _text_of(journal: Journal) -> NcText:
+    if not isinstance(journal.work, NcText):
+        raise ValueError("a journal of a contour program")
+    return journal.work
+
+
+MAX_BYTES: Final = {Kind.CONTOUR: LARGEST_FILE, Kind.NC: MAX_NC_BYTES}
+"""Bytes of the largest file of a kind."""

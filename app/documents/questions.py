@@ -1,0 +1,262 @@
+"""What an operator is asked about files: questions as values, with the words of their titles, lines and answers.
+
+The answer GO BACK belongs to every question; it changes nothing.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from app.documents import times
+from app.documents.document import Document
+from app.documents.folders import folder, told_path
+from app.documents.journal import Journal, Kind
+from app.documents.left_overs import UNNAMED, Unreadable
+from app.documents.lock import Owner
+from core.units import printable
+
+GO_BACK: Final = "GO BACK"
+SAVE: Final = "SAVE"
+DISCARD: Final = "DISCARD"
+RESTORE: Final = "RESTORE"
+NOT_MINE: Final = "LEAVE IT"
+GO_ON: Final = "CONTINUE"
+LOOK: Final = "LOOK"
+TAKE_OVER: Final = "TAKE OVER"
+REPLACE: Final = "REPLACE"
+WRITE_THERE: Final = "WRITE THERE"
+WRITE_ANYWAY: Final = "OVERWRITE"
+KEEP_BOTH: Final = "KEEP BOTH"
+YOURS: Final = "YOURS"
+THEIRS: Final = "THEIRS"
+FILE_AS_IT_IS: Final = "FILE AS IT IS"
+MAX_DIFFERENCES: Final = 6
+"""Differences that a question lists."""
+FEW_DIFFERENCES: Final = 3
+"""Differences of either version where two are listed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """An answer: its word, whose first letter is its key, and what it does."""
+
+    word: str
+    effect: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """A question: its title, the lines (the loss first), the answers, the word of the one chosen at first.
+
+    `details` are listed under the lines, as far as there is room.
+    """
+
+    title: str
+    lines: tuple[str, ...]
+    answers: tuple[Answer, ...]
+    safe: str = GO_BACK
+    details: tuple[str, ...] = ()
+
+
+# ---- names
+
+
+def name_of(document: Document) -> str:
+    """The document as a sentence names it."""
+    path = document.file.path
+    if path is not None:
+        return printable(path.name)
+    return "The NC text" if document.kind is Kind.NC else "This program"
+
+
+def person(owner: Owner) -> str:
+    """Who somebody is."""
+    return f"{printable(owner.user)}{f' on {printable(owner.host)}' if owner.host else ''}"
+
+
+def held_sentence(owner: Owner, today: str) -> str:
+    """Who has a document open, and since when."""
+    when = times.told(owner.since, today).removeprefix("at ").removeprefix("on ")
+    return f"{person(owner)} has had this program open{f' since {when}' if owner.since else ''}."
+
+
+def whole_name(path: Path) -> str:
+    """A file's name in full, without control characters."""
+    return told_path(path.name)
+
+
+def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
+    """The first few, and how many more there are."""
+    rest = len(details) - most
+    return tuple(details) if rest <= 0 else (*details[:most], f"And {rest} more.")
+
+
+# ---- before leaving
+
+
+def leaving(title: str, documents: Sequence[Document]) -> Ask | None:
+    """Before documents are closed: what would be lost; None where all of them are saved."""
+    unsaved = [document for document in documents if document.unsaved]
+    if not unsaved:
+        return None
+    lines = tuple(f"{name_of(document)} {_loss(document)}" for document in unsaved)
+    answers = (Answer(DISCARD, "the changes are lost"), Answer(SAVE, "then go on"))
+    return Ask(title, lines, answers)
+
+
+def _loss(document: Document) -> str:
+    if document.file.path is None:
+        return "was never saved."
+    return "has changes that are not saved."
+
+
+# ---- before a file is written
+
+
+def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
+    """The one question before a file outside the chosen folder is written; it says what would be replaced there."""
+    target = Path(os.path.realpath(path))
+    whose = "current" if file is None else "program's"
+    lines = [f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}."]
+    if path.is_symlink():
+        lines.append(f"{told_path(path)} leads there.")
+    lines += _replaced(target, holder) if target.exists() else []
+    return Ask("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
+
+
+def write_through_link(path: Path) -> Ask:
+    """Before a document's own file is written, which is a link into another folder."""
+    target = told_path(os.path.realpath(path))
+    line = f"{told_path(path)} is a link to {target} in another folder."
+    return Ask("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
+
+
+def replace_file(path: Path, holder: Owner | None) -> Ask:
+    """Somebody's file stands in the place."""
+    target = f", which leads to {told_path(os.path.realpath(path))}" if path.is_symlink() else ""
+    first, *rest = _replaced(path, holder)
+    lines = (f"{told_path(path)}{target} exists. {first}", *rest)
+    return Ask("REPLACE THE FILE?", lines, (Answer(REPLACE),))
+
+
+def _replaced(path: Path, holder: Owner | None) -> list[str]:
+    exists = "Its content is replaced." if path.exists() else "It leads nowhere."
+    return [exists] if holder is None else [exists, f"{person(holder)} has it open."]
+
+
+def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
+    """Somebody has taken the document over since it was opened."""
+    lines = (f"{person(owner)} has taken {printable(path.name)} over.",)
+    answers = (Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"), Answer(WRITE_ANYWAY, "theirs is replaced"))
+    return Ask("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
+
+
+def changed_meanwhile(
+    document: Document, written: str, copy: Path, compared: tuple[tuple[str, ...], tuple[str, ...]] | None
+) -> Ask:
+    """The file is not as it was read: both versions are kept, whichever gets the name.
+
+    `written` is when the file was changed, in words; `compared` is what differs, None where the file cannot be read.
+    """
+    name = name_of(document)
+    unread = document.file.stamp is None and compared is None
+    if unread:
+        # nobody need have changed it: it could not be read when it was opened
+        title, word, first = "REPLACE THE FILE?", FILE_AS_IT_IS, f"{name} cannot be read. It was written {written}."
+    else:
+        title, word, first = "CHANGED MEANWHILE", THEIRS, f"{name} was changed by somebody else {written}."
+    answers = (
+        Answer(YOURS, "the other one is kept under another name"),
+        Answer(word, f"yours is saved as {whole_name(copy)}"),
+    )
+    lines = (first, "Which one gets the name? Both are kept.")
+    return Ask(title, lines, answers, details=() if unread else _versions(compared))
+
+
+def _versions(compared: tuple[tuple[str, ...], tuple[str, ...]] | None) -> tuple[str, ...]:
+    if compared is None:
+        return ("It is no program any more.",)
+    theirs, yours = compared
+    since = shortened(theirs, FEW_DIFFERENCES) or ("It holds the same as when it was opened.",)
+    return (*since, *(("Yours, compared with it:", *shortened(yours, FEW_DIFFERENCES)) if yours else ()))
+
+
+# ---- when a file is opened
+
+
+def open_already(owner: Owner, today: str) -> Ask:
+    """Somebody else has the document open."""
+    lines = (held_sentence(owner, today),)
+    answers = (
+        Answer(LOOK, "nothing can be changed; SAVE AS makes a copy of your own"),
+        Answer(TAKE_OVER, "the other one is told before saving"),
+    )
+    return Ask("OPEN ALREADY", lines, answers, safe=LOOK)
+
+
+def unsaved_work(
+    document: Document, journal: Journal, *, mine: bool, me: Owner, living: bool, chosen: bool, today: str
+) -> Ask:
+    """Work that a program which died has left.  `chosen`: somebody wants it back from the list of OPEN."""
+    owner, path = journal.head.owner, document.file.path
+    name = "No name" if path is None else printable(path.name)
+    by = "" if (owner.user, owner.host) == (me.user, me.host) else f" by {person(owner)}"
+    edits = f"{journal.edits} edit{'' if journal.edits == 1 else 's'}"
+    lines = [f"{name}{by}, {times.short(journal.time, today)}, {edits}."]
+    if path is not None and document.file.stamp is None and os.path.lexists(path):
+        lines.append(f"{printable(path.name)} itself cannot be read; it stays as it is.")
+    elif path is not None and document.kind is Kind.NC and document.file.stamp is None:
+        lines.append("The file itself is gone: saving makes it anew.")
+    elif _written_since(document, journal):
+        lines.append("The file was written since: by somebody else, or by this program just before its end.")
+    if living and owner != me:
+        lines.append("The other terminal may still be in use: who sits there can go on typing, and is told at saving.")
+    if not mine:
+        lines.append(f"It stays kept for {printable(owner.user)}, whatever you answer.")
+    if journal.damaged:
+        lines.append("The end of it cannot be read and is kept as a backup.")
+    if chosen:
+        without = Answer(NOT_MINE, "it stays in the list")
+    elif mine:
+        without = Answer(DISCARD, "kept as a backup; Ctrl+O lists it")
+    else:
+        without = Answer(NOT_MINE, "it stays kept for its owner")
+    details = shortened(document.differences(journal), MAX_DIFFERENCES)
+    compared = (f"Compared with {_compared_with(document)}:", *details) if details else ()
+    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), without), safe=RESTORE, details=compared)
+
+
+def _written_since(document: Document, journal: Journal) -> bool:
+    now, then = document.file.stamp, journal.head.stamp
+    return document.file.path is not None and now is not None and (then is None or not now.same_content(then))
+
+
+def _compared_with(document: Document) -> str:
+    if document.file.stamp is not None:
+        return "the saved file"
+    title = getattr(document, "title", "")
+    return f"the example {title}" if title else "a new program"
+
+
+def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:
+    """Nobody can restore it; it must not be overlooked all the same."""
+    who, when = printable(left.user), times.short(left.time, today)
+    name = UNNAMED if document.file.path is None else printable(document.file.path.name)
+    if left.what:
+        lines = [f"In place of the unsaved work on {name} there is {left.what}."]
+    elif left.hidden:
+        lines = [f"{who} has unsaved work on {name}, {when}. You may not read it."]
+        lines.append(f"It is kept, and {who} is asked about it at the next start on this program.")
+    else:
+        lines = [f"Unsaved work on {name}, {when}, is damaged and cannot be read.", "It is kept."]
+    lines.append(f"The file is {whole_name(path)}.")
+    answers = [Answer(GO_ON, "without it")]
+    if left.ours and not left.hidden:
+        answers.append(Answer(DISCARD, "kept as a backup; Ctrl+O lists it"))
+    return Ask(
+        "UNSAVED WORK IS DAMAGED" if not left.hidden else "UNSAVED WORK FOUND", tuple(lines), tuple(answers), GO_ON
+    )

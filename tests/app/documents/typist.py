@@ -1,0 +1,149 @@
+"""An operator who types into a document through the service alone, and who may die at any moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from app.documents.document import ContourDocument, Document, FileState, NcDocument
+from app.documents.lock import Owner, myself
+from app.documents.questions import Ask
+from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
+from core.program.edit import FormPlace, type_field
+from core.program.model import Number, Program
+
+TIME = "2025-03-04T06:05:00+01:00"
+DEAD = Owner("ann", myself("").host, 2**22 + 17, "", "2025-03-04T06:00:00+01:00")
+"""A process of this host that is dead whenever somebody looks."""
+BOB = replace(DEAD, user="bob", pid=DEAD.pid + 1)
+ALIVE = replace(myself("2025-03-04T06:01:00+01:00"), user="ann")
+"""A program of ann's that still runs."""
+ELSEWHERE = Owner("bob", "office", 7, "", "2025-03-04T05:00:00+01:00")
+"""A process of another host, which may always be alive."""
+NC = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
+
+
+@dataclass
+class Typist:
+    """What the App does with the service: every edit is kept before the next one is made."""
+
+    service: DocumentService
+    document: Any
+    offer: Offer | None = None
+    notice: Notice | None = None
+
+    def took(self, opened: Opened[Any]) -> Typist:
+        self.document, self.notice, self.offer = opened.document, opened.notice, opened.offer
+        return self
+
+    @property
+    def said(self) -> str:
+        return "" if self.notice is None else self.notice.text
+
+    @property
+    def asked(self) -> str:
+        """The words of the question that is to be answered."""
+        return "" if self.offer is None else words(self.offer.ask)
+
+    def answer(self, word: str) -> Typist:
+        assert self.offer is not None
+        assert word == "GO BACK" or word in [answer.word for answer in self.offer.ask.answers]
+        return self.took(self.service.answer(self.document, self.offer, word))
+
+    def keep(self, document: Document) -> Typist:
+        self.document = document
+        self.notice = self.service.keep(document)
+        return self
+
+    def type(self, *numbers: float) -> Typist:
+        """One edit a number: TOOL of block 1, or the first line of the text."""
+        for number in numbers:
+            document = self.document
+            if isinstance(document, ContourDocument):
+                program = type_field(document.program, FormPlace(1), "tool", Number(float(number)))
+                assert isinstance(program, Program)
+                history = document.history.do(program, "TOOL")
+                self.keep(document.edited(history, FormPlace(1), "tool"))
+            else:
+                self.keep(document.edited(document.text.changed(0, f"T{number:g}"), 0))
+        return self
+
+    def undo(self) -> Typist:
+        document = self.document
+        if isinstance(document, ContourDocument):
+            return self.keep(document.edited(document.history.undo(), document.cursor, document.field_name))
+        return self.keep(document.edited(document.text.undone(), document.row))
+
+    def redo(self) -> Typist:
+        document = self.document
+        if isinstance(document, ContourDocument):
+            return self.keep(document.edited(document.history.redo(), document.cursor, document.field_name))
+        return self.keep(document.edited(document.text.redone(), document.row))
+
+    def try_to_save(self, path: Path | None = None, *answers: str) -> Ask | Trouble | Saved[Any]:
+        return self.service.save(self.document, path, frozenset(answers))
+
+    def save(self, path: Path | None = None, *answers: str) -> Typist:
+        saved = self.try_to_save(path, *answers)
+        assert isinstance(saved, Saved), saved
+        self.document, self.notice = saved.document, saved.notice
+        return self
+
+    @property
+    def number(self) -> float:
+        """What was typed last."""
+        document = self.document
+        if isinstance(document, NcDocument):
+            return float(document.text.text(0).removeprefix("T").partition(" ")[0].replace("G20", "1"))
+        tool = document.program.blocks[0].tool
+        assert isinstance(tool, Number)
+        return tool.value
+
+    @property
+    def work(self) -> object:
+        """Everything that can be undone and redone, for comparing."""
+        document = self.document
+        if isinstance(document, ContourDocument):
+            return document.history
+        states = [document.text]
+        while states[-1].past:
+            states.append(states[-1].undone())
+        return ([state.lines for state in states], len(document.text.future))
+
+    def killed(self) -> None:
+        """kill -9: nothing is done any more; only the handles are closed, so that tests can have many."""
+        for kept in self.service._open.values():
+            if kept.journal is not None:
+                kept.journal.close()
+
+    def left(self) -> None:
+        """Everything saved or given up."""
+        self.service.close(self.document)
+
+
+def words(ask: Ask) -> str:
+    return " ".join((ask.title, *ask.lines, *ask.details, *(f"{one.word} {one.effect}" for one in ask.answers)))
+
+
+def service(own: Path, me: Owner = DEAD, clock: str = TIME) -> DocumentService:
+    return DocumentService(me, own, lambda: clock)
+
+
+def started(own: Path, file: Path | None = None, me: Owner = DEAD, clock: str = TIME) -> Typist:
+    """The program started on a file, or on none; `own` is the person's folder."""
+    documents = service(own, me, clock)
+    opened = documents.new(offers=True) if file is None else documents.open(file)
+    assert isinstance(opened, Opened), opened
+    return Typist(documents, None).took(opened)
+
+
+def number_in(file: Path) -> float:
+    """What a file holds, as it was typed."""
+    kind = NcDocument if file.suffix == ".nc" else ContourDocument
+    return Typist(service(file.parent), kind.read(file.read_bytes(), FileState(file))).number
+
+
+def names(path: Path) -> list[str]:
+    """What lies beside a document."""
+    return sorted(one.name for one in path.parent.iterdir() if one != path)
