@@ -17,7 +17,7 @@ from types import MappingProxyType
 from typing import Any, Final, TypeVar, get_type_hints
 
 from app.documents.journal_file import Record
-from core.program.fields import TABLES, Form, check
+from core.program.fields import Form, field_of, value_refusal
 from core.program.history import History, Step, splice
 from core.program.model import (
     ArcSegment,
@@ -335,8 +335,8 @@ def _choice(value: object) -> int | None:
 
 def _lookahead(value: object) -> Typed:
     """As in a program file: the form never holds a number out of its range."""
-    typed, lookahead = _typed(value), next(one for one in TABLES[Form.START] if one.name == "lookahead")
-    if isinstance(typed, Number) and check(lookahead, typed.value, Unit.IN):
+    typed, lookahead = _typed(value), field_of(Form.START, "lookahead")
+    if isinstance(typed, Number) and value_refusal(lookahead, typed.value, Unit.IN):
         raise DamagedError
     return typed
 
