@@ -18,7 +18,7 @@ from typing import Any, Final, TypeVar, get_type_hints
 
 from app.documents.journal_file import Record
 from core.program.fields import Form, field_of, value_refusal
-from core.program.history import History, Step, splice
+from core.program.history import History, UndoStep, splice
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -90,7 +90,7 @@ def records_between(old: History, new: History) -> list[Record] | None:
     return records if now == new else None
 
 
-def _common_steps(old: tuple[Step, ...], new: tuple[Step, ...]) -> int:
+def _common_steps(old: tuple[UndoStep, ...], new: tuple[UndoStep, ...]) -> int:
     """How many steps both begin with; nearly always all of the shorter one."""
     shorter = min(len(old), len(new))
     if old[:shorter] == new[:shorter]:
@@ -103,8 +103,8 @@ class ContourReplay:
     """The edits of a journal made again; lists, since histories are copied at each step."""
 
     program: Program
-    past: list[Step] = field(default_factory=list)
-    future: list[Step] = field(default_factory=list)
+    past: list[UndoStep] = field(default_factory=list)
+    future: list[UndoStep] = field(default_factory=list)
 
     @classmethod
     def begun(cls, base: object) -> ContourReplay:
@@ -114,7 +114,7 @@ class ContourReplay:
     def do(self, label: str, values: object) -> None:
         """One edit; DamagedError leaves everything as it was."""
         after = applied(self.program, values)
-        self.past.append(Step(self.program, text_of(label)))
+        self.past.append(UndoStep(self.program, text_of(label)))
         self.future.clear()
         self.program = after
 
@@ -126,11 +126,11 @@ class ContourReplay:
         """One undone edit made again."""
         self._step(self.future, self.past)
 
-    def _step(self, source: list[Step], target: list[Step]) -> None:
+    def _step(self, source: list[UndoStep], target: list[UndoStep]) -> None:
         if not source:
             raise DamagedError
         step = source.pop()
-        target.append(Step(self.program, step.label))
+        target.append(UndoStep(self.program, step.label))
         self.program = step.program
 
     def work(self) -> History:
