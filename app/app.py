@@ -49,11 +49,13 @@ class CutcompApp(App[int]):
         session: Session,
         *,
         surroundings: Surroundings | None = None,
+        characters: str = "braille",
         few_colors: bool = False,
         light: bool = False,
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
+        self.characters = characters
         self._wanted: Request | None = None
         self._deriving = False
         self._table_wanted: DerivedBlock | None = None
@@ -82,7 +84,7 @@ class CutcompApp(App[int]):
         self._change(self.session.with_program(edited, label))
         return True
 
-    def move(self, place: FormPlace, field: str = SEGMENT) -> None:
+    def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
         self._change(self.session.at(place, field))
 

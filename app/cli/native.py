@@ -34,9 +34,9 @@ def run(path: Path | None, *, example: str | None = None, characters: str = "", 
     key_sequences.teach()
     if monochrome(os.environ):
         os.environ["NO_COLOR"] = "1"
-    app = CutcompApp(session, few_colors=driver.few_colors(os.environ), light=light)
+    name, modes = driver.characters(character_set.own(os.environ), characters)
+    app = CutcompApp(session, characters=modes[0], few_colors=driver.few_colors(os.environ), light=light)
     app.driver_class = WidgetDriver
-    name, _ = driver.characters(character_set.own(os.environ), characters)
     character_set.settle(sys.__stderr__, name)
     safety = Safety(lambda status: app.exit(status, return_code=status), lambda: None)
     safety.arm()

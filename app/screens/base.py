@@ -46,13 +46,21 @@ class Host(Protocol):
         """The work as it has been accepted."""
 
     @property
+    def shown(self) -> Session:
+        """The same, or as a half-typed number would make it: what verdict and drawings show."""
+
+    @property
+    def characters(self) -> str:
+        """What drawings are made of: braille, block or ascii."""
+
+    @property
     def surroundings(self) -> Surroundings:
         """Where the status line takes the clock and the free room from."""
 
     def apply(self, edited: Edited, label: str) -> bool:
         """Take an edit, or say why it is refused; whether it was taken."""
 
-    def move(self, place: FormPlace, field: str = SEGMENT) -> None:
+    def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
 
     def try_out(self, program: Program | None) -> None:

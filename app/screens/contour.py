@@ -9,15 +9,21 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.message import Message
-from textual.widgets import Label
+from textual.widget import Widget
+from textual.widgets import DataTable, Label
 
 from app.screens.contour_cells import SOLUTIONS, cells_at, fields_at, form_at, value_at
 from app.screens.form_screen import FormScreen
+from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
 from app.widgets.field import ChoiceField, NumberField
+from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
+from app.widgets.picture import Picture
+from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
+from app.widgets.verdict import Case, Verdict
 from core.finding import Severity
 from core.program import fields as table
 from core.program.edit import (
@@ -39,6 +45,10 @@ NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
 NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {"l": LineSegment, "a": ArcSegment, "b": BlendSegment}
 """The letters that make a new segment, and of which kind."""
+
+
+PANELS: Final = ("segments", "findings")
+"""The lists that take the place of the drawing where there is no room for both."""
 
 
 class SegmentField(NumberField):
@@ -75,6 +85,10 @@ class ContourScreen(FormScreen):
         Binding("pagedown", "walk(1)", "Next segment", show=False),
         Binding("ctrl+home", "go(0)", "START", show=False),
         Binding("ctrl+end", "go(-1)", "Last segment", show=False),
+        Binding("f9,ctrl+t", "panel('segments')", "Segments", show=False),
+        Binding("f10,ctrl+f", "panel('findings')", "Findings", show=False),
+        Binding("ctrl+n", "finding(1)", "Next finding", show=False),
+        Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey(
@@ -108,6 +122,9 @@ class ContourScreen(FormScreen):
         self._forms: dict[table.Form, Form] = {}
         self._form = table.Form.START
         self._cursor: Cursor | None = None
+        self.entries: tuple[Entry, ...] = ()
+        self.in_hand: int | None = None
+        """Which of the findings with a place the loupe is on; None for the segment with the cursor."""
 
     # ---- what is shown
 
@@ -128,8 +145,15 @@ class ContourScreen(FormScreen):
                     yield Label(id="segment-count", classes="head-note")
                 with Vertical(id="fields"):
                     yield self._made_form(session)
-            yield Vertical(id="verdict", classes="panel")
-        yield Horizontal(id="picture")
+            yield Verdict(id="verdict", classes="panel")
+        yield Picture(id="picture")
+        yield SegmentList(id="segments", classes="panel")
+        yield FindingsList(id="findings", classes="panel")
+
+    def on_mount(self) -> None:
+        """Follow also what half-typed numbers would do."""
+        super().on_mount()
+        self.watch(self.app, "shown", self._show_shown)
 
     def _made_form(self, session: Session) -> Form:
         self._form = form_at(session)
@@ -150,7 +174,9 @@ class ContourScreen(FormScreen):
         self._show_titles(session)
         if session.cursor is not self._cursor:
             self._cursor = session.cursor
-            self.focus_field(session.cursor.field)
+            self.in_hand = None
+            if session.cursor.field is not None:
+                self.focus_field(session.cursor.field)
 
     def _switch_form(self, session: Session, wanted: table.Form) -> None:
         """Each kind of segment has a form of its own, made when it is first needed."""
@@ -164,7 +190,7 @@ class ContourScreen(FormScreen):
     async def _mount_form(self, form: Form) -> None:
         """A new form, and the cursor on its field: the next key comes when it stands."""
         await self.query_exactly_one("#fields").mount(form)
-        self.focus_field(self.current_session.cursor.field)
+        self.focus_field(self.current_session.cursor.field or "")
         self.refresh_frame()
 
     def _show_titles(self, session: Session) -> None:
@@ -182,6 +208,106 @@ class ContourScreen(FormScreen):
             if str(label.content) != text:
                 label.update(text)
         self.query_exactly_one(f"#{SEGMENT}", SegmentField).show(str(segment))
+
+    def _show_shown(self, shown: Session) -> None:
+        """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
+        if not self.is_current:
+            return
+        block, unit, verdict = shown.derived_block, shown.program.unit, self.query_exactly_one(Verdict)
+        characters = self.host.characters
+        before = verdict.case
+        if not block.known and before is not None and before.block.number == block.number and before.block.known:
+            return
+        verdict.characters = characters
+        verdict.case = Case(block, shown.lookahead_table, unit)
+        self.entries = block_findings(block, shown.lookahead_table, unit)
+        findings = self.query_exactly_one(FindingsList)
+        findings.characters, findings.entries = characters, self.entries
+        self._show_lists(shown)
+        self._show_picture(shown)
+
+    def _show_lists(self, shown: Session) -> None:
+        segments = self.query_exactly_one(SegmentList)
+        if segments.display:
+            segments.show(shown, self.host.characters)
+
+    def _show_picture(self, shown: Session) -> None:
+        places = [entry for entry in self.entries if entry.at is not None]
+        in_hand = self.in_hand
+        if in_hand is None and not shown.place.segment and places:
+            in_hand = 0
+        self.query_exactly_one(Picture).show(shown, places, in_hand, self.host.characters)
+
+    def action_finding(self, by: int) -> None:
+        """Take the next finding in hand, or the one before: the loupe goes there."""
+        places = [entry for entry in self.entries if entry.at is not None]
+        if not places:
+            self.say("There are no findings.")
+            return
+        first = 0 if not self.current_session.place.segment else None
+        here = self.in_hand if self.in_hand is not None else first
+        self.in_hand = (0 if by > 0 else len(places) - 1) if here is None else (here + by) % len(places)
+        self._show_picture(self.host.shown)
+        self.query_exactly_one(FindingsList).highlighted = self.entries.index(places[self.in_hand])
+
+    # ---- panels
+
+    def action_panel(self, name: str) -> None:
+        """Show a list in place of the drawing, or the drawing again; on wide terminals the cursor goes there."""
+        if not self.take():
+            return
+        self.quiet()
+        shown = self.has_class(f"-{name}")
+        for panel in PANELS:
+            self.set_class(panel == name and not shown, f"-{panel}")
+        target = self.query_exactly_one(f"#{name}")
+        if shown or not isinstance(target, Widget):
+            self.focus_field(SEGMENT)
+        else:
+            self.call_after_refresh(self._into_panel, target)
+
+    def _into_panel(self, target: Widget) -> None:
+        self._show_lists(self.host.shown)
+        self.set_focus(target)
+
+    def action_restore(self) -> None:
+        """The old value back; from a list to the form and the drawing."""
+        if self.current is None or not (isinstance(self.current, NumberField) and self.current.edited):
+            for panel in PANELS:
+                self.remove_class(f"-{panel}")
+            if self.current is None:
+                self.focus_field(SEGMENT)
+        super().action_restore()
+
+    @on(DataTable.RowHighlighted)
+    def _segment_highlighted(self, event: DataTable.RowHighlighted) -> None:
+        """The row of the list and SEGMENT of the form are one cursor."""
+        event.stop()
+        if event.data_table.has_focus and event.cursor_row != self.current_session.place.segment:
+            place = FormPlace(self.current_session.place.block, event.cursor_row)
+            self.host.move(place, None)
+
+    @on(DataTable.RowSelected)
+    def _segment_selected(self, event: DataTable.RowSelected) -> None:
+        event.stop()
+        self.focus_field(self.names()[1])
+
+    @on(FindingsList.Stepped)
+    def _finding_stepped(self, message: FindingsList.Stepped) -> None:
+        message.stop()
+        if not self.query_exactly_one(FindingsList).has_focus:
+            return
+        entry = self.entries[message.number]
+        places = [each for each in self.entries if each.at is not None]
+        self.in_hand = places.index(entry) if entry in places else None
+        self._show_picture(self.host.shown)
+
+    @on(FindingsList.Chosen)
+    def _finding_chosen(self, message: FindingsList.Chosen) -> None:
+        """To the field that a finding is about."""
+        message.stop()
+        entry = message.entry
+        self.go(entry.segment or 0, entry.field or SEGMENT)
 
     # ---- the fields
 

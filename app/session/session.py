@@ -27,13 +27,13 @@ START_OF_FIRST_BLOCK: Final = FormPlace(1, 0)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cursor:
-    """Where a move has put the cursor of the MILL CONTOUR form: the segment, and the field to begin with.
+    """Where a move has put the cursor of the MILL CONTOUR form: the segment, and the field to begin with, if any.
 
     Every move makes a new one, so that a screen knows a move by its identity; from there the focus goes its own way.
     """
 
     place: FormPlace = START_OF_FIRST_BLOCK
-    field: str = SEGMENT
+    field: str | None = SEGMENT
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -106,7 +106,7 @@ class Session:
         """One undone edit made again, the cursor on what it changes."""
         return self._moved_to_change(self.history.redo())
 
-    def at(self, place: FormPlace, field: str = SEGMENT) -> Session:
+    def at(self, place: FormPlace, field: str | None = SEGMENT) -> Session:
         """The cursor moved; a place that does not exist becomes the nearest one that does."""
         return replace(self, cursor=Cursor(nearest_place(self.program, place), field))
 

@@ -24,7 +24,7 @@ from core.units import Unit
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
-    from core.comp.result import Compensated
+    from core.comp.compensated import Compensated
     from core.verify.verdict import Verdict as Judgment
 
 HIGHEST: Final = 20

@@ -1,0 +1,73 @@
+"""Picture: the drawings of a block: the whole part, and the loupe on the finding in hand or the segment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from textual.app import ComposeResult
+from textual.containers import Horizontal
+
+from app.session.block_findings import Entry, Kind
+from app.session.session import Session
+from app.widgets.drawing import Drawing
+from app.widgets.findings_list import heading
+from app.widgets.verdict import MARKS
+from core.program.fields import form_of
+
+if TYPE_CHECKING:
+    from core.geometry.piece import Point
+
+
+class Picture(Horizontal):
+    """PART, a small outline, or the whole part where there is room, and the loupe; only what is seen is drawn."""
+
+    def compose(self) -> ComposeResult:
+        """Three drawings, of which the style sheet shows two."""
+        yield Drawing(id="outline", classes="-outline")
+        yield Drawing(id="whole")
+        yield Drawing(id="loupe")
+
+    def on_mount(self) -> None:
+        """The titles that stay."""
+        self.query_exactly_one("#outline", Drawing).heading = "PART"
+        self.query_exactly_one("#whole", Drawing).heading = "DRAWING  whole part"
+
+    def show(self, session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str) -> None:
+        """Draw the block with the cursor; the loupe is on the finding in hand, or on the segment where that is None.
+
+        `entries` are the findings that have a place.
+        """
+        from core.pipeline.plot import Subject
+
+        block, unit, segment = session.derived_block, session.program.unit, session.place.segment
+        near, title, kind = _loupe(session, entries, in_hand, characters)
+        subjects = {
+            "outline": Subject(block, unit, segment, outline=True),
+            "whole": Subject(block, unit, segment),
+            "loupe": Subject(block, unit, segment, near=near),
+        }
+        for name, subject in subjects.items():
+            drawing = self.query_exactly_one(f"#{name}", Drawing)
+            drawing.characters = characters
+            drawing.subject = subject
+        loupe = self.query_exactly_one("#loupe", Drawing)
+        loupe.heading = title
+        loupe.set_class(kind is Kind.GOUGE, "-gouge")
+        loupe.set_class(kind is Kind.UNCUT, "-uncut")
+
+
+def _loupe(
+    session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str
+) -> tuple[Point | None, str, Kind | None]:
+    """What the loupe is on, its title, and the kind of the finding."""
+    if in_hand is not None and in_hand < len(entries):
+        entry = entries[in_hand]
+        return entry.at, heading(entries, in_hand, MARKS[characters]), entry.kind
+    number = session.place.segment
+    solved = session.derived_block.solved.segments
+    if number and number <= len(solved):
+        piece, segment = solved[number - 1].piece, session.block.segments[number - 1]
+        turn = f" {direction}" if (direction := getattr(segment, "direction", None)) else ""
+        return None if piece is None else piece.point_at(0.5), f"SEGMENT {number} {form_of(segment)}{turn}", None
+    return solved[0].start if solved else None, "START", None

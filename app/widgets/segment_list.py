@@ -1,0 +1,133 @@
+"""SegmentList: the segments of a block, one a row, and what becomes of each."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from rich.text import Text
+from textual.widgets import DataTable
+
+from app.session.session import Session
+from app.widgets.verdict import MARKS
+from core.pipeline.derived import DerivedBlock
+from core.program.fields import form_of
+from core.program.model import Number
+from core.program.solve.solved import Solved, SolvedSegment
+from core.units import Kind, Unit, from_mm, show
+
+COLUMNS = (
+    ("number", "", 3),
+    ("type", " TYPE", 8),
+    ("x", "X END", 9),
+    ("y", "Y END", 9),
+    ("feed", "FEED", 6),
+    ("fate", "", 12),
+)
+"""Key, heading and width of each column."""
+FATES = {"gouge": "$c-gouge", "uncut": "$c-uncut", "deleted": "$c-deleted", "type": "$c-warn"}
+
+
+class SegmentRow(NamedTuple):
+    """A row: the texts of its columns, and the word for what becomes of the segment."""
+
+    number: str
+    type: str
+    x: str
+    y: str
+    feed: str
+    fate: str
+
+
+class SegmentList(DataTable[Text]):
+    """The list; its row is the segment of the form, Enter edits it, Del and Ins delete and insert."""
+
+    def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
+        super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=0)
+        self.border_title = "SEGMENTS"
+        self._rows: list[SegmentRow] = []
+
+    def on_mount(self) -> None:
+        """The columns."""
+        for key, label, width in COLUMNS:
+            self.add_column(Text(label, justify="left" if key == "type" else "right"), width=width, key=key)
+
+    def show(self, session: Session, characters: str) -> None:
+        """Show the segments of the block with the cursor; only cells that differ are changed."""
+        rows, before = segment_rows(session.derived_block, session.program.unit), self._rows
+        if len(rows) != len(before):
+            self.clear()
+            for row in rows:
+                self.add_row(*(self._cell(row, key, characters) for key, _, _ in COLUMNS), key=row.number)
+        else:
+            for old, row in zip(before, rows, strict=True):
+                for (key, _, _), text, old_text in zip(COLUMNS, row, old, strict=True):
+                    if text != old_text or (row.fate != old.fate and key == "type"):
+                        self.update_cell(row.number, key, self._cell(row, key, characters))
+        self._rows = rows
+        if self.cursor_row != session.place.segment:
+            self.move_cursor(row=session.place.segment)
+
+    def _cell(self, row: SegmentRow, key: str, characters: str) -> Text:
+        text = str(getattr(row, key))
+        if key == "fate":
+            return self._fate(text, characters)
+        if key == "type":
+            return Text.assemble(" ", (text, "strike dim" if row.fate == "deleted" else ""))
+        return Text(text, justify="right")
+
+    def _fate(self, word: str, characters: str) -> Text:
+        marks = MARKS[characters]
+        sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(word, "")
+        color = self.app.theme_variables.get(FATES.get(word, "")[1:], "")
+        return Text(f"  {sign} {word}".rstrip(), color.removeprefix("ansi_"))
+
+
+def segment_rows(block: DerivedBlock, unit: Unit) -> list[SegmentRow]:
+    """START and the segments."""
+    start = block.solved.values
+    fates = _fates(block)
+    first = SegmentRow("0", "START", _text(start.get("x_start"), unit), _text(start.get("y_start"), unit), "", "")
+    return [first, *(_row(block, segment, unit, fates.get(segment.number, "")) for segment in block.solved.segments)]
+
+
+def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, fate: str) -> SegmentRow:
+    segment = block.block.segments[solved.number - 1]
+    direction = getattr(segment, "direction", None)
+    kind = "BLEND" if solved.values.keys() <= {"radius", "feed"} else str(form_of(segment))
+    feed = segment.feed.value if isinstance(segment.feed, Number) else None
+    end = None if solved.piece is None else solved.end or solved.piece.end
+    x, y = ("", "") if end is None else (show(from_mm(each, unit), Kind.LENGTH, unit) for each in end)
+    return SegmentRow(
+        str(solved.number),
+        f"{kind} {direction}" if direction else kind,
+        x,
+        y,
+        "" if feed is None else show(feed, Kind.FEED, unit),
+        "type" if solved.missing else fate,
+    )
+
+
+def _text(value: object, unit: Unit) -> str:
+    return show(value.value, Kind.LENGTH, unit) if isinstance(value, Number | Solved) else ""
+
+
+def _fates(block: DerivedBlock) -> dict[int, str]:
+    """What becomes of each segment that is not simply cut, the gravest alone."""
+    paths = block.paths
+    if paths is None or paths.verdict is None:
+        return {}
+    fates: dict[int, str] = {}
+    for stretch in paths.verdict.uncut:
+        for number in _between(stretch.first_number, stretch.last_number, len(block.solved.segments)):
+            fates[number] = "uncut"
+    if paths.compensated is not None and paths.best is None:
+        fates |= {
+            int(number): "deleted" for number in paths.compensated.deleted.segments.tolist() if number == int(number)
+        }
+    return fates | {int(gouge.surface_number): "gouge" for gouge in paths.verdict.gouges}
+
+
+def _between(first: float, last: float, count: int) -> list[int]:
+    """The numbers of a stretch, over START where it begins beyond it."""
+    low, high = int(first), int(last)
+    return list(range(low, high + 1)) if low <= high else [*range(low, count + 1), *range(1, high + 1)]
