@@ -28,6 +28,8 @@ NOTHING: Final = "EMPTY"
 """The rule of a program in which there is nothing to run."""
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|diameter of tool|Offset) (\d+)")
 """How the controls say that they know no size of a tool."""
+_NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
+"""How Klartext says that it knows no tool at all."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -103,7 +105,19 @@ def answer(text: bytes, asked: Asked) -> Answer:
     done = run(text, asked.control, asked.tools, asked.unit)
     assert not isinstance(done, UnknownControl), done.text
     results = judge_run(done)
-    return _answer(done, results, _foreign(done.control, text), "", shop=asked.shop)
+    return _with_option(_answer(done, results, _foreign(done.control, text), "", shop=asked.shop))
+
+
+def _with_option(row: Answer) -> Answer:
+    """The answer; what stops a control for want of a tool's size names the option that gives it."""
+    if row.why is None or row.stopped_at is None:
+        return row
+    size = _NO_SIZE.search(row.why.text)
+    if size is None and not _NO_TOOL.match(row.why.text):
+        return row
+    text = f"{row.why.text} On the command line: --tool {size[1] if size else 1}=DIAMETER."
+    why = replace(row.why, text=text)
+    return replace(row, why=why, findings=tuple(why if one is row.why else one for one in row.findings))
 
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
@@ -125,7 +139,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
         )
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
-        return _answer(row.run, row.results, (), parts, shop=asked.shop)
+        return _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
     text = f"It is written in another language: compared by the contour as {row.by} reads it, with straight leads."
     told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
     parts = f"by the contour{'; ' if parts else ''}{parts}"

@@ -6,7 +6,6 @@ corners in force; a G39 or G39.1 in the program changes them from there on, as o
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -20,6 +19,7 @@ from core.controls.iso.execute import execute
 from core.controls.iso.flow import MakeControl
 from core.controls.klartext import control as klartext
 from core.controls.klartext.path_functions import KLARTEXT_RADII
+from core.controls.klartext.reader import is_klartext_text
 from core.controls.makers import fanuc, haas, linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
@@ -29,6 +29,9 @@ NO_TOOLS: Final = ToolTable()
 
 TINY_SHARE: Final = 1e-7
 """Share of the tool's radius for which no contour is too narrow: the stretches then are the whole contour."""
+
+MAX_BYTES_FOR_LANGUAGE: Final = 16_384
+"""Bytes at a program's beginning by which its language is known."""
 
 _BLANKS: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
 """Blanks, line ends and the marks of encodings: of these alone is an empty program."""
@@ -92,13 +95,9 @@ def _joined(name: str, variant: str) -> str:
     return f"{name}:{variant}" if variant else name
 
 
-_BEGINS: Final = re.compile(r"\s*+(?:[0-9]++\s++)?BEGIN\s++PGM\b", re.IGNORECASE)
-
-
 def reads(control: str, text: bytes) -> bool:
-    """Whether a control reads the language a program is written in: Klartext begins with BEGIN PGM."""
-    klartext_text = _BEGINS.match("\n".join(lines_of(text[:4096]))) is not None
-    return klartext_text == is_klartext(control)
+    """Whether a control reads the language a program, or a piece of one, is written in: Klartext or word addresses."""
+    return is_klartext_text(lines_of(text[:MAX_BYTES_FOR_LANGUAGE])) == is_klartext(control)
 
 
 def resolve(control: str) -> str | UnknownControl:

@@ -278,3 +278,36 @@ def test_ctrl_c_ends_an_archive_quietly(tmp_path: Path) -> None:
         _, told = running.communicate(timeout=60)
     assert running.returncode == 130
     assert told == b""
+
+
+FRAGMENT = "L X-20 Y+0 R0 FMAX\nL X+0 Y+0 RL F200\nL X+30\nL X+60 R0\n"
+
+
+def test_a_piece_of_klartext_names_the_option_and_runs_with_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    file = tmp_path / "piece.h"
+    file.write_text(FRAGMENT)
+    status, out, _ = output(capsys, file, "--control", "klartext")
+    assert status == 1
+    assert "On the command line: --tool 1=DIAMETER." in out
+    assert "LANGUAGE" not in out
+    _, out, _ = output(capsys, file, "--control", "klartext", "--tool", "1=10")
+    assert "cutcomp takes tool 1, the only one given." in out
+    assert "4 moves, 1 compensated stretch, MM." in out
+
+
+def test_a_tool_without_a_diameter_names_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "part.ngc"
+    file.write_text("G20 F9\nG41 D4\nG1 X1\nM2\n")
+    _, out, _ = output(capsys, file, "--control", "linuxcnc")
+    assert "--tool 4=DIAMETER" in out
+
+
+def test_klartext_on_another_control_is_said_to_be_another_language(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    file = tmp_path / "piece.h"
+    file.write_text(FRAGMENT)
+    _, out, _ = output(capsys, file, "--control", "linuxcnc")
+    assert "LANGUAGE" in out

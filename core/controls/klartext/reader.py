@@ -34,6 +34,25 @@ _HEAD: Final = re.compile(r"[A-Z]+|[*(]|$", re.ASCII)
 _GLUED_HEAD: Final = re.compile(r"(L|CC|C)(?=I?[XYZ][ \t]*[-+.\dQ])", re.ASCII)
 
 
+_BEGIN: Final = re.compile(r"\s*+(?:N?[0-9]++\s++)?BEGIN\s++PGM\b", re.IGNORECASE | re.ASCII)
+_KLARTEXT: Final = re.compile(
+    r"[\s/]*+(?:N?[0-9]++\s++)?(?:L\s*+(?=I?[XYZ]\s*+[-+.\dQ]|[RFM])|(?:LP|CP|CTP)\s++[IP]|(?:CC|CR|CT|C|APPR|DEP)\s++[A-Z]"
+    r"|TOOL\s++(?:CALL|DEF)|BLK\s++FORM|CYCL\s++(?:DEF|CALL)|(?:CALL\s++)?LBL\s|FN\s*+[0-9]++\s*+:|(?:RND|CHF)\s*+R?[0-9])",
+    re.IGNORECASE | re.ASCII,
+)
+_WORD_ADDRESS: Final = re.compile(r"[\s/]*+(?:N\s*+[0-9]++)?\s*+[GXYZO]\s*+[-+.#\[0-9]", re.IGNORECASE | re.ASCII)
+
+
+def is_klartext_text(lines: Iterable[str]) -> bool:
+    """Whether lines are Klartext: they begin a program of it, or, as a piece of one, have more of its blocks."""
+    more = 0
+    for line in lines:
+        if _BEGIN.match(line):
+            return True
+        more += (_KLARTEXT.match(line) is not None) - (_WORD_ADDRESS.match(line) is not None)
+    return more > 0
+
+
 class Block(NamedTuple):
     """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1).
 

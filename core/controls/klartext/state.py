@@ -220,6 +220,8 @@ class State:
         if not self.side or self.applied == self.side:
             self.applied, self.offset = self.side, self.offset if self.side else 0.0
             return
+        if self.radius is None and not self.tool:
+            self._take_only_tool(block)
         if self.radius is None:
             text = "The tool's radius is unknown. Write TOOL DEF and TOOL CALL, or give the tool's diameter."
             self.stop("TOOL", text, block, "RL" if self.side > 0 else "RR")
@@ -229,6 +231,14 @@ class State:
         elif not self.radius:
             self.tell(Severity.WARNING, "TOOL", "Tool radius 0: the center runs on the contour.", block)
         self.applied, self.offset = self.side, self.side * self.radius * self.share
+
+    def _take_only_tool(self, block: Block) -> None:
+        """Without a TOOL CALL the tool is the only one of the table, if there is one alone."""
+        if len(self.tools.tools) == 1:
+            (tool,) = self.tools.tools.values()
+            self.tool, self.radius = str(tool.number), tool.diameter_mm(self.unit) / 2.0
+            text = f"No TOOL CALL before this block: cutcomp takes tool {tool.number}, the only one given."
+            self.tell(Severity.INFO, "TOOL", text, block)
 
     def release(self) -> None:
         """Compensation is off."""

@@ -19,7 +19,7 @@ from core.controls.control_run import Log
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import Block, Syntax
+from core.controls.iso.reader import SWITCHES, Block, Syntax
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -77,7 +77,7 @@ class ThreeBlock(ElementQueue, Control):
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
             self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
-        if "D" in block.words:
+        if "D" in block.words and not self._same_tool(block):
             text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
             self.log.stop("CODE", f"{text} {only_on(OFFSETS_ANYWHERE)}", block.line, block.column("D"))
         if "R" in block.words:
@@ -97,6 +97,10 @@ class ThreeBlock(ElementQueue, Control):
         if 990 in block.g:
             text = "The control drops this G99 under compensation and puts its own between tangent moves."
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
+
+    def _same_tool(self, block: Block) -> bool:
+        """Whether D in a block with G41 or G42 means the tool that is called, as on other controls."""
+        return not SWITCHES.isdisjoint(block.g) and self.machine.tool in (0, block.words["D"])
 
     def wrong_plane(self, block: Block) -> NoReturn:
         """Stops the run: compensation in another plane than XY."""

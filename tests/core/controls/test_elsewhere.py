@@ -10,7 +10,14 @@ from core.controls.registry import CONTROLS
 from core.finding import Severity
 from tests.core.controls.hand import lines_and_ends, ran, told
 
-HAVE = {elsewhere.LINUXCNC: "linuxcnc", elsewhere.ROSETTACNC: "rosettacnc", elsewhere.NINE_SERIES: "nine-series"}
+HAVE = {
+    elsewhere.LINUXCNC: "linuxcnc",
+    elsewhere.ROSETTACNC: "rosettacnc",
+    elsewhere.NINE_SERIES: "nine-series",
+    elsewhere.FANUC: "fanuc",
+    elsewhere.HAAS: "haas",
+    elsewhere.THREEBLOCK: "threeblock",
+}
 ISO = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 
 
@@ -23,8 +30,10 @@ def alarm(done: ControlRun) -> str:
 
 @pytest.mark.parametrize("code", elsewhere.CODES)
 def test_a_control_that_is_named_has_the_code(code: int) -> None:
-    names = [HAVE[name] for name in elsewhere.CODES[code] if name in HAVE]
-    assert all(code in dialect.codes for name in names if (dialect := CONTROLS[name].dialect))
+    for name in elsewhere.CODES[code]:
+        dialect = CONTROLS[HAVE[name]].dialect
+        assert dialect is not None
+        assert code in dialect.codes, name
 
 
 @pytest.mark.parametrize("code", ["G61.1", "G90.1", "G91.1"])
@@ -57,6 +66,13 @@ def test_d_next_to_t_is_an_alarm_that_names_who_takes_it(control: str) -> None:
     done = ran("G20 G17 F9.\nT1 M6 D1\nG1 X1.\n", control, t1=0.5)
     assert done.stopped_at == 2
     assert "Allen-Bradley 9/Series, Fanuc and Haas have it." in alarm(done)
+
+
+def test_d_of_another_tool_than_the_one_called_is_an_alarm_where_t_gives_the_radius() -> None:
+    text = "G20 G17 F9.\nT{}\nG1 G41 X1. D1\nX3.\nX4.Y1.\nX4.Y5.\nG40 X9.\n"
+    other, same_tool = (ran(text.format(number), "threeblock", t1=0.5, t2=0.25) for number in (2, 1))
+    assert (other.stopped_at, told(other, "CODE")[0].line) == (3, 3)
+    assert not told(same_tool, "CODE")
 
 
 def test_h_next_to_t_names_who_takes_it() -> None:

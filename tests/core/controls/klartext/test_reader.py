@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, WORD, Block, read_blocks
+import pytest
+
+from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, WORD, Block, is_klartext_text, read_blocks
 
 
 def only(line: str) -> Block:
@@ -59,3 +61,38 @@ def test_places_of_words() -> None:
     assert block.column_of("RL") == 10
     assert block.column_of("M3") == 13
     assert block.column_of("Y") == 4
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0 BEGIN PGM A MM",
+        "; a note\n(a header)\n  0  begin pgm a mm\nG0 X1\nG0 X2",
+        "L X+1 Y+2 R0 FMAX",
+        "N10 L Z-5 F100\nN20 LX+1",
+        "CC X+0 Y+0\nCP IPA+90 DR+",
+        "TOOL CALL 1 Z S1000",
+        "M3\nRND R5\n/ 5 CR X+1 R+4 DR-",
+        "LBL 1\nL IX+1\nCALL LBL 1 REP 3",
+        "CYCL DEF 200 DRILLING",
+        "APPR LCT X+1 Y+2 R5 RL",
+    ],
+)
+def test_a_program_or_a_piece_of_one_is_known_as_klartext(text: str) -> None:
+    assert is_klartext_text(text.split("\n"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "M3\nT1 M6",
+        "%\nO1000 (CC X+0)\nG0 X1 Y2",
+        "G17 G20\nX1. Y2.\nL1",
+        "N10 G1 X+1 Y+2 F100\nN20 X+2",
+        "C90.\nG0 X1",
+        "(L X+1 Y+2)",
+    ],
+)
+def test_word_addresses_are_no_klartext(text: str) -> None:
+    assert not is_klartext_text(text.split("\n"))

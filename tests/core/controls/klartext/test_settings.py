@@ -197,3 +197,14 @@ def test_the_datum_is_chosen_before_anything_moves() -> None:
 def test_after_a_machine_position_relative_words_start_from_an_unknown_place() -> None:
     made = runs("L X+1 Y+1 Z+1 FMAX", "L X+0 R0 FMAX M92", "L IX+5 F9")
     assert codes(made) == [("MACHINE", 5), ("POSITION", 6)]
+
+
+def test_a_piece_without_tool_call_takes_the_only_tool_there_is_and_says_so() -> None:
+    text = "\n".join(CONTOUR).encode()
+    one, two = ToolTable.of(CutterTool(7, 9.0)), ToolTable.of(CutterTool(7, 9.0), CutterTool(8, 4.0))
+    made = run_klartext(text, one)
+    assert flat(made)[0][1] == 4.5
+    assert ("TOOL", 2) in codes(made)
+    assert run_klartext(text, two).stopped_at == 2
+    assert run_klartext(text, NONE).stopped_at == 2
+    assert run_klartext(f"TOOL CALL 3 Z\n{text.decode()}".encode(), one).stopped_at == 3
