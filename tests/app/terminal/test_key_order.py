@@ -1,0 +1,49 @@
+"""Keys that come together: each goes to the field that has the cursor after all keys before it."""
+
+from __future__ import annotations
+
+from random import Random
+
+from textual import events
+
+from app.terminal.key_order import KeyOrder
+from core.program.model import Number
+from tests.app.widget_pilot import Operator, operator
+
+
+async def burst(one: Operator, *keys: str) -> None:
+    """All keys at once, as a slow link or a paste brings them."""
+    order = KeyOrder(one.app)
+    for key in keys:
+        order.take(events.Key(key, key if len(key) == 1 else None))
+    while order.on_its_way:
+        await one.pilot.pause()
+    await one.settle()
+
+
+async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
+    async with operator() as one:
+        await burst(one, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
+        segment = one.session.block.segments[0]
+        assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
+        assert one.session.place.segment == 2
+
+
+async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
+    async with operator() as one:
+        count = len(one.session.block.segments)
+        await burst(one, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
+        segment = one.session.block.segments[count]
+        assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0))
+
+
+async def test_random_keys_at_once_do_what_they_do_one_by_one():
+    random = Random(20261123)
+    keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
+    for _ in range(3):
+        chosen = random.choices(keys, k=30)
+        async with operator() as slow, operator() as fast:
+            await slow.press(*chosen)
+            await burst(fast, *chosen)
+            assert fast.session.program == slow.session.program
+            assert (fast.session.place, fast.at) == (slow.session.place, slow.at), chosen
