@@ -227,11 +227,9 @@ def _floor_heights(job: Job, path: Path) -> Floats:
 
 
 def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float, float]:
-    """Heights at a piece's two ends; minus infinity for a piece of no segment."""
+    """Heights at a piece's two ends; a corner is as high as the end of the segment before it."""
     number = float(path.numbers[piece])
-    floor, row = floors.floors.get(int(number)), floors.rows.get(int(number))
-    if floor is None:
-        return -np.inf, -np.inf
+    floor, row = floors.floors[int(number)], floors.rows.get(int(number))
     if number != int(number) or row is None:
         return floor.z_end, floor.z_end
     first, last = _fractions(path.points[piece : piece + 2], sweep, floors, row)

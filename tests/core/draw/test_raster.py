@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from shapely.geometry import box
 
 from core.draw.characters import Mode
+from core.draw.chords import chords
 from core.draw.raster import draw
 from core.draw.scene import Area, Circle, Label, Layer, Mark, Scene, Style, Symbol
 from core.draw.view import View
@@ -319,3 +320,10 @@ def test_every_dot_of_an_arc_lies_on_it_and_none_is_missing(radius, begin, sweep
         turned = (turn * (np.arctan2(y, x) - begin)) % tau
         beyond = min(max(turned - sweep, 0.0), tau - turned)
         assert beyond * radius < 1.5
+
+
+def test_an_arc_that_passes_the_window_by_has_no_chords_in_it() -> None:
+    """Its box holds the whole window, but no part of it comes near."""
+    around = Path.from_pieces([Arc((50.0, 0.0), (-50.0, 0.0), (0.0, 0.0), Turn.CCW)])
+    assert not len(chords([Layer(around, Style.PATH)], View((0.0, 0.0), 1.0), 20, 10).starts)
+    assert len(chords([Layer(around, Style.PATH)], View((0.0, 45.0), 1.0), 20, 10).starts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import rect
-from math import pi, sqrt, tau
+from math import cos, inf, pi, sin, sqrt, tau
 
 import numpy as np
 import pytest
@@ -243,3 +243,18 @@ def test_traveled_backwards_pieces_meet_at_the_same_points(a, b):
     assert len(back.points) == len(met.points)
     assert np.allclose(back.along_a[::-1], met.rest_a, atol=1e-7)
     assert np.allclose(back.points[::-1], met.points, atol=1e-7)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_line_through_an_end_of_an_arc_meets_it_there_wherever_rounding_puts_it(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for _ in range(100):
+        radius, begin, sweep = random.uniform((0.5, 0.0, 0.2), (5.0, tau, 3.0)).tolist()
+        (x, y), (dx, dy) = random.normal(0.0, 10.0, 2).tolist(), random.normal(0.0, 1.0, 2).tolist()
+        turn = Turn.CCW if random.random() < 0.5 else Turn.CW
+        ends = [(x + radius * cos(angle), y + radius * sin(angle)) for angle in (begin, begin + turn * sweep)]
+        arc = Path.from_pieces([Arc(ends[0], ends[1], (x, y), turn)])
+        for end_x, end_y in ends:
+            line = Path.from_pieces([Line((end_x - dx, end_y - dy), (end_x + dx, end_y + dy))])
+            found = meet(arc, ONLY, line, ONLY)
+            assert np.hypot(*(found.points - (end_x, end_y)).T).min(initial=inf) < 1e-6

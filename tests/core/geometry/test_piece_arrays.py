@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import at, direction, piece_arrays, place
+from core.geometry.piece_arrays import BLOCK_PAIRS, FEW_PAIRS, at, blocks, direction, piece_arrays, place
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
@@ -94,3 +94,14 @@ def test_a_gouge_of_a_nearly_full_arc_is_not_taken_for_its_uneven_radii() -> Non
     path = Path.from_pieces([Arc((9.2, 0.0), (9.2, 0.0), (-0.3, 0.0), Turn.CCW)])
     verdict = judge(hole, Side.LEFT, 0.5, path)
     assert verdict.depth == pytest.approx(0.3, abs=2e-3)
+
+
+@pytest.mark.parametrize("count", [0, 1, 500, 501, 10_000])
+def test_every_pair_is_in_one_block_and_large_blocks_are_of_one_kind(count: int) -> None:
+    random = np.random.default_rng(1)
+    first, second = random.random((2, count)) < 0.5
+    found = list(blocks(first, second))
+    assert sorted(np.concatenate([np.empty(0, np.intp), *found]).tolist()) == list(range(count))
+    for rows in found if count > FEW_PAIRS else ():
+        assert 0 < len(rows) <= BLOCK_PAIRS
+        assert len(np.unique(first[rows])) == len(np.unique(second[rows])) == 1

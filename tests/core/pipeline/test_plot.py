@@ -7,6 +7,7 @@ import pytest
 
 from app.documents.files import load
 from app.documents.programs import example
+from core.draw.scene import Style
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_at_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
@@ -81,3 +82,19 @@ def test_the_legend_does_not_call_the_controls_path_behind_the_best_one_a_roughi
     pocket = load(example("pocket"))
     part = replace(pocket, parameters=replace(pocket.parameters, path=PathChoice.BEST))
     assert ">roughing passes or control's path</text>" in svg_of(derive(part), title="")
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "ends"),
+    [
+        ((2, 3), (3, 2), [[(2, 3), (3, 3)], [(3, 3), (3, 2)]]),
+        ((3, 3), (3, 2), [[(3, 3), (3, 2)]]),
+        ((2, 3), (3, 3), [[(2, 3), (3, 3)]]),
+    ],
+)
+def test_only_what_lies_beyond_the_crossing_of_the_ends_is_drawn_as_lead(first, last, ends):
+    found = derived(program(block((first, (5, 3), (5, 5), (3, 5), last), CutterComp.RIGHT)))
+    assert found.paths.verdict.over_run_at == pytest.approx((3 * 25.4, 3 * 25.4))
+    scene = block_scene(found, None, Unit.IN)
+    drawn = [part for layer in scene.layers if layer.style is Style.LEAD for part in layer.parts]
+    assert [(part.points / 25.4).tolist() for part in drawn] == [[pytest.approx(end) for end in part] for part in ends]

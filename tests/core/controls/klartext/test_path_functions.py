@@ -243,3 +243,8 @@ def test_an_arc_that_cannot_run_in_its_plane_is_refused(blocks: tuple[str, ...],
     made = runs(START, *blocks)
     assert made.stopped_at is not None
     assert codes(made)[-1][0] == rule
+
+
+def test_a_polar_word_left_out_is_that_of_the_position_seen_from_the_pole() -> None:
+    assert told("L X+10 Y+0", "CC X+4 Y-6", "LP PR+10")[-1] == NEAR((4 + 50**0.5, -6 + 50**0.5))
+    assert told("L X+10 Y+0", "CC X+4 Y-6", "LP PA+90")[-1] == NEAR((4, -6 + 72**0.5))

@@ -208,3 +208,9 @@ def test_a_piece_without_tool_call_takes_the_only_tool_there_is_and_says_so() ->
     assert run_klartext(text, two).stopped_at == 2
     assert run_klartext(text, NONE).stopped_at == 2
     assert run_klartext(f"TOOL CALL 3 Z\n{text.decode()}".encode(), one).stopped_at == 3
+
+
+def test_an_axis_that_moves_to_a_machine_point_has_no_known_position_until_it_is_programmed() -> None:
+    for block, position in (("L X+5 IY+1 F9", "POSITION"), ("L IX+5 Y+1 F9", "")):
+        made = runs("L X+0 Y+0 Z+1 FMAX", "L Y+9 FMAX M91", block)
+        assert [finding.code for finding in made.findings] == ["MACHINE", *filter(None, (position,))]
