@@ -235,6 +235,13 @@ class MacroReader(ExpressionReader):
         self._depth -= 1
         return -value if negative else value
 
+    def _parameter(self) -> float:
+        begin, key = self.at, self.key()
+        if isinstance(key, str):
+            return self.values.named(key, begin)
+        value = self.values.number(key, begin)
+        return VACANT if value is None else value
+
     def brackets(self) -> float:
         """An expression in square brackets, not too deep."""
         begin = self.at

@@ -24,8 +24,9 @@ from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity
 from core.units import Unit
 
-MAX_ROWS: Final = 1_000_000
+MAX_ROWS_RUN_AGAIN: Final = 200_000
 MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
+"""Rows after which a program is taken to run for ever; a row that runs for the first time is not counted."""
 
 MAX_CALLS: Final = 4
 """Subprograms, and macros, that may run inside each other."""
@@ -47,6 +48,7 @@ _NAME: Final = re.compile(r"[ \t]*+O[ \t]*+<[^>]*+>", re.IGNORECASE)
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
 _WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?0*+[1-9][0-9]*+(?![0-9.])")
+_NO_LENGTHS: Final = re.compile(r"G0?5|G6[56]|M9[789]")
 _EXPRESSIONS: Final = frozenset("#[,")
 
 ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
@@ -95,7 +97,8 @@ class MacroFlow(Flow):
         self.calls = [Call(0, Scope())]
         self.modal_call: ModalCall | None = None
         self.no_point: list[tuple[int, int]] = []
-        self.rows_run = 0
+        self.rows_run_again = 0
+        self.plain_blocks: dict[int, Block | None] = {}
         self.rows_without_movement = 0
         self.tape_length = 0
         self._append(_between_percents(lines), 1)
@@ -115,6 +118,7 @@ class MacroFlow(Flow):
                 self.numbers.append(number)
                 self.starts.append(start)
                 program = _PROGRAM.match(text)
+                self.ran.append(0)
                 if program or _NAME.match(text):
                     self.begins.append(row)
                 if program:
@@ -135,12 +139,14 @@ class MacroFlow(Flow):
         return first, self.begins[index] if index < len(self.begins) else len(self.lines)
 
     def count_repeat(self, line: int) -> None:
-        """Counts rows, and those since the last movement."""
-        self.rows_run += 1
+        """Counts rows that run again, and rows since the last movement."""
         self.rows_without_movement += 1
         if len(self.machine.control.tape) != self.tape_length:
             self.tape_length, self.rows_without_movement = len(self.machine.control.tape), 0
-        if self.rows_run > MAX_ROWS or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
+        if self.ran[line - 1]:
+            self.rows_run_again += 1
+        self.ran[line - 1] = True
+        if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not come to an end: a loop or a jump runs for ever. cutcomp stops here."
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
 
@@ -173,7 +179,7 @@ class MacroFlow(Flow):
         text = self.lines[row]
         bare = without_comments(capitals(text), GAP)
         line = Squeezed.of(bare, self.starts[row])
-        if not _EXPRESSIONS.intersection(bare):
+        if not _EXPRESSIONS.intersection(bare) and not _NO_LENGTHS.search(bare):
             places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
             self.no_point.extend((self.numbers[row], column) for column in places)
         found = _KEYWORD.match(line.text)
@@ -335,16 +341,22 @@ class MacroFlow(Flow):
             return
         if 670 in block.g:
             self.modal_call = None
+        if block.corner:
+            self.machine.following = self._following(row)
         moved = len(self.machine.control.tape)
         yield block
         self._after_move(block, row, moved)
 
     def _block(self, row: int, line: Squeezed, start: int) -> Block | None:
         number, text = self.numbers[row], self.lines[row]
+        if row in self.plain_blocks:
+            return self.plain_blocks[row]
         bare = without_comments(capitals(text))
         if start == 0 and is_words(bare):
             block = Block(number, text, self.starts[row])
-            return fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
+            filled = fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
+            self.plain_blocks[row] = filled
+            return filled
         if _SKIP.match(text):
             said = "Block skip is assumed off, so this block runs."
             self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)
@@ -361,6 +373,17 @@ class MacroFlow(Flow):
             return None
         block = Block(number, words, self.starts[row], columns=columns, corner=corner)
         return fill_words(block, words, self.log, self.dialect.syntax)
+
+    def _following(self, row: int) -> Block | None:
+        """The next block of words, for a corner to be rounded; None where a macro statement comes first."""
+        for other in range(row + 1, self.program[1]):
+            statement = self._statement(other)
+            if statement.keyword:
+                return None
+            block = self._block(other, statement.line, 0)
+            if block is not None:
+                return block
+        return None
 
     def _after_move(self, block: Block, row: int, moved: int) -> None:
         """G66: the macro runs after a block that moves."""
@@ -447,7 +470,6 @@ class MacroFlow(Flow):
         if begin not in self.begins:
             self.begins.append(begin)
             self.begins.sort()
-        self.ran.extend(bytes(len(lines)))
         self.labels[number] = begin
         return begin
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from math import cos, hypot, radians, sin
+from math import atan2, cos, hypot, radians, sin, tan
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.compensation.elements import arc_element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
@@ -145,6 +146,8 @@ class MacroMachine(Machine):
         self.last_words: dict[str, float] = {}
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
+        self.following: Block | None = None
+        self.corner_point: Point3 | None = None
 
     def step(self, block: Block) -> None:
         """Runs one block; variables of the block before change only behind it."""
@@ -167,6 +170,10 @@ class MacroMachine(Machine):
 
     def target(self, words: Mapping[str, float]) -> Point3:
         """Where a block's axis words lead, in millimeters of the work coordinates."""
+        corner, self.corner_point = self.corner_point, None
+        if corner is not None:
+            # the tool stands where the rounding ended, and the program at the corner
+            return self._target_from(corner, words)
         for axis, letter in enumerate("XYZ"):
             if letter in words and axis in self.unknown:
                 if self.incremental and words[letter]:
@@ -180,6 +187,14 @@ class MacroMachine(Machine):
         standing, self.position = self.position, self.transform.undone(self.position)
         try:
             return self.transform.applied(super().target(words))
+        finally:
+            self.position = standing
+
+    def _target_from(self, start: Point3, words: Mapping[str, float]) -> Point3:
+        """Where axis words lead from a point."""
+        standing, self.position = self.position, start
+        try:
+            return self.target(words)
         finally:
             self.position = standing
 
@@ -201,6 +216,51 @@ class MacroMachine(Machine):
             return solid(here[0], here[1], height, self.plane)
         turned = radians(angle)
         return solid(center[0] + radius * cos(turned), center[1] + radius * sin(turned), height, self.plane)
+
+    def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
+        following, self.following = self.following, None
+        if block.corner is None or block is not self.current:
+            super()._straight(block, end, rapid=rapid)
+            return
+        if following is None or rapid or not self._goes_on_straight(following):
+            text = "A rounding or chamfer stands between two straight moves. Write the second one in the next block."
+            self.log.stop("PS0051", text, block.line, 1)
+        incremental = self.incremental
+        self.incremental = 910 in following.g or (incremental and 900 not in following.g)
+        beyond = self._target_from(end, following.words)
+        self.incremental = incremental
+        self._cut_corner(block, end, beyond)
+
+    def _goes_on_straight(self, block: Block) -> bool:
+        letters = {"XYZ"[axis] for axis in self.plane.axes[:2]}
+        return {10, 900, 910}.issuperset(block.g) and not letters.isdisjoint(block.words)
+
+    def _cut_corner(self, block: Block, corner: Point3, beyond: Point3) -> None:
+        """`,R` and `,C`: the line ends before the corner, and an arc or a line leads onto the next one."""
+        assert block.corner is not None
+        kind, value = block.corner[0], block.corner[1] * self.scale
+        (ax, ay, low), (px, py, high) = flat(self.position, self.plane), flat(corner, self.plane)
+        bx, by, beyond_height = flat(beyond, self.plane)
+        first, second = hypot(px - ax, py - ay), hypot(bx - px, by - py)
+        if not first or not second or not low == high == beyond_height or value < 0.0:
+            text = "A rounding or chamfer needs two straight moves in the plane and a size above 0."
+            self.log.stop("PS0051", text, block.line, 1)
+        into, out = ((px - ax) / first, (py - ay) / first), ((bx - px) / second, (by - py) / second)
+        angle = atan2(into[0] * out[1] - into[1] * out[0], into[0] * out[0] + into[1] * out[1])
+        reach = value if kind == "C" else value * tan(abs(angle) / 2)
+        if reach > min(first, second):
+            text = "The rounding or chamfer is longer than a move beside it: {0} of {1}. Write a smaller one."
+            self.log.stop("PS0055", text, block.line, 1, lengths=(reach, min(first, second)))
+        start, end = (px - reach * into[0], py - reach * into[1]), (px + reach * out[0], py + reach * out[1])
+        super()._straight(block, solid(*start, low, self.plane), rapid=False)
+        if kind == "C" or not reach:
+            super()._straight(block, solid(*end, low, self.plane), rapid=False)
+        else:
+            turn = 1 if angle > 0.0 else -1
+            center = (start[0] - turn * value * into[1], start[1] + turn * value * into[0])
+            self.position = solid(*end, low, self.plane)
+            self.control.travel(arc_element(start, end, center, turn, low, low, self.feed, block.line))
+        self.corner_point = corner
 
     def _arc(self, block: Block, turn: int) -> None:
         if self.unknown & set(self.plane.axes[:2]):

@@ -312,3 +312,207 @@ def test_two_m_blocks_at_an_inside_corner_part_fanuc_from_haas_and_the_nine_seri
     program = f"{ENTERED}M8\nM9\nY40\nX20\nG40 X0\nM30"
     corner = {control: ends(ran(program, control))[2] for control in ("fanuc:a", "haas:a", "nine-series:a")}
     assert corner == {"fanuc:a": (50.0, 5.0), "haas:a": (45.0, 5.0), "nine-series:a": (45.0, 5.0)}
+
+
+# language
+
+
+def values(program: str) -> dict[int, float]:
+    """The common variables as a program leaves them."""
+    done = ran(program)
+    assert not alarms(done), alarms(done)
+    return dict(done.variables)
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("16./2", 8.0),
+        ("2+3*4", 14.0),
+        ("2*3AND6", 6.0),
+        ("8/2/2", 2.0),
+        ("7MOD4", 3.0),
+        ("1OR6", 7.0),
+        ("5XOR3+1", 7.0),
+        ("-#100*3", -6.0),
+        ("FIX[-1.7]", -1.0),
+        ("FUP[-1.2]", -2.0),
+        ("ROUND[-2.5]", -3.0),
+        ("RO[2.5]", 3.0),
+        ("SQ[16]", 4.0),
+        ("ATAN[-1]/[-1]", 225.0),
+        ("ATAN[1]/[2]*2", 53.13010235415598),
+        ("COS[60]", 0.5),
+        ("POW[2,3]", 8.0),
+        ("BIN[18]", 12.0),
+        ("BCD[12]", 18.0),
+        ("[#100EQ2]AND[#100GT1]", 1.0),
+        ("#[99+1]", 2.0),
+        ("##101", 2.0),
+        ("ABS[-3]+#0", 3.0),
+    ],
+)
+def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: float) -> None:
+    assert values(f"#100=2\n#101=100\n#102={expression}\nM30")[102] == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("row", "code"),
+    [
+        ("#1=1/0", "PS0112"),
+        ("#1=2**3", "PS0114"),
+        ("#1=[1+2", "PS0114"),
+        ("#0=1", "PS0116"),
+        ("#1=#4999", "PS0115"),
+        ("#1=#<_x>", "BEYOND"),
+        ("DO4", "PS0126"),
+        ("END1", "PS0124"),
+        ("IF[1EQ1]X5", "PS0114"),
+        ("#1=2X5", "PS0127"),
+        ("#1=#1-#11:", "PS0127"),
+        ("X", "PS0005"),
+        ("X1.2.3", "PS0009"),
+        ("G123", "PS0010"),
+        ("G2 X5 Y5", "PS0022"),
+        ("G2 X50 R5", "PS0020"),
+        ("M98", "PS0076"),
+        ("G10 L12 R5.", "PS0031"),
+        ("G10 L12 P1", "PS0032"),
+        ("G10 L50", "FN-PARAMETER"),
+        ("G29 X5", "BEYOND"),
+    ],
+)
+def test_what_the_control_cannot_read_is_its_alarm(row: str, code: str) -> None:
+    assert alarms(ran(f"{HEAD}{row}\nM30")) == [(code, 2)]
+
+
+def test_vacant_is_told_from_zero_by_eq_and_ne_alone() -> None:
+    rows = ["IF[#1EQ#0]THEN#100=1", "IF[#1EQ0]THEN#101=1", "IF[#1LT1]THEN#102=1", "#103=#1", "IF[#103NE0]THEN#104=1"]
+    done = values("\n".join(["#101=5", *rows, "M30"]))
+    assert (done[100], done[101], done[102], done[104]) == (1.0, 5.0, 1.0, 1.0)
+
+
+def test_a_sign_before_a_vacant_variable_leaves_the_word_out_too() -> None:
+    assert ends(ran(f"{HEAD}X10 Y-#33\nM30")) == [(10.0, 0.0)]
+
+
+def test_loops_run_may_be_nested_and_left_by_a_jump() -> None:
+    program = (
+        "#100=0\nWHILE[#100LT3]DO1\n#101=0\nWH[#101LT4]DO2\n#101=#101+1\n#102=#102+1\nIF[#102EQ10]GOTO9\n"
+        "END2\n#100=#100+1\nN8END1\nN9 M30"
+    )
+    done = values(program)
+    assert (done[100], done[101], done[102]) == (2.0, 2.0, 10.0)
+
+
+def test_a_jump_searches_forward_first_and_then_from_the_top() -> None:
+    program = "#100=1\nN5 #101=#101+1\nIF[#101GT1]GOTO7\nGOTO5\nN7 M30\nN5 #101=99\nM30"
+    assert values(program)[101] == 99.0
+    assert values("N5 #101=#101+1\nIF[#101GT1]GOTO7\nGOTO5\nN7 M30")[101] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("call", "control", "times"),
+    [
+        ("M98 P200 L3", "fanuc:a", 3),
+        ("M98 P30200", "fanuc:a", 3),
+        ("M98 P0200", "fanuc:a", 1),
+        ("M98 P200 L3", "haas:a", 3),
+        ("M97 P7 L2", "haas:a", 2),
+        ("G65 P200 L2", "fanuc:a", 2),
+    ],
+)
+def test_a_call_runs_as_often_as_it_says(call: str, control: str, times: int) -> None:
+    program = f"O1\n{HEAD}G91\n{call}\nM30\nN7 X1.\nM99\nO200\nX1.\nM99\n"
+    assert ends(ran(program, control)) == [(float(times), 0.0)]
+
+
+def test_a_call_of_an_eight_digit_program_on_haas_is_not_split() -> None:
+    assert alarms(ran("O1\nM98 P30200\nM30\nO200\nM99", "haas:a")) == [("PS0076", 2)]
+
+
+def test_arguments_come_as_letters_of_both_kinds() -> None:
+    macro = "O9\n#100=#1\n#101=#4\n#102=#7\n#103=#10\n#104=#26\n#105=#8\nM99"
+    done = values(f"O1\nG65 P9 A1. I2. I3. I4. Z5. E6.\nM30\n{macro}")
+    assert [done[number] for number in range(100, 106)] == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
+
+
+def test_a_macro_has_variables_of_its_own_and_a_subprogram_has_not() -> None:
+    done = values("O1\n#1=5\nG65 P9\n#100=#1\nM98 P9\n#101=#1\nM30\nO9\n#1=7\nM99")
+    assert (done[100], done[101]) == (5.0, 7.0)
+
+
+def test_a_modal_macro_runs_after_every_move_until_g67() -> None:
+    done = values("O1\nG90 G0\nG66 P9 A2.\nX1\nX2\nM8\nG67\nX3\nM30\nO9\n#100=#100+#1\nM99")
+    assert done[100] == 4.0
+
+
+def test_more_than_four_calls_deep_is_an_alarm() -> None:
+    assert alarms(ran("O1\nM98 P2\nM30\nO2\nM98 P2\nM99"))[0][0] == "PS0077"
+
+
+def test_m99_with_p_goes_on_at_that_block_of_the_caller() -> None:
+    assert values("O1\nM98 P2\n#100=1\nN9 #101=1\nM30\nO2\nM99 P9").keys() == {101}
+
+
+@pytest.mark.parametrize("loop", ["N1 #1=#1+1\nGOTO1", "WHILE[1EQ1]DO1\nEND1", "DO1\nEND1", "M99 P5\nN5 M99 P5"])
+def test_a_loop_without_end_and_movement_is_given_up(loop: str) -> None:
+    assert alarms(ran(loop))[0][0] == "FN-ENDLESS"
+
+
+def test_a_safety_line_and_the_usual_words_run() -> None:
+    program = (
+        "%\nO0001 (PART)\nG00 G17 G20 G40 G49 G80 G90\nT1 M06 (DRILL)\nG54 G90 S1000 M3\nG43 H1 Z1. M8\nG91 G28 Z0.\n"
+        "G90 G5.1 Q1\nG98 G83 X1. Y1. Z-.5 R.1 Q.1 F10.\nX2.\nG80\n/M1\nG28 G91 Z0\nM30\n%\nG1 X9 THIS IS NOT READ"
+    )
+    done = ran(program)
+    assert not alarms(done)
+    assert [finding.code for finding in done.findings if finding.severity is Severity.WARNING] == []
+
+
+def test_a_semicolon_ends_a_block_but_not_in_a_comment() -> None:
+    assert ends(ran(f"{HEAD}X1.;Y2.;(A;B);X3.\nM30")) == [(1.0, 0.0), (1.0, 2.0), (3.0, 2.0)]
+
+
+def test_two_codes_of_a_group_the_last_one_counts() -> None:
+    done = ran(f"{HEAD}G90 G91 X5.\nX5.\nM30")
+    assert ends(done)[-1] == (10.0, 0.0)
+    assert told(done, "GROUP")
+
+
+def test_coordinates_without_a_point_are_counted_once() -> None:
+    (finding,) = told(ran("G21 G1 F100.\nX10 Y-5\nX0\nX3.\nM30"), "FN-POINT")
+    assert finding.text.startswith("2 coordinates")
+    assert (finding.line, finding.column) == (2, 1)
+
+
+# transforms and roundings before compensation
+
+
+def test_rotation_mirror_scale_and_polar_points_are_as_calculated() -> None:
+    half = 10 * 0.5**0.5
+    assert ends(ran(f"{HEAD}G68 X0 Y0 R45.\nX10. Y0\nG69\nX1. Y1.\nM30")) == [
+        (round(half, 6), round(half, 6)),
+        (1.0, 1.0),
+    ]
+    assert ends(ran(f"{HEAD}G51.1 X5.\nX0 Y1.\nM30")) == [(10.0, 1.0)]
+    assert ends(ran(f"{HEAD}G51 X0 Y0 P2000\nX5. Y1.\nM30")) == [(10.0, 2.0)]
+    assert ends(ran(f"{HEAD}G16\nX10. Y90.\nG15\nM30")) == [(0.0, 10.0)]
+
+
+def test_a_mirrored_contour_is_compensated_on_the_other_side() -> None:
+    # mirrored in x = 0, G41 along +X becomes a path along -X with the tool on its right, above it
+    done = ran(f"{HEAD}G51.1 X0\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
+    assert ends(done)[1:3] == [(0.0, 5.0), (-50.0, 5.0)]
+
+
+def test_a_rounding_and_a_chamfer_are_moves_of_the_program() -> None:
+    program = f"{HEAD}X50.,R10.\nY40.,C5.\nX0\nM30"
+    done = ran(program)
+    assert [move.kind for move in flat(done)] == ["line", "ccw", "line", "line", "line"]
+    assert ends(done) == [(40.0, 0.0), (50.0, 10.0), (50.0, 35.0), (45.0, 40.0), (0.0, 40.0)]
+    assert ends(ran(f"{HEAD}G91 X50.,C10.\nY40.\nM30"))[-1] == (50.0, 40.0)
+
+
+def test_a_rounding_longer_than_its_move_is_an_alarm() -> None:
+    assert alarms(ran(f"{HEAD}X50.,R60.\nY40.\nM30")) == [("PS0055", 2)]
