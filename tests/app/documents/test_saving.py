@@ -1,0 +1,340 @@
+"""Saving: what is asked first, two who have one file open, files that somebody else changed; both works are kept."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+import pytest
+
+from app.documents import questions
+from app.documents.files import load, save
+from app.documents.journal_file import journal_path
+from app.documents.lock import lock_path
+from app.documents.programs import empty_program, example
+from app.documents.questions import Ask
+from app.documents.service import Opened, Saved, Trouble
+from tests.app.documents.typist import (
+    DEAD,
+    ELSEWHERE,
+    Typist,
+    changed_by_another,
+    names,
+    number_in,
+    service,
+    started,
+    words,
+)
+
+
+def ask(operator: Typist, path: Path | None = None, *answers: str) -> Ask:
+    question = operator.try_to_save(path, *answers)
+    assert isinstance(question, Ask), question
+    return question
+
+
+def trouble(operator: Typist, path: Path | None = None, *answers: str) -> str:
+    refused = operator.try_to_save(path, *answers)
+    assert isinstance(refused, Trouble), refused
+    return refused.text
+
+
+# ---- names
+
+
+def test_without_a_name_nothing_is_saved_before_there_is_one(own: Path, part: Path) -> None:
+    operator = started(own).type(7)
+    assert trouble(operator) == "This program has no name yet. SAVE AS gives it one."
+    operator.save(part.with_name("other"))
+    assert operator.said == "Saved: other.toml"
+    assert operator.document.file.path == part.with_name("other.toml")
+    assert not operator.document.unsaved
+    assert number_in(part.with_name("other.toml")) == 7
+
+
+def test_another_file_is_replaced_only_after_asking(own: Path, file: Path) -> None:
+    other = file.with_name(f"other{file.suffix}")
+    other.write_text("not ours")
+    operator = started(own, file).type(7)
+    question = ask(operator, other)
+    assert (question.title, [one.word for one in question.answers]) == ("REPLACE THE FILE?", ["REPLACE"])
+    assert other.read_text() == "not ours"
+    operator.save(other, "REPLACE")
+    assert number_in(other) == 7
+    assert number_in(file) == 1
+    assert not lock_path(file).exists()
+    assert lock_path(other).exists()
+    assert not journal_path(file).exists()
+
+
+def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, file: Path) -> None:
+    other = file.with_name(f"other{file.suffix}")
+    other.write_bytes(file.read_bytes())
+    started(own, other, ELSEWHERE)
+    operator = started(own, file).type(7)
+    assert "bob on office has it open." in words(ask(operator, other))
+    operator.save(other, "REPLACE")
+    assert operator.document.file.holder == ELSEWHERE
+
+
+def test_what_cannot_be_saved_is_one_sentence_and_nothing_is_lost(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    assert trouble(operator, file.parent) == f"{file.parent} is not saved: this is a folder. Type a file's name."
+    assert "there is no such file or folder. Check the name." in trouble(operator, file.parent / "none" / file.name)
+    assert "that is not a file name" in trouble(operator, file.parent / "a\0b")
+    assert "the name is too long" in trouble(operator, file.parent / ("n" * 300))
+    assert operator.document.unsaved
+    assert journal_path(file).exists()
+
+
+def test_an_nc_text_never_takes_the_place_of_a_program(own: Path, tmp_path: Path) -> None:
+    part, nc = tmp_path / "part.toml", tmp_path / "part.nc"
+    save(empty_program(), part)
+    nc.write_bytes(b"M30\n")
+    operator = started(own, nc).type(7)
+    assert "is a program and would be overwritten" in trouble(operator, part)
+    assert "is a program and would be overwritten" in trouble(operator, part, "REPLACE")
+    assert load(part) == empty_program()
+
+
+def test_nothing_is_saved_over_a_file_that_is_open_here(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    other = file.with_name(f"other{file.suffix}")
+    other.write_bytes(file.read_bytes())
+    assert isinstance(operator.service.open(other), Opened)
+    assert trouble(operator, other) == f"{other.name} is open here, too. Type another name."
+
+
+# ---- other folders
+
+
+@pytest.fixture
+def outside(own: Path, file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Typist, Path]:
+    """A document in `shop`, opened from the folder `other` beside it."""
+    other = file.parent.with_name("other")
+    other.mkdir()
+    monkeypatch.chdir(other)
+    return started(own, Path("..") / "shop" / file.name).type(7), other
+
+
+def test_a_bare_name_is_taken_beside_the_document_and_said_with_its_folder(outside: tuple[Typist, Path]) -> None:
+    operator, other = outside
+    name = f"new{operator.document.file.path.suffix}"
+    operator.save(Path(name))
+    beside = other.with_name("shop") / name
+    assert number_in(beside) == 7
+    assert operator.said == f"Saved: {beside}"
+
+
+@pytest.mark.parametrize("way", ["../{name}", "../other/{name}", "{whole}/{name}", "link-{name}"])
+def test_a_path_outside_is_asked_once_with_the_whole_path(outside: tuple[Typist, Path], way: str) -> None:
+    operator, other = outside
+    name = f"new{operator.document.file.path.suffix}"
+    shop = other.with_name("shop")
+    (shop / f"link-{name}").symlink_to(other / name)
+    path = Path(way.format(name=name, whole=other))
+    question = ask(operator, path)
+    assert question.title == "WRITE IN ANOTHER FOLDER?"
+    target = shop.parent / name if way == "../{name}" else other / name
+    assert str(target.resolve()) in words(question)
+    assert not target.exists()
+    operator.save(path, "WRITE THERE")
+    assert number_in(target) == 7
+
+
+def test_a_file_that_stands_outside_is_asked_about_in_the_same_question(outside: tuple[Typist, Path]) -> None:
+    operator, other = outside
+    there = other / f"there{operator.document.file.path.suffix}"
+    there.write_text("somebody's")
+    assert "Its content is replaced." in words(ask(operator, there))
+    assert number_in(operator.save(there, "WRITE THERE").document.file.path) == 7
+
+
+def test_a_folder_inside_is_not_outside(outside: tuple[Typist, Path]) -> None:
+    operator, other = outside
+    inside = other.with_name("shop") / "inside"
+    inside.mkdir()
+    operator.save(inside / f"new{operator.document.file.path.suffix}")
+
+
+def test_a_link_into_another_folder_is_asked_once(own: Path, file: Path) -> None:
+    link = file.parent.parent / f"link{file.suffix}"
+    link.symlink_to(file)
+    operator = started(own, link).type(7)
+    assert "is a link to" in words(ask(operator))
+    assert number_in(file) == 1
+    operator.save(None, "WRITE THERE")
+    assert number_in(file) == 7
+    assert link.is_symlink()
+    operator.type(8).save()
+    assert number_in(file) == 8
+
+
+# ---- two who have it open
+
+
+def test_the_second_opener_may_look_and_save_a_copy(own: Path, file: Path) -> None:
+    started(own, file, ELSEWHERE)
+    operator = started(own, file)
+    assert "OPEN ALREADY bob on office has had this program open since 05:00." in operator.asked
+    later = started(own, file, clock="2025-03-06T08:00:00+01:00")
+    assert "since 4 Mar 2025 at 05:00." in later.asked
+    operator.answer("LOOK")
+    assert operator.document.file.holder == ELSEWHERE
+    assert trouble(operator).endswith("open since 05:00. SAVE AS saves your own copy.")
+    operator.save(file.with_name(f"mine{file.suffix}"))
+    assert operator.document.file.holder is None
+    operator.type(7).save()
+    assert number_in(file.with_name(f"mine{file.suffix}")) == 7
+    assert lock_path(file).exists()
+
+
+def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, file: Path) -> None:
+    first = started(own, file, ELSEWHERE).type(7)
+    second = started(own, file).answer("TAKE OVER")
+    assert f"UNSAVED WORK FOUND {file.name} by bob on office" in second.asked
+    second.answer("RESTORE")
+    assert second.work == first.work
+    first.type(8)
+    assert "has had this program open" in first.said
+    assert first.said.endswith("SAVE AS keeps your work.")
+    assert "has had" not in first.type(9).said
+    second.save()
+    assert number_in(file) == 7
+
+
+def test_taken_over_and_saved_meanwhile_there_is_nothing_to_discard(own: Path, file: Path) -> None:
+    first = started(own, file, ELSEWHERE).type(7)
+    second = started(own, file).answer("TAKE OVER")
+    first.save(None, "OVERWRITE")
+    second.answer("LEAVE IT")
+    assert "It was saved or discarded meanwhile." in second.said
+
+
+def test_restoring_what_its_owner_has_saved_meanwhile_keeps_it_in_a_journal_of_its_own(own: Path, file: Path) -> None:
+    first = started(own, file, ELSEWHERE).type(7)
+    second = started(own, file).answer("TAKE OVER")
+    first.save(None, "OVERWRITE")
+    second.answer("RESTORE")
+    assert "Your work is back." in second.said
+    assert journal_path(file).exists()
+
+
+def test_the_first_one_notices_before_it_saves(own: Path, file: Path) -> None:
+    first = started(own, file, ELSEWHERE).type(7)
+    started(own, file).answer("TAKE OVER").answer("LEAVE IT").type(3).save()
+    question = ask(first)
+    assert question.title == "TAKEN OVER: SAVE ANYWAY?"
+    assert f"ann on {DEAD.host} has taken {file.name} over." in words(question)
+    first.save(None, "KEEP BOTH")
+    assert number_in(file) == 3
+    mine = first.document.file.path
+    assert mine.name.startswith("part.mine-")
+    assert number_in(mine) == 7
+
+
+@pytest.mark.parametrize(("answer", "number", "whose"), [("THEIRS", 3, "mine"), ("YOURS", 7, "theirs")])
+def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
+    own: Path, file: Path, answer: str, number: float, whose: str
+) -> None:
+    operator = started(own, file).type(7)
+    changed_by_another(file, 3)
+    question = ask(operator)
+    assert question.title == "CHANGED MEANWHILE"
+    assert f"{file.name} was changed by somebody else" in words(question)
+    assert "Both are kept." in words(question)
+    since, yours = words(question).split("Yours, compared with it:")
+    assert "3" in since
+    assert "7" in yours
+    operator.save(None, answer)
+    assert number_in(file) == number
+    [copy] = [name for name in names(file) if whose in name and not name.startswith(".")]
+    assert copy in operator.said or operator.document.file.path.name == copy
+    assert {number_in(file.with_name(copy)), number_in(file)} == {3, 7}
+    assert not operator.document.unsaved
+
+
+def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, file: Path) -> None:
+    started(own, file).type(7).killed()
+    changed_by_another(file, 3)
+    operator = started(own, file)
+    assert "The file was written since: by somebody else, or by this program just before its end." in operator.asked
+    operator.answer("RESTORE")
+    assert ask(operator).title == "CHANGED MEANWHILE"
+
+
+@pytest.mark.parametrize("call", ["write", "fsync"])
+def test_a_full_disk_leaves_no_half_copy_of_the_other_version(
+    own: Path, file: Path, monkeypatch: pytest.MonkeyPatch, call: str
+) -> None:
+    operator = started(own, file).type(7)
+    changed_by_another(file, 3)
+    theirs, before = file.read_bytes(), names(file)
+
+    def full(*_: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, call, full)
+        text = trouble(operator, None, "YOURS")
+    assert (
+        text == "Nothing is saved: the other version cannot be copied, the disk is full. Make room or save elsewhere."
+    )
+    assert (file.read_bytes(), names(file)) == (theirs, before)
+
+
+def test_written_again_with_the_same_content_is_no_change(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    file.write_bytes(file.read_bytes())
+    assert operator.save().said == f"Saved: {file.name}"
+
+
+def test_what_somebody_else_has_made_unreadable_is_told_as_changed(own: Path, part: Path) -> None:
+    operator = started(own, part).type(3)
+    part.write_bytes(b"no program")
+    assert "It is no program any more." in words(ask(operator))
+
+
+# ---- leaving
+
+
+def test_leaving_asks_only_when_something_would_be_lost(own: Path, file: Path) -> None:
+    operator = started(own, file)
+    assert questions.leaving("QUIT?", [operator.document]) is None
+    operator.type(7)
+    unnamed = started(own).type(3).document
+    question = questions.leaving("QUIT?", [operator.document, unnamed])
+    assert question is not None
+    assert question.lines == (f"{file.name} has changes that are not saved.", "This program was never saved.")
+    assert [one.word for one in question.answers] == ["DISCARD", "SAVE"]
+    assert question.safe == "GO BACK"
+
+
+def test_what_cannot_be_used_is_said_to_be_in_the_file_as_it_was_typed(own: Path, part: Path) -> None:
+    from core.program.edit import FormPlace, type_field
+    from core.program.model import Program, Unread
+
+    operator = started(own, part)
+    document = operator.document
+    program = type_field(document.program, FormPlace(1), "x_start", Unread("2..5", "no number"))
+    assert isinstance(program, Program)
+    operator.keep(document.edited(document.history.do(program, "X START"), FormPlace(1), "x_start"))
+    assert operator.save().said == "Saved: part.toml, what is marked ERR as it was typed."
+
+
+def test_only_what_was_changed_is_written_in_an_nc_text(own: Path, tmp_path: Path) -> None:
+    nc = tmp_path / "part.nc"
+    nc.write_bytes(b"\xef\xbb\xbfG0 X1\r\nG1 \xb0\r(no end)")
+    operator = started(own, nc)
+    operator.keep(operator.document.edited(operator.document.text.changed(1, "G1"), 1)).save()
+    assert nc.read_bytes() == b"\xef\xbb\xbfG0 X1\r\nG1\r(no end)"
+
+
+def test_an_example_is_saved_under_a_name_of_its_own(own: Path, part: Path) -> None:
+    documents = service(own)
+    opened = documents.example("notch")
+    assert opened.document.title == "notch"
+    saved = documents.save(opened.document, part.with_name("notch"))
+    assert isinstance(saved, Saved)
+    assert load(part.with_name("notch.toml")) == load(example("notch"))
