@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
+from core.comp.best_path.raw_offset import raw_offset
+from core.comp.best_path.trim import trimmed
 from core.geometry.path import Path, as_complex
 from core.geometry.piece import Side
 from tests.core.comp.families import joined
@@ -49,3 +51,17 @@ def _inside(contour: Path, side: Side) -> list[bool]:
     """Which corners of a chain of lines are inside ones."""
     span = np.diff(as_complex(contour.points))
     return [bool(bend > 0.0) for bend in side.sign * (np.conj(span[:-1]) * span[1:]).imag]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_after_trimming_a_piece_is_followed_by_the_one_that_starts_at_its_end_or_by_none(seed: int) -> None:
+    random, count = Random(seed), 60
+    star = [rect(random.uniform(6.0, 10.0), 2.0 * pi * row / count) for row in range(count)]
+    raw = raw_offset(joined([*star, star[0]]), Side.LEFT, 2.0, closed=True, crossing=False)
+    found = trimmed(raw, Side.LEFT.sign, 2.0)
+    assert len(found) < len(raw.raw)
+    last = (found.following < 0).nonzero()[0]
+    assert (found.following[last] == -1).all()
+    assert not found.smooth[last].any()
+    others = (found.following >= 0).nonzero()[0]
+    assert np.abs(found.end[others] - found.start[found.following[others]]).max() <= 1e-9

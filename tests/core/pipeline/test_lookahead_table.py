@@ -1,4 +1,4 @@
-""""""
+"""The look-ahead table of a block: every value cut and judged, and the value it recommends."""
 
 from dataclasses import fields, replace
 
@@ -6,7 +6,7 @@ import pytest
 
 from core.comp.lookahead import recommended
 from core.output.passes import meets_solid
-from core.pipeline.derive import advice_for_block, derive, look_ahead_table
+from core.pipeline.derive import advice_for_block, derive, look_ahead_table, trial_of
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
@@ -152,3 +152,14 @@ def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
 
     assert advice_for_block(found, part, wanted=wanted) is None
     assert asked == [True] * tries + [False]
+
+
+def test_roughing_passes_are_cut_by_tool_where_a_finish_tool_follows():
+    """TOOL is 0.5 across, FINISH TOOL 0.25: it leaves FINISH XY before."""
+    rough = block(OUTSIDE_SQUARE, CutterComp.RIGHT)
+    parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.02))
+    for finish, radius, rougher in ((Number(2), 0.125, 0.25), (None, 0.25, None)):
+        part = program(replace(rough, finish_tool=finish), parameters=parameters)
+        asked = trial_of(derive(part).blocks[0], part)
+        assert asked.radius == pytest.approx(25.4 * radius)
+        assert asked.rougher == (None if rougher is None else pytest.approx(25.4 * rougher))
