@@ -98,3 +98,15 @@ def test_only_what_lies_beyond_the_crossing_of_the_ends_is_drawn_as_lead(first, 
     scene = block_scene(found, None, Unit.IN)
     drawn = [part for layer in scene.layers if layer.style is Style.LEAD for part in layer.parts]
     assert [(part.points / 25.4).tolist() for part in drawn] == [[pytest.approx(end) for end in part] for part in ends]
+
+
+def test_an_arc_that_runs_past_the_corner_is_drawn_as_lead_from_there_on():
+    one = block(((2, 3), (5, 3), (5, 5), (3, 5)), CutterComp.RIGHT)
+    arc = ArcSegment(Direction.CW, x_end=Number(3.0), y_end=Number(1.0), x_center=Number(-7.0), y_center=Number(3.0))
+    found = derived(program(replace(one, segments=(*one.segments, arc))))
+    crossing = 104**0.5 - 7
+    scene = block_scene(found, None, Unit.IN)
+    first, last = [part for layer in scene.layers if layer.style is Style.LEAD for part in layer.parts]
+    assert (first.points / 25.4).tolist() == [pytest.approx((2, 3)), pytest.approx((crossing, 3))]
+    assert (last.points / 25.4).tolist() == [pytest.approx((crossing, 3)), pytest.approx((3, 1))]
+    assert last.turns.tolist() == [-1]
