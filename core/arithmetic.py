@@ -1,7 +1,8 @@
 """Arithmetic an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
 
-A suffix belongs to the product it is in; in a sum either every term has one or none has.  A comma, and a
-dash that shop people read as "and" (`1-1/2`), may mean two things and are refused with the reason.
+A suffix belongs to the product it is in; in a sum either every term has one or none has.  A comma (one alone is a
+decimal point before it comes here), and a dash that shop people read as "and" (`1-1/2`), may mean two things and are
+refused with the reason.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fracti
     if not text.isprintable():
         raise CannotReadError("It has a character that cannot be displayed: type it again.")
     if "," in text:
-        raise CannotReadError("Use a decimal point (1.5) and no thousands comma.")
+        raise CannotReadError("Use one decimal point (1.5) and no thousands comma.")
     _refuse_dashed(text)
     tokens = [(match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKEN.finditer(text.rstrip())]
     return _Reader(tokens, scales, expected, text.strip()).whole()

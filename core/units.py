@@ -177,7 +177,7 @@ def _telling_digits(value: float, other: float, unit: Unit) -> str:
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
     """The value of an operator's text in program units (degrees for an angle), or why there is none."""
     try:
-        exact = evaluate(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
+        exact = evaluate(with_decimal_point(text, unit), _scales(kind, unit), _EXPECTED.get(kind, ""))
     except CannotReadError as fault:
         return Unreadable(str(fault))
     if kind is Kind.COUNT and exact.denominator != 1:
@@ -185,6 +185,23 @@ def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
     if abs(exact) * (MM_PER[unit] if kind in (Kind.LENGTH, Kind.FEED) else 1) > Fraction(LARGEST):
         return Unreadable("Too large for any machine.")
     return float(exact)
+
+
+def with_decimal_point(text: str, unit: Unit) -> str:
+    """A text whose one comma stands for the decimal point; CannotReadError where it may be a thousands comma.
+
+    In inch programs that is a comma with exactly three digits behind it.
+    """
+    if text.count(",") != 1 or "." in text:
+        return text
+    thousands = _THOUSANDS.search(text) if unit is Unit.IN else None
+    if thousands is not None:
+        before, after = thousands.groups()
+        raise CannotReadError(f"Type {before}.{after} or {before}{after}.")
+    return text.replace(",", ".")
+
+
+_THOUSANDS: Final = re.compile(r"([0-9]*),([0-9]{3})(?![0-9])")
 
 
 @lru_cache

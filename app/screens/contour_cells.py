@@ -12,7 +12,6 @@ from app.widgets.field import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
-from core.program.solve.block import ZERO_IF_BLANK
 from core.program.solve.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
 
@@ -74,12 +73,9 @@ def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bo
         picked = getattr(session.segment, "choice", None)
         text = "" if picked is None else SOLUTIONS[picked]
         return Cell("choice", field.label, text, column, choices=SOLUTIONS, visible=visible)
-    tag = None
-    if field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR:
-        tag = State.OVERRIDDEN
-    if field.name in ZERO_IF_BLANK:
-        tag = State.USUAL
-    return cell_of(field, value_at(session, field.name), unit, column, needed=needed, special=tag, visible=visible)
+    overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
+    value = value_at(session, field.name)
+    return cell_of(field, value, unit, column, needed=needed, overrides=overrides, visible=visible)
 
 
 def value_at(session: Session, name: str) -> Value | str:

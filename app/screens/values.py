@@ -6,11 +6,11 @@ from app.widgets.field import Cell, State
 from core.pipeline.derived import Tag
 from core.program.fields import TYPE_AGAIN, Field, text_refusal, unread_reason, unread_sentence, value_refusal
 from core.program.model import Number, Unread
-from core.program.solve.solved import Solved, Value
+from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, show
 
-TAGS = {State.CALCULATED: str(Tag.CAL), State.OVERRIDDEN: str(Tag.USR), State.USUAL: "DEF", State.UNREAD: "ERR"}
-"""The tag of a field in each state that has one."""
+TAGS = {State.OVERRIDDEN: str(Tag.USR), State.UNREAD: "ERR"}
+"""The tag of a typed field in each state that has one; what was not typed has the tag of its origin."""
 
 
 def cell_of(
@@ -20,27 +20,25 @@ def cell_of(
     column: int,
     *,
     needed: bool = False,
-    special: State | None = None,
+    overrides: bool = False,
     visible: bool = True,
 ) -> Cell:
-    """A field's cell with the state that its value gives it.
-
-    `special` is the state of a typed value that overrides a calculated one, or of a blank that has a usual value.
-    """
-    state = _state(field, value, unit, needed=needed, special=special)
+    """A field's cell with the state that its value gives it; `overrides` where a typed value stands in for another."""
+    state = _state(field, value, unit, needed=needed, overrides=overrides)
+    tag = str(value.origin) if isinstance(value, Solved) else TAGS.get(state, "")
     text = "?" if state is State.NEEDED else shown_text(value, field, unit)
     full = full_text(value, field, unit) if isinstance(value, Number) else ""
-    return Cell(field.name, field.label, text, column, state, TAGS.get(state, ""), full, field.choices, visible)
+    return Cell(field.name, field.label, text, column, state, tag, full, field.choices, visible)
 
 
-def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, special: State | None) -> State:
+def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, overrides: bool) -> State:
     match value:
         case Unread() | Number() if unusable(value, field, unit) is not None:
             return State.UNREAD
         case Solved():
-            return State.USUAL if special is State.USUAL else State.CALCULATED
-        case Number() if special is State.OVERRIDDEN:
-            return special
+            return State.USUAL if value.origin in (Origin.USUAL, Origin.TOOL) else State.CALCULATED
+        case Number() if overrides:
+            return State.OVERRIDDEN
         case None if needed:
             return State.NEEDED
         case _:

@@ -190,7 +190,7 @@ class FieldLabel(Static):
         if not tag:
             return Content(label)
         blank = max(self.size.width - len(label) - len(tag) - 1, 1)
-        return Content.assemble(label, " " * blank, (tag, f"not italic bold $c{self.cell.state}"))
+        return Content.assemble(label, " " * blank, (tag, f"bold $c{self.cell.state}"))
 
 
 class FieldRow(Horizontal):

@@ -224,3 +224,33 @@ def test_sentence_leaves_braces_it_does_not_know():
 def test_printable_text_moves_no_cursor():
     assert printable(" \x1b[31m red\n") == "?[31m red"
     assert printable("x" * 100) == "x" * 24 + "..."
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("1,5", Unit.IN, 1.5),
+        (",5", Unit.IN, 0.5),
+        ("2,25", Unit.MM, 2.25),
+        ("1,500", Unit.MM, 1.5),
+        ("0,3125", Unit.IN, 0.3125),
+        ("2-1,5", Unit.IN, 0.5),
+        ("12,7mm", Unit.IN, 0.5),
+    ],
+)
+def test_a_single_comma_is_a_decimal_point(text, unit, value):
+    assert parse(text, Kind.LENGTH, unit) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "reason"),
+    [
+        ("1,500", Unit.IN, "Type 1.500 or 1500."),
+        (",250", Unit.IN, "Type .250 or 250."),
+        ("1,500mm", Unit.IN, "Type 1.500 or 1500."),
+        ("1,5.2", Unit.IN, "Use one decimal point (1.5) and no thousands comma."),
+        ("1,000,000", Unit.MM, "Use one decimal point (1.5) and no thousands comma."),
+    ],
+)
+def test_a_comma_that_may_be_a_thousands_comma_is_refused(text, unit, reason):
+    assert parse(text, Kind.LENGTH, unit) == Unreadable(reason)

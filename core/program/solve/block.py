@@ -1,9 +1,10 @@
 """A block solved: START read, and every blank of its segments calculated that the typed fields determine.
 
 A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as
-`Solved`; Z END and FEED carry over from the segment before, on the first from Z BOTTOM and PLUNGE FEED.  A blank
-X END or Y END does not carry over: the line or arc then is not determined, and says what is missing.  Where two
-solutions fit, `line` and `arc` document their order, and the segment's `choice` picks.
+`Solved`; Z END and FEED carry over from the segment before, on the first from Z BOTTOM and PLUNGE FEED.  A LINE on
+which X END or Y END is all that is typed of its shape keeps the other coordinate; no other blank X END or Y END carries
+over: the line or arc then is not determined, and says what is missing.  Where two solutions fit, `line` and `arc`
+document their order, and the segment's `choice` picks.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from core.program.model import BlendSegment, Block, CutterComp, Program
 from core.program.solve.blend_arc import Blends, put_blends_in
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.segment import Carried, Draft, draft, typed_point
-from core.program.solve.solved import SolvedBlock, SolvedSegment, Value
+from core.program.solve.solved import Origin, SolvedBlock, SolvedSegment, Value
 from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
 from core.units import Unit
@@ -143,7 +144,7 @@ def _start(block: Block, program: Program) -> _Start:
     tool = called_tool(program, block.tool, "tool", severity)
     finish = called_tool(program, block.finish_tool, "finish_tool", severity)
     for name in ZERO_IF_BLANK:
-        reading.fill(name, 0.0)
+        reading.fill(name, 0.0, Origin.USUAL)
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
     # what was typed and is wrong comes before what is still to be typed: few of them are seen at once

@@ -12,7 +12,8 @@ from core.finding import Finding
 from core.geometry import construct
 from core.geometry.construct import OnePoint, OppositeDirection, OutOfReach, TwoPoints
 from core.geometry.piece import Line, Piece, Point
-from core.program.fields import Form
+from core.program.fields import LINE, Form
+from core.program.model import LineSegment, Unread
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
 from core.tolerance import AGREES, ARC_RADII
 from core.units import Kind, Unit, from_radians, show
@@ -66,6 +67,18 @@ def points_of(ends: OnePoint | TwoPoints) -> tuple[Point, ...]:
 
 def _lines(start: Point, *ends: Point) -> Outcome:
     return Outcome(tuple(Line(start, end) for end in ends))
+
+
+def kept_axis(segment: LineSegment) -> int | None:
+    """The axis (0 is X) on which a LINE stays: the other end coordinate is all that is typed of its shape.
+
+    With anything else typed, or with both ends blank, nothing is assumed.
+    """
+    shape = [field.name for field in LINE if field.name not in ("z_end", "feed")]
+    typed = [name for name in shape if getattr(segment, name) not in (None, False)]
+    if len(typed) != 1 or typed[0] not in _END or isinstance(getattr(segment, typed[0]), Unread):
+        return None
+    return 1 - _END.index(typed[0])
 
 
 def shown_angle(angle: float) -> str:

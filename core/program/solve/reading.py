@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from core.finding import Finding, Severity
 from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
 from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Unread
-from core.program.solve.solved import Solved, Value
+from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, to_mm, to_radians
 
 
@@ -20,10 +20,10 @@ class Reading:
     known: dict[str, float]
     findings: tuple[Finding, ...]
 
-    def fill(self, name: str, value: float | None) -> None:
-        """Put a calculated number, in program units, into a field that is blank."""
+    def fill(self, name: str, value: float | None, origin: Origin = Origin.CALCULATED) -> None:
+        """Put a number that was not typed, in program units, into a field that is blank."""
         if value is not None and self.values[name] is None:
-            self.values[name] = Solved(value)
+            self.values[name] = Solved(value, origin)
 
 
 def read_form(

@@ -10,10 +10,10 @@ from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.fields import FARTHEST, form_of
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Number, Segment
 from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
-from core.program.solve.line import LINE_TASK, heading, line_sketch
+from core.program.solve.line import LINE_TASK, heading, kept_axis, line_sketch
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.rules import Given, Outcome, Task, solve
-from core.program.solve.solved import Value
+from core.program.solve.solved import Origin, Value
 from core.tolerance import JOINED, LARGEST
 from core.units import Unit, from_mm, from_radians
 
@@ -66,6 +66,7 @@ def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
     reading = read_form(form_of(segment), segment, unit, number)
     known = reading.known
     z, feed = known.pop("z_end", before.z), known.pop("feed", before.feed)
+    kept = _keep_coordinate(segment, reading, before, unit)
     shape = _shape(segment, reading, before, unit)
     reading.fill("feed", None if feed is None else from_mm(feed, unit))
     if not isinstance(segment, BlendSegment):
@@ -73,7 +74,23 @@ def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
     typed = before.typed if isinstance(segment, BlendSegment) else typed_point(reading.values, _ENDS)
+    if kept is not None:
+        # the same number as typed before it
+        typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
     return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed))
+
+
+def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> int | None:
+    """Take the other coordinate of a LINE on which one end coordinate alone is typed from the segment before.
+
+    Returns the axis on which the line stays (0 is X), None where nothing is assumed or nothing is known to take.
+    """
+    axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    if axis is None or before.point is None or _ENDS[1 - axis] not in reading.known:
+        return None
+    reading.known[_ENDS[axis]] = before.point[axis]
+    reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
+    return axis
 
 
 def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:

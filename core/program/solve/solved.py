@@ -8,17 +8,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
 from core.program.model import Number, Unread
 
 
+class Origin(StrEnum):
+    """Where a number that was not typed comes from; the form shows it as the field's tag."""
+
+    CALCULATED = "CAL"
+    SAME = "SAME"
+    """The coordinate of the segment before."""
+    TOOL = "TOOL"
+    """What TOOL SETUP proposes for the tool."""
+    USUAL = "DEF"
+    """What a blank usually means."""
+
+
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """A calculated number, in program units (degrees for an angle)."""
+    """A number that was not typed, in program units (degrees for an angle)."""
 
     value: float
+    origin: Origin = Origin.CALCULATED
 
 
 Value = Number | Solved | Unread | None

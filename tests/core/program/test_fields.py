@@ -185,9 +185,9 @@ def test_read_keeps_what_it_cannot_read():
     one = field_of(Form.LINE, "x_end")
     assert read_typed("  ", one, Unit.IN) is None
     assert read_typed("1 1/2", one, Unit.IN) == Number(1.5)
-    unread = read_typed("1,5", one, Unit.IN)
+    unread = read_typed("1a5", one, Unit.IN)
     assert isinstance(unread, Unread)
-    assert unread.text == "1,5"
+    assert unread.text == "1a5"
 
 
 @pytest.mark.parametrize(

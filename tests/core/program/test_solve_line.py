@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from math import dist
+from dataclasses import replace
+from math import dist, tau
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.geometry.piece import Line
-from core.program.model import LineSegment
+from core.geometry.piece import Arc, Line
+from core.program.model import LineSegment, Unread
 from core.program.solve.block import solve_block
-from core.program.solve.solved import SolvedSegment
+from core.program.solve.solved import Origin, Solved, SolvedSegment
 from core.units import Unit, sentence
-from tests.core.program.parts import line, number, program, tags
+from tests.core.program.parts import arc, line, number, program, tags
 
 
 def solved(segment: LineSegment, x: float = 0.0, y: float = 0.0) -> SolvedSegment:
@@ -97,8 +98,6 @@ def test_a_picked_solution_still_shows_both():
             ("x_end", "y_end", "length", "angle"),
             "type X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",
         ),
-        ({"x_end": 3.0}, ("y_end", "length", "angle"), "type Y END, XY LENGTH or XY ANGLE."),
-        ({"y_end": 3.0}, ("x_end", "length", "angle"), "type X END, XY LENGTH or XY ANGLE."),
         ({"length": 3.0}, ("x_end", "y_end", "angle"), "type X END, Y END or XY ANGLE."),
         ({"angle": 3.0}, ("x_end", "y_end", "length"), "type X END, Y END or XY LENGTH."),
         ({"x_end": 1.0, "angle": 90.0}, ("y_end", "length"), "type Y END or XY LENGTH."),
@@ -148,8 +147,53 @@ def test_a_line_without_length_is_passed_over():
 
 
 def test_a_sketch_leads_to_what_is_typed():
-    assert solved(line(x_end=3.0), 1.0, 1.0).sketch == Line((1.0, 1.0), (3.0, 1.0))
+    half_typed = replace(line(x_end=3.0), y_end=Unread("2-", "Type a number."))
+    assert solved(half_typed, 1.0, 1.0).sketch == Line((1.0, 1.0), (3.0, 1.0))
     assert solved(line(angle=3.0), 1.0, 1.0).sketch is None
+
+
+@pytest.mark.parametrize(("name", "end", "kept"), [("x_end", (3.0, 1.0), "y_end"), ("y_end", (1.0, 3.0), "x_end")])
+def test_one_end_coordinate_alone_keeps_the_other(name, end, kept):
+    found = solved(line(**{name: 3.0}, z_end=-2.0, feed=5.0), 1.0, 1.0)
+    assert found.piece == Line((1.0, 1.0), end)
+    assert found.values[kept] == Solved(1.0, Origin.SAME)
+    assert found.findings == ()
+
+
+@pytest.mark.parametrize(
+    "segment",
+    [
+        line(),
+        line(x_end=3.0, length=9.0),
+        line(y_end=3.0, angle=180.0),
+        replace(line(x_end=3.0), angle=Unread("9-", "Type a number.")),
+        replace(line(), x_end=Unread("9-", "Type a number.")),
+    ],
+    ids=["blank", "length", "angle", "unread angle", "unread"],
+)
+def test_nothing_is_kept_beside_anything_else_that_is_typed(segment):
+    found = solved(segment, 1.0, 1.0)
+    assert Origin.SAME not in [value.origin for value in found.values.values() if isinstance(value, Solved)]
+
+
+def test_a_kept_coordinate_is_that_of_the_segment_before_to_the_last_digit():
+    given_program = program(line(x_end=1.0 / 3.0, y_end=0.1), line(y_end=7.0), line(x_end=0.0), x=0.0, y=0.0)
+    first, second, third = solve_block(given_program.blocks[0], given_program).segments
+    assert second.values["x_end"] == Solved(1.0 / 3.0, Origin.SAME)
+    assert (first.end, second.end, third.end) == ((1.0 / 3.0, 0.1), (1.0 / 3.0, 7.0), (0.0, 7.0))
+
+
+def test_a_full_circle_after_a_kept_coordinate_is_one():
+    typed = {"x_end": 0.3, "y_end": 7.0, "x_center": 0.3, "y_center": 9.0}
+    given_program = program(line(x_end=0.3, y_end=0.1), line(y_end=7.0), arc("CW", **typed), x=0.0, y=0.0)
+    circle = solve_block(given_program.blocks[0], given_program).segments[2].piece
+    assert isinstance(circle, Arc)
+    assert abs(circle.sweep) == pytest.approx(tau)
+
+
+def test_nothing_is_kept_after_a_segment_that_is_not_determined():
+    given_program = program(line(), line(y_end=7.0), x=0.0, y=0.0)
+    assert solve_block(given_program.blocks[0], given_program).segments[1].piece is None
 
 
 coordinates = st.floats(-50, 50).map(lambda value: round(value, 4))
