@@ -18,6 +18,12 @@ class Unusable(Exception):
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The tools and the unit."""
+    add_tool_options(parser)
+    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
+
+
+def add_tool_options(parser: argparse.ArgumentParser) -> None:
+    """The tools."""
     parser.add_argument(
         "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
     )
@@ -28,7 +34,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="N=DIAMETER",
         help="a tool's diameter in the program's unit, or with mm or in behind it",
     )
-    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
 
 
 def control_of(text: str) -> str:

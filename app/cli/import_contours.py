@@ -8,18 +8,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from app.cli.control_options import Unusable as UnusableOptions
+from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
 from app.cli.shell import CLEAN, UNUSABLE, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
+from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, Progress, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import rows_of, sentences, table, unit_question
+from core.importing.nc import CenterPath, NcContour, NcError, NcProgram, nc_blocks, read_nc
 from core.importing.segments import NotTaken, comment, taken
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
+from core.program.model import Program
 from core.units import Kind, Unit, from_mm, show, to_mm
 
 UNITS: Final = {
@@ -51,8 +56,15 @@ def import_contours(arguments: list[str]) -> int:
     """Runs the command; returns 0, or 2 for what cannot be used."""
     options = _parser().parse_args(arguments)
     try:
-        _import(options)
-    except (Unusable, StoreError, NotTaken) as error:
+        if options.control is None:
+            _import(options)
+        else:
+            import_nc(options)
+    except NcError as error:
+        more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
+        say(f"{error}{more}")
+        return UNUSABLE
+    except (Unusable, UnusableOptions, StoreError, NotTaken) as error:
         say(str(error))
         return UNUSABLE
     except DrawingError as error:
@@ -65,9 +77,10 @@ def import_contours(arguments: list[str]) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "cutcomp import",
-        description="Contours of a DXF drawing as a program; lengths are typed in the program's unit.",
+        description="Contours of a DXF drawing, or of an NC program (with --control), as a program; "
+        "lengths are typed in the program's unit.",
     )
-    parser.add_argument("file", type=Path, metavar="FILE", help="a drawing (DXF)")
+    parser.add_argument("file", type=Path, metavar="FILE", help="a drawing (DXF) or an NC program")
     parser.add_argument("--list", action="store_true", help="list the contours, take none")
     parser.add_argument(
         "--chain", metavar="N|all", help="the contours to take by their numbers in the list: 1,3 or all"
@@ -83,6 +96,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--start", metavar="X,Y", help="start at the place nearest to this one")
     parser.add_argument("--reverse", action="store_true", help="travel the contour the other way")
     parser.add_argument("--damaged", action="store_true", help="take what can be read of a damaged file")
+    parser.add_argument("--control", metavar="NAME[:VARIANT]", help="FILE is an NC program of this control")
+    parser.add_argument("--side", choices=("left", "right", "on"), help="of an NC program of the tool's center")
+    parser.add_argument("--diameter", type=float, metavar="D", help="the tool's, for an NC program of its center")
+    add_tool_options(parser)
     parser.add_argument("-o", "--output", type=Path, metavar="OUT.toml", help="write the program here")
     return parser
 
@@ -150,12 +167,17 @@ def _chosen(listed: ContourList, chain: str | None, unit: Unit) -> tuple[Contour
         raise Unusable(f"The drawing has {len(contours)} contours: add --chain N, --chain 1,2 or --chain all.")
     if chain.strip().lower() == "all":
         return contours
-    numbers = [part.strip() for part in chain.split(",")]
-    wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= len(contours)), None)
-    if wrong is not None:
-        raise Unusable(f"--chain {wrong}: the drawing has contours 1 to {len(contours)}.")
-    wanted = {int(part) for part in numbers}
+    wanted = _numbers(chain, len(contours), "drawing")
     return tuple(contour for contour in contours if contour.number in wanted)
+
+
+def _numbers(chain: str, count: int, what: str) -> set[int]:
+    """The numbers that --chain names."""
+    numbers = [part.strip() for part in chain.split(",")]
+    wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= count), None)
+    if wrong is not None:
+        raise Unusable(f"--chain {wrong}: the {what} has contours 1 to {count}.")
+    return {int(part) for part in numbers}
 
 
 def _changed(contour: Contour, options: argparse.Namespace, unit: Unit) -> Contour:
@@ -179,15 +201,7 @@ def _point(text: str, unit: Unit) -> tuple[float, float]:
 def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Contour, ...]) -> None:
     unit = listed.unit
     program, made = taken(empty_program(unit), contours)
-    text = dumps(program)
-    first, _, rest = text.partition("\n")
-    text = f"{first}\n{comment(options.file.name, contours)}\n{rest}"
-    if options.output is None:
-        sys.stdout.write(text)
-    else:
-        if options.output.exists() and options.output.resolve() == options.file.resolve():
-            raise Unusable(f"-o {options.output}: that is the drawing itself.")
-        write_text(options.output, text)
+    _write_program(options, program, comment(options.file.name, contours))
     for sentence in sentences(listed, unit):
         say(sentence)
     for block, contour in zip(made, contours, strict=True):
@@ -196,3 +210,81 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
         say(f"contour {contour.number}: {len(block.block.segments)} segments from X {x} Y {y}{way}.")
         for note in block.notes:
             say(note)
+
+
+def _write_program(options: argparse.Namespace, program: Program, remark: str) -> None:
+    """The program's file with where it comes from, behind the line that says how it ends."""
+    first, _, rest = dumps(program).partition("\n")
+    text = f"{first}\n{remark}\n{rest}"
+    if options.output is None:
+        sys.stdout.write(text)
+        return
+    if options.output.exists() and options.output.resolve() == options.file.resolve():
+        raise Unusable(f"-o {options.output}: that is the file that is imported.")
+    write_text(options.output, text)
+
+
+def import_nc(options: argparse.Namespace) -> None:
+    """`cutcomp import FILE.nc --control NAME`: the contours of an NC program."""
+    drawing_only = [name for name in ("fit", "tolerance", "start", "layer", "reverse") if getattr(options, name)]
+    if drawing_only:
+        raise Unusable(f"--{drawing_only[0]} goes with a drawing only: leave out --control.")
+    units = {"in": Unit.IN, "mm": Unit.MM}
+    if options.units and options.units not in units:
+        raise Unusable("--units: an NC program is in inches or in millimeters.")
+    unit = units.get(options.units or "")
+    data, control = bytes_of(options.file), control_of(options.control)
+    read = read_nc(data, control, tools_of(options), unit=unit, center=_center(options))
+    if options.list:
+        print(*_nc_rows(read), sep="\n")
+    chosen = _chosen_nc(read, options)
+    if chosen is None:
+        return
+    program, made = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
+    _write_program(options, program, comment(options.file.name, ()))
+    for number, block in enumerate(made, 1):
+        say(f"contour {number}: {len(block.block.segments)} segments.")
+        for note in (*chosen.notes, *block.notes):
+            say(note)
+
+
+def _center(options: argparse.Namespace) -> CenterPath | None:
+    """What --side and --diameter say of a program of the tool's center."""
+    if options.side is None:
+        return None
+    if options.side != "on" and not options.diameter:
+        raise Unusable("--side: add --diameter, the tool's in the program's unit.")
+    side = {"left": Side.LEFT, "right": Side.RIGHT, "on": None}[options.side]
+    return CenterPath(side, options.diameter or 0.0)
+
+
+def _chosen_nc(read: NcProgram, options: argparse.Namespace) -> NcProgram | None:
+    """The contours to take; None where they are only listed."""
+    count = len(read.contours)
+    if options.list or (options.chain is None and count > 1):
+        if not options.list:
+            print(*_nc_rows(read), sep="\n")
+            raise Unusable(f"The program has {count} contours: add --chain N, --chain 1,2 or --chain all.")
+        return None
+    if options.chain is None or options.chain.strip().lower() == "all":
+        return read
+    wanted = _numbers(options.chain, count, "program")
+    chosen = tuple(contour for number, contour in enumerate(read.contours, 1) if number in wanted)
+    return replace(read, contours=chosen)
+
+
+def _nc_rows(read: NcProgram) -> list[str]:
+    return [_nc_row(number, contour, read.unit) for number, contour in enumerate(read.contours, 1)]
+
+
+def _nc_row(number: int, contour: NcContour, unit: Unit) -> str:
+    """A contour of an NC program as a line of the list."""
+    first, last = contour.cuts[0].line, contour.cuts[-1].line
+    kind = "closed" if contour.closed else "open"
+    tool = "" if contour.tool is None else f"  tool {contour.tool}"
+    length = show(from_mm(sum(piece.length for piece in contour.pieces), unit), Kind.LENGTH, unit)
+    side = "ON" if contour.side is None else contour.side.value
+    passes = f"  {len(contour.depths)} passes" if len(contour.depths) > 1 else ""
+    return (
+        f"{number:>4}  {side:<5}  {kind:<6}  {len(contour.cuts):>5}  {length:>10}  lines {first}-{last}{tool}{passes}"
+    )

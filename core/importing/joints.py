@@ -61,7 +61,7 @@ def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
     middle = ((here[0] + there[0]) / 2.0, (here[1] + there[1]) / 2.0)
     if gap > JOINED and _angle_between(first, second) > CROSSING:
         meetings = [
-            point for point in _meetings(first, second) if max(dist(point, here), dist(point, there)) <= tolerance
+            point for point in carriers_meet(first, second) if max(dist(point, here), dist(point, there)) <= tolerance
         ]
         if meetings:
             return min(meetings, key=lambda point: dist(point, middle))
@@ -78,7 +78,7 @@ def _angle_between(first: Piece, second: Piece) -> float:
     return atan2(abs(ux * vy - uy * vx), abs(ux * vx + uy * vy))
 
 
-def _meetings(first: Piece, second: Piece) -> list[Point]:
+def carriers_meet(first: Piece, second: Piece) -> list[Point]:
     """The meetings of the carriers of two pieces."""
     if isinstance(first, Line):
         return _line_with_line(first, second) if isinstance(second, Line) else _line_with_circle(first, second)

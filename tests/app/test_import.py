@@ -9,6 +9,7 @@ import pytest
 from app.__main__ import main
 from app.documents.drawing_files import Worker
 from app.documents.files import load
+from app.documents.programs import example
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
 from core.program.solve.block import solve_block
@@ -99,3 +100,27 @@ def test_a_worker_is_ended_after_its_limit_and_by_cancel() -> None:
     worker = Worker(wait_for_ever)
     assert worker.poll() is None
     worker.cancel()
+
+
+def test_an_nc_program_comes_back_as_the_contour_it_was_posted_from(tmp_path: Path) -> None:
+    nc, out = tmp_path / "part.nc", tmp_path / "part.toml"
+    assert main(["post", str(example("overrun-square")), "--control", "linuxcnc", "-o", str(nc)]) == 0
+    assert main(["import", str(nc), "--control", "linuxcnc", "--tool", "1=.5", "-o", str(out)]) == 0
+    original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
+    ends = [(segment.x_end, segment.y_end) for segment in back.segments]
+    assert ends == [(segment.x_end, segment.y_end) for segment in original.segments]
+    assert (back.z_bottom, back.cutter_comp, back.speed) == (original.z_bottom, original.cutter_comp, original.speed)
+
+
+def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    nc, out = tmp_path / "part.nc", tmp_path / "part.toml"
+    assert main(["post", str(example("overrun-square")), "-o", str(nc)]) == 0
+    command = ["import", str(nc), "--control", "linuxcnc", "--tool", "1=.5", "-o", str(out)]
+    assert main(command) == 2
+    assert "its side and the tool's diameter are needed" in capsys.readouterr().err
+    assert main([*command, "--side", "right"]) == 2
+    assert main([*command, "--side", "right", "--diameter", "0.5"]) == 0
+    original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
+    assert [segment.x_end for segment in back.segments] == [segment.x_end for segment in original.segments]

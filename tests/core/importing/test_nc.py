@@ -1,0 +1,202 @@
+"""NC in: programs of every control and of the tool's center come back as the contours they were posted from."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from core.controls.compared_contours import apart
+from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.registry import names
+from core.geometry.path import Path as GeometryPath
+from core.geometry.piece import Piece, Side
+from core.importing.nc import CenterPath, NcError, NcProgram, nc_blocks, read_nc
+from core.output.nc import Posted
+from core.pipeline.derive import derive
+from core.pipeline.derived import Derived
+from core.pipeline.post import post_center_path, post_control_program
+from core.program.file.read import loads
+from core.program.model import CutterComp, Number, Program
+from core.units import Unit, from_mm
+
+EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
+CASES = [(example, control) for example in EXAMPLES for control in names()]
+
+
+TOOLS = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM))
+
+
+def program(example: Path) -> Program:
+    return loads(example.read_text(), example.name)
+
+
+def tools_of(made: Program) -> ToolTable:
+    """The tools of a program, in its unit."""
+    sizes = [(tool.number, tool.diameter) for tool in made.tools]
+    return ToolTable.of(
+        *(CutterTool(number, size.value, unit=made.unit) for number, size in sizes if isinstance(size, Number))
+    )
+
+
+def offsets_in(text: str, unit: Unit) -> ToolTable:
+    """The offsets that the head of a program tells to enter."""
+    rows = re.findall(r"OFFSET D(\d+) RADIUS ([\d.]+)", text)
+    return ToolTable.of(*(CutterTool(int(number), 2 * float(radius), unit=unit) for number, radius in rows))
+
+
+def largest_difference(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> float:
+    """How far the starts, middles and ends of pieces are apart; infinite where there are more of one."""
+    if len(first) != len(second):
+        return float("inf")
+    return max(
+        abs(complex(*one.point_at(share)) - complex(*other.point_at(share)))
+        for one, other in zip(first, second, strict=True)
+        for share in (0.0, 0.5, 1.0)
+    )
+
+
+def surfaces(derived: Derived) -> list[tuple[Piece, ...]]:
+    return [tuple(piece for _, piece in block.solved.pieces) for block in derived.blocks]
+
+
+def imported(read: NcProgram) -> Program:
+    """The blocks of an NC program alone."""
+    made, _ = nc_blocks(Program(unit=read.unit), read)
+    return made
+
+
+@pytest.mark.parametrize(("example", "control"), CASES, ids=lambda case: getattr(case, "stem", case))
+def test_a_control_program_comes_back_as_its_contour(example: Path, control: str) -> None:
+    original = program(example)
+    derived = derive(original)
+    posted = post_control_program(derived, name=example.stem, control=control)
+    if not isinstance(posted, Posted):
+        pytest.skip("this control is not posted for")
+    tools = tools_of(original).with_tools(offsets_in(posted.text, original.unit))
+    read = read_nc(posted.text.encode(), control, tools)
+    again = imported(read)
+    back = surfaces(derive(again))
+    assert len(back) == len(derived.blocks)
+    for contour, surface in zip(back, surfaces(derived), strict=True):
+        assert largest_difference(contour, surface) <= 0.001
+    for block, first in zip(again.blocks, original.blocks, strict=True):
+        assert block.cutter_comp.value in first.cutter_comp.value
+        assert block.z_bottom == first.z_bottom
+
+
+def test_examples_that_every_control_is_posted_for_are_tested() -> None:
+    tested = [
+        (example, control)
+        for example in EXAMPLES
+        for control in ("linuxcnc", "klartext", "threeblock")
+        if isinstance(post_control_program(derive(program(example)), name="x", control=control), Posted)
+    ]
+    assert len(tested) >= 8
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> None:
+    original = program(example)
+    # one pass at one radius: the path of one contour
+    single = replace(
+        original,
+        blocks=tuple(
+            replace(block, cutter_comp=_plain(block.cutter_comp), finish_tool=None) for block in original.blocks
+        ),
+    )
+    derived = derive(single)
+    posted = post_center_path(derived, name="x")
+    if not isinstance(posted, Posted):
+        pytest.skip("its path gouges")
+    block = derived.blocks[0]
+    assert block.side is not None
+    assert block.radius is not None
+    center = CenterPath(block.side, from_mm(2.0 * block.radius, single.unit))
+    read = read_nc(posted.text.encode(), "linuxcnc", tools_of(single), center=center)
+    assert len(read.contours) == len(derived.blocks)
+    again = derive(imported(read))
+    assert again.blocks[0].paths is not None
+    path = block.paths.loops[0].path
+    back = again.blocks[0].paths.loops[0].path
+    assert apart(path, back, 0.002) is None
+    assert apart(back, path, 0.002) is None
+    assert block.paths.compensated is not None
+    if not len(block.paths.compensated.deleted) and example.stem != "notch":
+        assert _covers(back_surface(again), back_surface(derived))
+
+
+def back_surface(derived: Derived) -> GeometryPath:
+    paths = derived.blocks[0].paths
+    assert paths is not None
+    return paths.surface
+
+
+def _covers(first: GeometryPath, second: GeometryPath) -> bool:
+    return apart(first, second, 0.001) is None and apart(second, first, 0.001) is None
+
+
+def _plain(comp: CutterComp) -> CutterComp:
+    return CutterComp(comp.value.removeprefix("PROFILE "))
+
+
+SQUARE = b"G21 G90 G17\nT1 M6\nS900 M3\nG0 X-10 Y0\nG1 Z-2 F100\n%s\nG1 X20 Y0\nX20 Y20\nX0 Y20\nX0 Y0\n%s\nM30\n"
+
+
+def test_a_second_round_changes_nothing() -> None:
+    example = next(path for path in EXAMPLES if path.stem == "flange")
+    original = program(example)
+    tools = tools_of(original)
+    programs = [original]
+    for _ in range(2):
+        posted = post_control_program(derive(programs[-1]), name="x", control="linuxcnc")
+        assert isinstance(posted, Posted)
+        programs.append(imported(read_nc(posted.text.encode(), "linuxcnc", tools)))
+    assert programs[1].blocks == programs[2].blocks
+
+
+def test_depths_in_even_steps_are_pecks_and_feeds_stay_with_their_segments() -> None:
+    ring = b"G1 Z%d F50\nG41 D1 X0 Y0 F200\nX20 Y0\nX20 Y20 F300\nX0 Y20\nX0 Y0\nG40 X-10 Y-10\nG0 X-10 Y-10\n"
+    text = b"G21 G90 G17\nT1 M6\nS900 M3\nG0 X-10 Y-10\n" + ring % -2 + ring % -4 + ring % -6 + b"M30\n"
+    read = read_nc(text, "linuxcnc", TOOLS)
+    assert len(read.contours) == 1
+    block = imported(read).blocks[0]
+    assert (block.z_bottom, block.peck_depth, block.z_start) == (Number(-6.0), Number(2.0), Number(0.0))
+    assert (block.tool, block.speed, block.plunge_feed) == (Number(1.0), Number(900.0), Number(50.0))
+    assert [segment.feed for segment in block.segments] == [Number(200.0), Number(300.0), None, None]
+    assert block.cutter_comp is CutterComp.LEFT
+
+
+def test_a_program_of_the_center_needs_side_and_diameter() -> None:
+    text = SQUARE % (b"G1 X0 Y0", b"")
+    with pytest.raises(NcError, match="its side and the tool's diameter are needed"):
+        read_nc(text, "linuxcnc", TOOLS)
+    read = read_nc(text, "linuxcnc", TOOLS, center=CenterPath(None, 4.0))
+    assert len(read.contours[0].pieces) == 5
+    assert imported(read).blocks[0].cutter_comp is CutterComp.ON
+    # to the left of the square's own travel is its inside
+    inside = read_nc(text, "linuxcnc", TOOLS, center=CenterPath(Side.LEFT, 4.0))
+    corners = {tuple(round(value, 6) for value in piece.start) for piece in inside.contours[0].pieces}
+    assert corners == {(10.0, -2.0), (-2.0, -2.0), (-2.0, 22.0), (22.0, -2.0), (22.0, 22.0)}
+
+
+def test_an_arc_smaller_than_the_tool_is_refused_by_its_line() -> None:
+    text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
+    with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
+        read_nc(text, "linuxcnc", ToolTable(), center=CenterPath(Side.LEFT, 10.0))
+
+
+def test_an_alarm_names_the_line() -> None:
+    with pytest.raises(NcError, match="stops at line 2"):
+        read_nc(b"G21 G90 G17\nG41 D9 G1 X1 F100\nM30\n", "linuxcnc", ToolTable())
+
+
+def test_units_of_the_program_stay() -> None:
+    text = b"G20 G90 G17\nG0 X0 Y0\nG1 Z-.1 F10\nX1.\nY1.\nM30\n"
+    read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPath(None, 1.0))
+    assert read.unit is Unit.IN
+    block = imported(read).blocks[0]
+    assert block.segments[0].x_end == Number(1.0)
+    assert block.segments[0].feed == Number(10.0)
