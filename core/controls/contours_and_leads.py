@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+from math import cos, radians
 from typing import Final
 
 import numpy as np
@@ -14,6 +16,9 @@ MAX_LEAD_MOVES: Final = 2
 
 MAX_CONTOURS: Final = 32
 """With more contours than this all moves count as surface: each contour is judged with the whole path."""
+
+BLEND: Final = radians(1.0)
+"""How far the directions of a lead and of the contour may be apart where they run on tangent."""
 
 RowRange = tuple[int, int]
 """First row and one after the last."""
@@ -42,6 +47,31 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
     places = _places(path)
     open_rows = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
     return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
+
+
+def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
+    """The rows of leads that blend into a contour or out of it: in line with it up to an arc, and what is beyond it.
+
+    Nothing programs a surface so: they are leads, not only taken for them.
+    """
+    rows = set[int]()
+    ends = [0, *(row for both in contours for row in both), len(path)]
+    for first, last in zip(ends[::2], ends[1::2], strict=True):  # the ways from one contour to the next
+        outward, inward = range(first - 1, last), range(last, first - 1, -1)
+        if (first > 0 and _blends(path, outward)) or (last < len(path) and _blends(path, inward)):
+            rows.update(range(first, last))
+    return frozenset(rows)
+
+
+def _blends(path: Path, rows: range) -> bool:
+    """Whether from the contour's row, the first, the next ones run on tangent up to an arc."""
+    for near, far in pairwise(rows):
+        before, after = min(near, far), max(near, far)
+        if float(path.end_directions[before] @ path.start_directions[after]) < cos(BLEND):
+            return False
+        if path.turns[far]:
+            return True
+    return False
 
 
 def contour_of(path: Path) -> RowRange:

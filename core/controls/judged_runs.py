@@ -9,13 +9,14 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import MAX_LEAD_MOVES, RowRange, contours_of, open_contours
+from core.controls.contours_and_leads import MAX_LEAD_MOVES, RowRange, blend_leads, contours_of, open_contours
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
+from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import DIGIT, SHOWN, contact_findings, or_more
@@ -53,7 +54,8 @@ class Judged:
     `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, and
     `lead_gouges` what is cut of them: they may be surface after all.  `by_itself`: the side changed where it begins,
     and what is cut on the other side is not judged.  `open_lines`: the lines of all of an open contour among closed
-    ones, of which this is the first part.
+    ones, of which this is the first part.  `unseen_gouges`: how many are too shallow for a digit of the program's unit,
+    and are not in the verdict.
     """
 
     stretch: Stretch
@@ -66,6 +68,12 @@ class Judged:
     by_itself: bool = False
     open_lines: frozenset[float] = frozenset()
     uneven: ToleratedArc | None = None
+    unseen_gouges: int = 0
+
+
+def smallest_gouge(unit: Unit) -> float:
+    """Millimeters below which a gouge is none: half of the last digit that a control shows in this unit."""
+    return to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, unit), unit)
 
 
 def judge_run(run: ControlRun) -> tuple[Judged, ...]:
@@ -76,7 +84,19 @@ def judge_run(run: ControlRun) -> tuple[Judged, ...]:
     """
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
-    return tuple(result for stretch in run.stretches for result in _judge_stretch(run, stretch))
+    least = smallest_gouge(run.unit)
+    return tuple(_seen(result, least) for stretch in run.stretches for result in _judge_stretch(run, stretch))
+
+
+def _seen(result: Judged, least: float) -> Judged:
+    """The result with the gouges that are at least so deep."""
+    verdict = result.verdict
+    gouges = tuple(gouge for gouge in verdict.gouges if gouge.depth >= least)
+    lead_gouges = tuple(gouge for gouge in result.lead_gouges if gouge.depth >= least)
+    unseen = len(verdict.gouges) - len(gouges)
+    if not unseen and len(lead_gouges) == len(result.lead_gouges):
+        return result
+    return replace(result, verdict=replace(verdict, gouges=gouges), lead_gouges=lead_gouges, unseen_gouges=unseen)
 
 
 def programmed_surface(stretch: Stretch) -> Path:
@@ -173,7 +193,8 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
         surface = without_repeats(whole)
         verdict = judge(surface, stretch.side, stretch.radius, center, accepted)
         gouges = verdict.gouges if verdict.judged else ()
-        lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in leads)
+        doubtful = set(leads) - {float(whole.numbers[row]) for row in blend_leads(whole, tuple(contours))}
+        lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in doubtful)
         results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges)
         if not verdict.judged:
             results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
@@ -214,7 +235,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
-    return tuple(
+    return _unseen(results) + tuple(
         finding
         for result in results
         for finding in (
@@ -228,6 +249,16 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
             *_crossing(result),
         )
     )
+
+
+def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
+    """Once, that some gouges are too shallow for a digit."""
+    count = sum(result.unseen_gouges for result in results)
+    if not count:
+        return ()
+    gouges = "1 gouge is" if count == 1 else f"{count} gouges are"
+    text = f"{gouges} less than half the last digit that a control shows (0.00005 in, 0.0005 mm) and not counted."
+    return (Finding("DIGIT", Severity.INFO, text),)
 
 
 def deepest_gouge(results: tuple[Judged, ...]) -> tuple[float, int | None]:

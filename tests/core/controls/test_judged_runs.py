@@ -12,7 +12,7 @@ from core.controls.judged_runs import deepest_gouge, first_unjudged, judge_run, 
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
-from core.units import Unit, from_mm, sentence
+from core.units import Unit, from_mm, sentence, to_mm
 from core.verify.judge import judge
 from tests.core.controls.hand import DATA, ran, ran_up_to, sample, told
 from tests.tool_tables import end_mills
@@ -221,3 +221,36 @@ def test_leads_that_cannot_be_judged_are_an_error() -> None:
     unknown = [one for one in judged_findings(results) if one.code == "UNJUDGED"]
     assert [(one.severity, one.line) for one in unknown] == [(Severity.ERROR, 6)]
     assert first_unjudged(results)[0]
+
+
+SQUARE = "G1 Y5\nX5\nY-5\nX-5\nY0\n"
+BLENDED = "G41 D1 G1 X-6.5 Y-1.5\nG3 X-5 Y0 J1.5\n" + SQUARE + "Y.2\nG3 X-6.5 Y1.7 I-1.5\nG40 G1 X-9 Y1\nM2\n"
+STRAIGHT = "G41 D1 G1 X-9 Y-1.5\nX-6 Y-.5\nX-5 Y0\n" + SQUARE + "X-6 Y.5\nX-9 Y1.5\nG40 G1 X-12 Y1\nM2\n"
+
+
+def test_a_lead_that_blends_into_the_contour_is_no_finding_and_another_one_is() -> None:
+    head = "G20 F9\nG0 X-12 Y-3\n"
+    codes = [
+        {one.code for one in judged_findings(judge_run(ran(head + text, "linuxcnc", t1=2)))}
+        for text in (BLENDED, STRAIGHT)
+    ]
+    assert ["LEADS" in found for found in codes] == [True, True]
+    assert ["LEAD-GOUGE" in found for found in codes] == [False, True]
+
+
+@pytest.mark.parametrize("unit", Unit)
+@pytest.mark.parametrize("digits", [0.4, 0.6])
+def test_a_gouge_below_half_the_last_digit_is_none_and_said_once(unit: Unit, digits: float) -> None:
+    """The path is judged with a tool that is larger by so many last digits of the unit."""
+    digit = digits * (1e-4 if unit is Unit.IN else 1e-3)
+    code, far = ("G20", 10.0) if unit is Unit.IN else ("G21", 100.0)
+    text = f"{code} F9\nG41 D1\nG1 X4\nX{far}\nG40\nG1 X{far} Y9\nM2\n"
+    done = ran(text, "linuxcnc", t1=1.0)
+    radius = done.stretches[0].radius
+    shifted = replace(done.stretches[0], radius=radius + to_mm(digit, unit))
+    results = judge_run(replace(done, stretches=(shifted,)))
+    codes = [one.code for one in judged_findings(results)]
+    seen = digits > 0.5
+    assert ("GOUGE" in codes) == seen
+    assert codes.count("DIGIT") == (not seen)
+    assert (deepest_gouge(results)[0] > 0.0) == seen
