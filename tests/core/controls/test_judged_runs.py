@@ -244,8 +244,8 @@ def test_a_gouge_below_half_the_last_digit_is_none_and_said_once(unit: Unit, dig
     """The path is judged with a tool that is larger by so many last digits of the unit."""
     digit = digits * (1e-4 if unit is Unit.IN else 1e-3)
     code, far = ("G20", 10.0) if unit is Unit.IN else ("G21", 100.0)
-    text = f"{code} F9\nG41 D1\nG1 X4\nX{far}\nG40\nG1 X{far} Y9\nM2\n"
-    done = ran(text, "linuxcnc", t1=1.0)
+    text = f"{code} F9\nG1 X4 Y9\nG41 D1 X4 Y0\nX{far}\nG40 X{far} Y9\n"
+    done = ran(text, "nine-series", t1=1.0)
     radius = done.stretches[0].radius
     shifted = replace(done.stretches[0], radius=radius + to_mm(digit, unit))
     results = judge_run(replace(done, stretches=(shifted,)))
