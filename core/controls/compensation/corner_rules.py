@@ -13,15 +13,15 @@ from math import hypot, pi
 from typing import Final, NamedTuple
 
 from core.controls.compensation.elements import (
-    WHOLE,
+    SAME_DIRECTION,
     Element,
-    beyond,
     line_element,
     meeting,
     meetings,
     miter,
     offset_end,
     offset_start,
+    point_along,
     turn_angle,
 )
 from core.geometry.piece import Point
@@ -33,7 +33,7 @@ RIGHT_ANGLE: Final = pi / 2 + 1e-9
 """Turns up to this are prolonged to the miter point."""
 
 
-class Corner(Enum):
+class CornerKind(Enum):
     """What a corner is to a tool on one side of the path."""
 
     TANGENT = auto()
@@ -75,8 +75,8 @@ class CornerRules(NamedTuple):
     inside off or onto an arc that has the cutter outside of it.  `rapid_straight`: a rapid goes straight to E2.
     """
 
-    tangent: float = WHOLE
-    reversal: float = WHOLE
+    tangent: float = SAME_DIRECTION
+    reversal: float = SAME_DIRECTION
     outside: Outside = Outside.ARC
     inside: Inside = Inside.NEAREST
     hooks: bool = False
@@ -95,7 +95,7 @@ class Joint(NamedTuple):
     start: Point
     through: tuple[Point, ...] = ()
     center: Point | None = None
-    corner: Corner = Corner.TANGENT
+    corner: CornerKind = CornerKind.TANGENT
     missed: bool = False
 
     @property
@@ -109,20 +109,20 @@ class Joint(NamedTuple):
 def inward_turn(first: Element, second: Element, offset: float) -> float:
     """The turn at a corner, radians, positive toward the tool; a reversal turns away from it."""
     angle = turn_angle(first, second) * (1 if offset > 0.0 else -1)
-    return -pi if abs(angle) > pi - WHOLE else angle
+    return -pi if abs(angle) > pi - SAME_DIRECTION else angle
 
 
-def corner(first: Element, second: Element, offset: float, rules: CornerRules) -> Corner:
+def corner_kind(first: Element, second: Element, offset: float, rules: CornerRules) -> CornerKind:
     """What the corner between two elements is to a tool `offset` to their left."""
     inward = inward_turn(first, second, offset)
     if not offset:
-        return Corner.TANGENT
+        return CornerKind.TANGENT
     if abs(inward) > pi - rules.reversal:
         hooked = rules.hooks and (second.turn or first.turn) * offset < 0.0
-        return Corner.INSIDE if hooked else Corner.OUTSIDE
+        return CornerKind.INSIDE if hooked else CornerKind.OUTSIDE
     if abs(inward) <= rules.tangent or (rules.touching and _touch(first, second, offset, rules.touching)):
-        return Corner.TANGENT
-    return Corner.INSIDE if inward > 0.0 else Corner.OUTSIDE
+        return CornerKind.TANGENT
+    return CornerKind.INSIDE if inward > 0.0 else CornerKind.OUTSIDE
 
 
 def _touch(first: Element, second: Element, offset: float, within: float) -> bool:
@@ -132,13 +132,13 @@ def _touch(first: Element, second: Element, offset: float, within: float) -> boo
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
     """The joint of two elements that follow each other, the tool `offset` millimeters to their left."""
-    kind = corner(first, second, offset, rules)
+    kind = corner_kind(first, second, offset, rules)
     end, start = offset_end(first, offset), offset_start(second, offset)
-    if kind is Corner.TANGENT:
+    if kind is CornerKind.TANGENT:
         return Joint(end, end)
-    if kind is Corner.INSIDE and rules.inside is Inside.OPEN:
+    if kind is CornerKind.INSIDE and rules.inside is Inside.OPEN:
         return Joint(end, start, corner=kind)
-    if kind is Corner.INSIDE or rules.outside is Outside.MEETING:
+    if kind is CornerKind.INSIDE or rules.outside is Outside.MEETING:
         point = _met(first, second, offset, rules.inside)
         return Joint(end, start, corner=kind, missed=True) if point is None else Joint(point, point, corner=kind)
     return _outside(first, second, offset, rules)._replace(corner=kind)
@@ -166,7 +166,7 @@ def _outside(first: Element, second: Element, offset: float, rules: CornerRules)
         straight = rules.rapid_straight and second.rapid
         return Joint(end, start, (start,)) if straight else Joint(end, start, center=second.start)
     if abs(angle) <= RIGHT_ANGLE:
-        point = miter(first.end, first.arriving, angle, offset)
+        point = miter(first.end, first.end_direction, angle, offset)
         return _over(first, second, (end, point, point, start))
     lines_only = not first.turn and not second.turn
     if rules.outside is Outside.MITER_OR_ANY_ARC or (rules.outside is Outside.MITER_OR_ARC and lines_only):
@@ -178,7 +178,7 @@ def _outside(first: Element, second: Element, offset: float, rules: CornerRules)
 def _prolonged(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
     """Q1 and Q2."""
     end, start, reach = offset_end(first, offset), offset_start(second, offset), abs(offset)
-    return beyond(end, first.arriving, reach), beyond(start, second.leaving, -reach)
+    return point_along(end, first.end_direction, reach), point_along(start, second.start_direction, -reach)
 
 
 def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Point]) -> Joint:
@@ -193,7 +193,7 @@ def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Po
     return Joint(leaving if not first.turn else end, start if second.turn else coming, through)
 
 
-def entry(first: Element, second: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
+def entry_joint(first: Element, second: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
     """The entry move against the first element: `direct` (type A) goes straight to E2, type B around outside corners.
 
     The polylines of type B are read from figures and agree with those of other makers; the text does not give them.
@@ -203,7 +203,7 @@ def entry(first: Element, second: Element, offset: float, rule: Outside, *, dire
         return Joint(start, start)
     end, angle = offset_end(first, offset), turn_angle(first, second)
     if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
-        return Joint(miter(first.end, first.arriving, angle, offset), start)
+        return Joint(miter(first.end, first.end_direction, angle, offset), start)
     if _arc_at_lead(rule, second):
         return Joint(end, start, center=second.start)
     return Joint(end, start, _prolonged(first, second, offset))
@@ -214,21 +214,21 @@ def _arc_at_lead(rule: Outside, element: Element) -> bool:
     return rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn)
 
 
-def departure(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
+def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
     """Type B's way from the last element to where the exit move starts: the mirror image of the entry."""
     end = offset_end(last, offset)
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
     angle = turn_angle(last, leaving)
     if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
-        return Joint(end, miter(last.end, last.arriving, angle, offset))
+        return Joint(end, miter(last.end, last.end_direction, angle, offset))
     start = offset_start(leaving, offset)
     if _arc_at_lead(rule, last):
         return Joint(end, start, center=leaving.start)
     return Joint(end, start, _prolonged(last, leaving, offset))
 
 
-def change(first: Element, second: Element, old: float, new: float) -> Joint:
+def offset_change_joint(first: Element, second: Element, old: float, new: float) -> Joint:
     """The radius or the side changes: from E1 with the old one to E2 with the new one.
 
     Where the side changes at an arc, the meeting of the two offsets is taken if there is one.
@@ -249,9 +249,9 @@ def vector_end(last: Element, vector: Point, offset: float) -> Point:
     end, reach, size = offset_end(last, offset), abs(offset), hypot(*vector)
     if not size:
         return end
-    towards = beyond(last.end, vector, 1.0)
+    towards = point_along(last.end, vector, 1.0)
     point = meeting(last, line_element(last.end, towards, 0.0, 0.0, rapid=False, feed=0.0, line=0), offset)
     if point is None:
-        return beyond(end, vector, -reach / size)
+        return point_along(end, vector, -reach / size)
     way = (point[0] - end[0], point[1] - end[1])
-    return beyond(end, way, 1.0 if hypot(*way) <= reach else reach / hypot(*way))
+    return point_along(end, way, 1.0 if hypot(*way) <= reach else reach / hypot(*way))

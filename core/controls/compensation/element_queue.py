@@ -11,7 +11,7 @@ from math import hypot, tau
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, join
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, join
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, runs_back, sweep
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
@@ -61,7 +61,7 @@ class ElementQueue(Recorder):
         if self.held is not None:
             joint = self.joint(self.held, element)
             self.release(joint.end)
-            self.lead_on(joint, element, self.offset)
+            self.run_joint(joint, element, self.offset)
             self.start = joint.start
         self.held = element
         self.elements += 1
@@ -94,7 +94,7 @@ class ElementQueue(Recorder):
         self.start = None
 
 
-NOSES: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
+NOSE_DIRECTIONS: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
     {1: (1, -1), 2: (-1, -1), 3: (-1, 1), 4: (1, 1), 5: (1, 0), 6: (0, -1), 7: (-1, 0), 8: (0, 1)}
 )
 """Lathe orientation: in which direction of Z and X the controlled point lies from the nose's center, in radii."""
@@ -132,7 +132,7 @@ class OneMoveQueue(ElementQueue):
     def turn_on(self, offset: float, orientation: int = 0) -> None:
         """Compensation is on from the next move on; a lathe tool's orientation shifts its moves by the nose radius."""
         self.offset = offset
-        ways = NOSES.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
+        ways = NOSE_DIRECTIONS.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
         self.nose = (ways[0] * abs(offset), ways[1] * abs(offset))
         self.active = self.first = True
 
@@ -172,9 +172,9 @@ class OneMoveQueue(ElementQueue):
         for element in standing:
             self.straight(element, end)
 
-    def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
+    def straight(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
         """A straight move, of a lathe tool's controlled point."""
-        super().straight(element, self._controlled(end), low=low)
+        super().straight(element, self._controlled(end), at_start_height=at_start_height)
 
     def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
         """An arc, of a lathe tool's controlled point."""
@@ -216,14 +216,14 @@ class OneMoveQueue(ElementQueue):
         self.open_stretch(self.side, self.offset, element)
         self.note(element)
         if element.turn and self.nose != (0.0, 0.0):
-            self.straight(element, element.start, low=True)
+            self.straight(element, element.start, at_start_height=True)
         self.start = None if element.turn else element.start
         self.held, self.standing, self.first = self._as_entry(element), [], False
 
     def _as_entry(self, element: Element) -> Element:
         """The entry as it runs; LinuxCNC does not check whether a later trim turns it around."""
         if not element.turn:
-            return element._replace(leaving=(0.0, 0.0))
+            return element._replace(start_direction=(0.0, 0.0))
         return element._replace(start=element.end, center=self._entry_center(element))
 
     def _entry_center(self, element: Element) -> Point:
@@ -251,11 +251,11 @@ class OneMoveQueue(ElementQueue):
         joint = self.joint(held, element)
         if joint.missed:
             self.log.stop(self.alarms.concave, NO_FIT, element.line, 1, at=element.start)
-        if joint.corner is Corner.INSIDE or (joint.corner is Corner.OUTSIDE and not element.turn):
+        if joint.corner is CornerKind.INSIDE or (joint.corner is CornerKind.OUTSIDE and not element.turn):
             self._check(held, joint.end, element.line)
-        unchecked = self.ran and joint.corner is Corner.INSIDE
+        unchecked = self.ran and joint.corner is CornerKind.INSIDE
         self.run_held(joint.end)
-        self.lead_on(joint, element, self.offset)
+        self.run_joint(joint, element, self.offset)
         self.note(element)
         self.held, self.start = element, None if unchecked else joint.start
 
@@ -267,7 +267,7 @@ class OneMoveQueue(ElementQueue):
             traveled = sweep(self.start, end, held.center, held.turn) or tau
             back = traveled > element_sweep(held) + (0.001 if self.unit is Unit.IN else 0.0254)
         else:
-            way = held.leaving
+            way = held.start_direction
             back = (end[0] - self.start[0]) * way[0] + (end[1] - self.start[1]) * way[1] < 0.0
         if back:
             self.log.stop(self.alarms.concave, NO_FIT, line, 1, at=held.end)

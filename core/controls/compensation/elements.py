@@ -6,12 +6,12 @@ the end of the first element, E2 that at the start of the second, both at right 
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, pi, sin, sqrt, tan, tau
+from math import atan2, hypot, pi, sqrt, tan, tau
 from typing import Final, NamedTuple
 
 from core.geometry.piece import Point
 
-WHOLE: Final = 1e-9
+SAME_DIRECTION: Final = 1e-9
 """Radians below which two directions are one, and by which rounding may carry an arc past its end."""
 
 
@@ -26,10 +26,10 @@ class Element(NamedTuple):
     end: Point
     center: Point
     turn: int
-    leaving: Point
-    arriving: Point
-    low: float
-    high: float
+    start_direction: Point
+    end_direction: Point
+    start_height: float
+    end_height: float
     rapid: bool
     feed: float
     line: int
@@ -47,21 +47,25 @@ class Element(NamedTuple):
 
 
 def line_element(
-    start: Point, end: Point, low: float, high: float, rapid: bool, feed: float, line: int, column: int = 1
+    start: Point, end: Point, start_height: float, end_height: float, rapid: bool, feed: float,
+    line: int, column: int = 1,
 ) -> Element:  # fmt: skip
     """A straight element."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
     way = (dx / size, dy / size) if size else (0.0, 0.0)
-    return Element(start, end, start, 0, way, way, low, high, rapid, feed, line, column)
+    return Element(start, end, start, 0, way, way, start_height, end_height, rapid, feed, line, column)
 
 
 def arc_element(
-    start: Point, end: Point, center: Point, turn: int, low: float, high: float, feed: float, line: int, column: int = 1
+    start: Point, end: Point, center: Point, turn: int, start_height: float, end_height: float, feed: float,
+    line: int, column: int = 1,
 ) -> Element:  # fmt: skip
     """A circular element; equal ends are the full circle."""
-    leaving, arriving = tangent(start, center, turn), tangent(end, center, turn)
-    return Element(start, end, center, turn, leaving, arriving, low, high, False, feed, line, column)
+    start_direction, end_direction = tangent(start, center, turn), tangent(end, center, turn)
+    return Element(
+        start, end, center, turn, start_direction, end_direction, start_height, end_height, False, feed, line, column
+    )
 
 
 def tangent(at: Point, center: Point, turn: int) -> Point:
@@ -78,17 +82,17 @@ def offset_point(at: Point, way: Point, offset: float) -> Point:
 
 def offset_start(element: Element, offset: float) -> Point:
     """E2: the offset point at an element's start."""
-    return offset_point(element.start, element.leaving, offset)
+    return offset_point(element.start, element.start_direction, offset)
 
 
 def offset_end(element: Element, offset: float) -> Point:
     """E1: the offset point at an element's end."""
-    return offset_point(element.end, element.arriving, offset)
+    return offset_point(element.end, element.end_direction, offset)
 
 
 def turn_angle(first: Element, second: Element) -> float:
     """The angle from the end of one element to the start of the next, radians, positive to the left."""
-    (ax, ay), (bx, by) = first.arriving, second.leaving
+    (ax, ay), (bx, by) = first.end_direction, second.start_direction
     return atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
@@ -99,7 +103,7 @@ def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
     return x + reach * way[0], y + reach * way[1]
 
 
-def beyond(at: Point, way: Point, distance: float) -> Point:
+def point_along(at: Point, way: Point, distance: float) -> Point:
     """The point `distance` further along a direction."""
     return at[0] + distance * way[0], at[1] + distance * way[1]
 
@@ -129,14 +133,14 @@ def meetings(
     """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
     if not beyond_center and not (fits(first, offset) and fits(second, other)):
         return ()
+    at = offset_end(first, offset)
     if not first.turn and not second.turn:
-        return _line_line(offset_end(first, offset), first.arriving, offset_start(second, other), second.leaving)
+        return _line_line(at, first.end_direction, offset_start(second, other), second.start_direction)
     if not first.turn:
-        at = offset_end(first, offset)
-        return _line_circle(at, first.arriving, second.center, offset_radius(second, other))
+        return _line_circle(at, first.end_direction, second.center, offset_radius(second, other))
     if not second.turn:
         at = offset_start(second, other)
-        return _line_circle(at, second.leaving, first.center, offset_radius(first, offset))
+        return _line_circle(at, second.start_direction, first.center, offset_radius(first, offset))
     return _circle_circle(first.center, offset_radius(first, offset), second.center, offset_radius(second, other))
 
 
@@ -147,10 +151,10 @@ def fits(element: Element, offset: float) -> bool:
 
 def _line_line(at: Point, way: Point, other: Point, heading: Point) -> tuple[Point, ...]:
     cross = way[0] * heading[1] - way[1] * heading[0]
-    if abs(cross) < WHOLE:
+    if abs(cross) < SAME_DIRECTION:
         return ()
     reach = ((other[0] - at[0]) * heading[1] - (other[1] - at[1]) * heading[0]) / cross
-    return (beyond(at, way, reach),)
+    return (point_along(at, way, reach),)
 
 
 def _line_circle(at: Point, way: Point, center: Point, radius: float) -> tuple[Point, ...]:
@@ -159,20 +163,20 @@ def _line_circle(at: Point, way: Point, center: Point, radius: float) -> tuple[P
     half = radius * radius - aside * aside
     if half < 0.0:
         return ()
-    return beyond(at, way, along - sqrt(half)), beyond(at, way, along + sqrt(half))
+    return point_along(at, way, along - sqrt(half)), point_along(at, way, along + sqrt(half))
 
 
 def _circle_circle(first: Point, radius: float, second: Point, other: float) -> tuple[Point, ...]:
     dx, dy = second[0] - first[0], second[1] - first[1]
     apart = hypot(dx, dy)
-    if apart < WHOLE:
+    if apart < SAME_DIRECTION:
         return ()
     way = (dx / apart, dy / apart)
     along = (apart * apart + radius * radius - other * other) / (2 * apart)
     half = radius * radius - along * along
     if half < 0.0:
         return ()
-    foot = beyond(first, way, along)
+    foot = point_along(first, way, along)
     return offset_point(foot, way, sqrt(half)), offset_point(foot, way, -sqrt(half))
 
 
@@ -181,7 +185,7 @@ def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
     first = atan2(start[1] - center[1], start[0] - center[0])
     last = atan2(end[1] - center[1], end[0] - center[0])
     angle = (turn * (last - first)) % tau
-    return 0.0 if angle > tau - WHOLE else angle
+    return 0.0 if angle > tau - SAME_DIRECTION else angle
 
 
 def element_sweep(element: Element) -> float:
@@ -198,11 +202,5 @@ def runs_back(element: Element, start: Point, end: Point) -> bool:
     if element.turn:
         traveled = sweep(start, end, element.center, element.turn)
         return traveled - element_sweep(element) > pi
-    way = element.leaving
-    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -WHOLE
-
-
-def turned(at: Point, center: Point, angle: float) -> Point:
-    """A point turned about a center, counterclockwise positive."""
-    dx, dy = at[0] - center[0], at[1] - center[1]
-    return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
+    way = element.start_direction
+    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_DIRECTION

@@ -50,28 +50,28 @@ class Recorder:
         if self.leaving and element.moves:
             self.close_stretch()
 
-    def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
+    def straight(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
         """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
-        target = solid(*end, element.low if low else element.high, self.plane)
+        target = solid(*end, element.start_height if at_start_height else element.end_height, self.plane)
         self.tape.straight(target, 0.0 if element.rapid else element.feed, element.line, rapid=element.rapid)
 
     def arc(self, element: Element, end: Point, center: Point) -> None:
         """An element's own arc, or its offset, to a point of its plane."""
-        self.arc_about(element, end, center, element.turn, element.high)
+        self.arc_about(element, end, center, element.turn, element.end_height)
 
     def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
         """Any arc at an element's feed."""
         target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
         self.tape.arc(target, middle, turn, self.plane, element.feed, element.line)
 
-    def lead_on(self, joint: Joint, element: Element, offset: float) -> None:
+    def run_joint(self, joint: Joint, element: Element, offset: float) -> None:
         """The way of a joint, from the end of one offset to the start of the next element."""
         for point in joint.through:
-            self.straight(element, point, low=True)
+            self.straight(element, point, at_start_height=True)
         if joint.center is not None:
-            self.arc_about(element, joint.start, joint.center, -1 if offset > 0.0 else 1, element.low)
+            self.arc_about(element, joint.start, joint.center, -1 if offset > 0.0 else 1, element.start_height)
         elif joint.moves > len(joint.through):
-            self.straight(element, joint.start, low=True)
+            self.straight(element, joint.start, at_start_height=True)
 
     @property
     def here(self) -> Point:
@@ -85,7 +85,7 @@ class Recorder:
     def open_stretch(self, side: Side, radius: float, element: Element) -> None:
         """Compensated moves begin with this element; whatever is on the tape is before them."""
         self.close_stretch()
-        start = Tape(solid(element.start[0], element.start[1], element.low, self.plane))
+        start = Tape(solid(element.start[0], element.start[1], element.start_height, self.plane))
         self._open = _OpenStretch(side, abs(radius), self.plane, len(self.tape) - 1, start)
 
     @property
@@ -115,9 +115,9 @@ class Recorder:
         """An element programmed under compensation."""
         if self._open is None:
             return
-        tape, target = self._open.programmed, solid(*element.end, element.high, self.plane)
+        tape, target = self._open.programmed, solid(*element.end, element.end_height, self.plane)
         if element.turn:
-            center = solid(*element.center, element.high, self.plane)
+            center = solid(*element.center, element.end_height, self.plane)
             tape.arc(target, center, element.turn, self.plane, element.feed, element.line)
         else:
             tape.straight(target, element.feed, element.line)

@@ -73,7 +73,7 @@ in at most.
 """
 
 
-def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc:
+def center_by_radius(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc:
     """The center of an arc of a radius, up to half a turn; beyond it where the radius is negative."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     chord, size = hypot(dx, dy), abs(radius)

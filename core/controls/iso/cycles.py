@@ -28,7 +28,7 @@ _TAPS: Final = (740, 840)
 _DWELLS: Final = (820, 860, 890)
 _NOT_FOLLOWED: Final = (870, 880)
 
-Leg = tuple[Point3, bool]
+DrillMove = tuple[Point3, bool]
 """The end of a straight move, and whether it is a rapid."""
 
 
@@ -49,7 +49,7 @@ class Hole:
         return solid(self.first, self.second, height, self.plane)
 
 
-def drill(state: ModalState, block: Block) -> Iterator[Leg]:
+def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
     """The moves of a block of the cycle in force; what it lacks stops the run."""
     code = state.mode or 0
     if not state.dialect.cycles or code in _NOT_FOLLOWED:
@@ -89,7 +89,7 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
     cycle.code = code
 
 
-def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator[Leg]:
+def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator[DrillMove]:
     """All holes of a block; `fresh` in the first one of a cycle."""
     cycle, plane = state.cycle, state.plane
     here = flat(state.position, plane)
@@ -130,7 +130,7 @@ def _repeats(state: ModalState, block: Block) -> int:
     return number
 
 
-def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[Leg]:
+def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:
     yield hole.at(hole.over), True
     if hole.over != hole.r:
         yield hole.at(hole.r), True
@@ -158,7 +158,7 @@ def _check_spindle(state: ModalState, code: int, block: Block) -> None:
         _stop(state, f"G{code // 10} needs a spindle that turns; start it {way}.", block)
 
 
-def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[Leg]:
+def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:
     """G83 comes out to R between pecks, G73 only a little back."""
     peck = state.cycle.peck
     if peck <= 0.0:

@@ -12,8 +12,8 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.iso.arcs import USUAL_RADII, ArcRadii
-from core.controls.iso.macro import Kept
-from core.controls.iso.reader import PLAIN, SWITCHES, Block, Syntax
+from core.controls.iso.macro import ParameterStore
+from core.controls.iso.reader import PLAIN_SYNTAX, SWITCHES, Block, Syntax
 from core.controls.moves import Plane
 from core.units import Unit
 
@@ -69,7 +69,7 @@ def _group(group: str, action: CodeAction, *codes: int) -> dict[int, Code]:
 PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
 """The codes of the planes."""
 
-COMMON: Final[Mapping[int, Code]] = MappingProxyType(
+COMMON_CODES: Final[Mapping[int, Code]] = MappingProxyType(
     {
         **_group("motion", CodeAction.MOTION, 0, 10, 20, 30, 800),
         **_group("motion", CodeAction.CYCLE, *range(810, 900, 10)),
@@ -100,7 +100,7 @@ def codes(*groups: tuple[str, CodeAction, tuple[int, ...]]) -> Mapping[int, Code
     added = {
         code: entry for group, action, numbers in groups for code, entry in _group(group, action, *numbers).items()
     }
-    return MappingProxyType({**COMMON, **added})
+    return MappingProxyType({**COMMON_CODES, **added})
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +131,7 @@ class Dialect:
     mode: int | None = 0
     absolute_centers: bool = False
     arc_radii: ArcRadii = USUAL_RADII
-    syntax: Syntax = PLAIN
+    syntax: Syntax = PLAIN_SYNTAX
     moves_alone: bool = False
     feed_needed: bool = False
     loads_at_t: bool = False
@@ -141,7 +141,7 @@ class Dialect:
     percent_ends: bool = False
     end_needed: bool = False
     group_rule: str = "GROUP"
-    parameters: Kept | None = None
+    parameters: ParameterStore | None = None
     cycles: bool = True
     cycle_rule: str = "CYCLE"
     returns_to_r: bool = False

@@ -12,7 +12,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.flow import Flow, MakeControl
 from core.controls.iso.machine import Machine
-from core.controls.iso.macro import Kept
+from core.controls.iso.macro import ParameterStore
 from core.controls.iso.macro_flow import MacroFlow, ProgramLibrary
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.moves import Moves
@@ -38,7 +38,7 @@ def execute(
     log = Log(rule_names=dialect.rule_names)
     control = make(log)
     lines = lines_of(text)
-    if dialect.parameters is Kept.FANUC:
+    if dialect.parameters is ParameterStore.FANUC:
         machine: Machine = (with_macros := MacroMachine(dialect, control, tools, log))
         flow: Flow = MacroFlow(lines, dialect, log, with_macros, library)
     else:

@@ -17,7 +17,14 @@ from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.elsewhere import JUMPS, only_on
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.macro import ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, tell_unset
+from core.controls.iso.macro import (
+    CompactText,
+    ExpressionReader,
+    FaultError,
+    MacroParameters,
+    ParameterStore,
+    tell_unset,
+)
 from core.controls.iso.reader import Block, is_plain, read_line, whole
 from core.controls.program_text import quoted
 from core.finding import Severity
@@ -48,7 +55,7 @@ class OWord(NamedTuple):
     row: int
     label: str
     word: str
-    line: Squeezed
+    line: CompactText
     begin: int
     end: int
 
@@ -102,7 +109,7 @@ def _read(index: int, line: str) -> OWord | None:
     if not line.isascii():
         return None
     bare = _COMMENT.sub(_blank, line.upper())
-    squeezed = Squeezed.of(bare)
+    squeezed = CompactText.of(bare)
     match = _LINE.match(squeezed.text)
     if match is None:
         return None
@@ -366,7 +373,7 @@ class Flow:
         self.o_words_left = dialect.max_o_words
         self.percents = 0
         self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
-        words = o_words_of(lines) if dialect.parameters is Kept.NGC else {}
+        words = o_words_of(lines) if dialect.parameters is ParameterStore.NGC else {}
         self.o_words = OWords(words, self.values, log, self.calls) if words and self.values else None
         self.labels = _labels_of(lines, words)
 

@@ -15,7 +15,7 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
-from core.controls.iso.arcs import NoArc, given_center, through
+from core.controls.iso.arcs import NoArc, center_by_radius, given_center
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
@@ -26,7 +26,7 @@ from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 
-ONCE: Final = frozenset(
+NON_MODAL_ACTIONS: Final = frozenset(
     (
         CodeAction.HOME,
         CodeAction.SHIFT,
@@ -152,7 +152,7 @@ class Machine(ModalState):
     def _takes_axis_words(self, code: Code) -> bool:
         if code.action is CodeAction.DWELL:
             return self.dialect.dwell_takes_axes
-        return code.action in ONCE or (code.action is CodeAction.LENGTH and code.value == _G43_1)
+        return code.action in NON_MODAL_ACTIONS or (code.action is CodeAction.LENGTH and code.value == _G43_1)
 
     def _grouped(self, block: Block) -> list[Code]:
         """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
@@ -330,7 +330,7 @@ class Machine(ModalState):
     def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point:
         """The center of an arc; one that is impossible stops the run."""
         if "R" in block.words and {"I", "J", "K"}.isdisjoint(block.words):
-            center = through(start, end, block.words["R"] * self.scale, turn)
+            center = center_by_radius(start, end, block.words["R"] * self.scale, turn)
         else:
             origin = flat(self.shift, self.plane) if self.centers_from_origin else None
             center = given_center(block.words, self.plane, start, self.scale, origin)

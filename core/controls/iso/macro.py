@@ -55,7 +55,7 @@ class FaultError(Exception):
         self.at = at
 
 
-class Kept(Enum):
+class ParameterStore(Enum):
     """How a control keeps parameters."""
 
     NGC = auto()
@@ -73,7 +73,7 @@ MachineValue = Callable[[int | str], float | str | None]
 class MacroParameters:
     """The values of one run; `machine_value` reads those that the control itself keeps."""
 
-    def __init__(self, kept: Kept, machine_value: MachineValue = lambda _: None) -> None:
+    def __init__(self, kept: ParameterStore, machine_value: MachineValue = lambda _: None) -> None:
         self.kept = kept
         self.machine_value = machine_value
         self.numbered: dict[int, float] = {}
@@ -84,7 +84,7 @@ class MacroParameters:
 
     def number(self, index: int, at: int) -> float | None:
         """A numbered value; None for one that counts as 0 because nothing set it."""
-        if self.kept is Kept.MACRO_B:
+        if self.kept is ParameterStore.MACRO_B:
             return self._variable(index, at)
         self._within(index, at)
         if index >= _SYSTEM:
@@ -143,7 +143,7 @@ class MacroParameters:
         if isinstance(key, str):
             if key in NAMES or key.startswith(("_HAL[", "_INI[")):
                 raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
-        elif self.kept is Kept.MACRO_B:
+        elif self.kept is ParameterStore.MACRO_B:
             if key > _MACRO_LAST:
                 raise FaultError("PARAMETER", _no_parameter(key, _MACRO_LAST), at)
             if not 1 <= key < _MACRO_SYSTEM:
@@ -295,7 +295,7 @@ class ExpressionReader:
 
     def right_side(self) -> float:
         """What stands right of an equal sign: an expression, on LinuxCNC one value."""
-        if self.values.kept is Kept.MACRO_B:
+        if self.values.kept is ParameterStore.MACRO_B:
             return self._ranked(0)
         value, operator = self.value(), _OPERATOR.match(self.text, self.at)
         if operator is not None:
@@ -306,7 +306,7 @@ class ExpressionReader:
     def _ranked(self, rank: int) -> float:
         value = self.value()
         while (operator := _OPERATOR.match(self.text, self.at)) and _RANKS[operator[0]][0] >= rank:
-            if operator[0] in "&|^" and self.values.kept is not Kept.MACRO_B:
+            if operator[0] in "&|^" and self.values.kept is not ParameterStore.MACRO_B:
                 break
             begin, self.at = self.at, operator.end()
             above, work = _RANKS[operator[0]]
@@ -390,17 +390,17 @@ GAP: Final = "\x01"
 """Marks where a comment was: it may separate words, not digits."""
 
 
-class Squeezed(NamedTuple):
+class CompactText(NamedTuple):
     """A text in capitals without blanks, and the column less one of each of its characters."""
 
     text: str
     columns: tuple[int, ...]
 
     @staticmethod
-    def of(text: str, start: int = 0) -> Squeezed:
+    def of(text: str, start: int = 0) -> CompactText:
         """The text without blanks; `start` is where it begins on its line."""
         kept = [(sign, start + index) for index, sign in enumerate(text) if sign not in " \t"]
-        return Squeezed("".join(sign for sign, _ in kept), tuple(column for _, column in kept))
+        return CompactText("".join(sign for sign, _ in kept), tuple(column for _, column in kept))
 
     def column(self, at: int) -> int:
         """The column of a place in the text, from 1; after its end that of its last character."""
@@ -411,7 +411,7 @@ Setting = tuple[int | str, float]
 """A parameter's number or name, and the value it gets."""
 
 
-def worked_out(line: Squeezed, number: int, values: MacroParameters, log: Log) -> tuple[str, tuple[int, ...]]:
+def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> tuple[str, tuple[int, ...]]:
     """The words of a line as plain text, and the column of each; what the line sets is set.
 
     What cannot be evaluated stops the run at its place.
@@ -432,7 +432,7 @@ def worked_out(line: Squeezed, number: int, values: MacroParameters, log: Log) -
 
 
 def _item(
-    reader: ExpressionReader, line: Squeezed, words: list[str], columns: list[int], settings: list[Setting]
+    reader: ExpressionReader, line: CompactText, words: list[str], columns: list[int], settings: list[Setting]
 ) -> None:  # fmt: skip
     """One word, or one setting of a parameter."""
     begin, text = reader.at, line.text
@@ -460,7 +460,7 @@ def _setting(reader: ExpressionReader) -> Setting:
     return key, reader.right_side()
 
 
-def tell_unset(reader: ExpressionReader, line: Squeezed, number: int, log: Log) -> None:
+def tell_unset(reader: ExpressionReader, line: CompactText, number: int, log: Log) -> None:
     """Reports parameters that were read before anything set them."""
     for index, at in reader.unset:
         text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."

@@ -15,7 +15,15 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.macro import GAP, ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, plain
+from core.controls.iso.macro import (
+    GAP,
+    CompactText,
+    ExpressionReader,
+    FaultError,
+    MacroParameters,
+    ParameterStore,
+    plain,
+)
 from core.controls.program_text import quoted
 from core.finding import Severity
 
@@ -59,7 +67,7 @@ class Variables(MacroParameters):
     """
 
     def __init__(self, machine_value: Callable[[int | str], float | str | None], set_system: SetSystem) -> None:
-        super().__init__(Kept.FANUC, machine_value)
+        super().__init__(ParameterStore.FANUC, machine_value)
         self.set_system = set_system
         self.local: dict[int, float] = {}
         self.common: dict[int, float] = {}
@@ -325,7 +333,7 @@ class MacroReader(ExpressionReader):
         return float(self._worked(begin, name, lambda base, power: float(base**power), first, second))
 
 
-def set_variables(reader: MacroReader, line: Squeezed, number: int, values: Variables, log: Log) -> None:
+def set_variables(reader: MacroReader, line: CompactText, number: int, values: Variables, log: Log) -> None:
     """Runs an assignment, `#1=...`; a second one in its block is taken too, and reported."""
     text = line.text
     for count in range(len(text)):
@@ -349,7 +357,7 @@ def set_variables(reader: MacroReader, line: Squeezed, number: int, values: Vari
 
 
 def words_of(
-    line: Squeezed, values: Variables, increment: float, start: int = 0
+    line: CompactText, values: Variables, increment: float, start: int = 0
 ) -> tuple[str, tuple[int, ...], tuple[str, float] | None]:  # fmt: skip
     """The words of a block as plain text, the column of each, and its `,R` or `,C`; vacant words are left out."""
     text, reader = line.text, MacroReader(line.text, values, start)

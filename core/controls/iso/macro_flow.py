@@ -16,7 +16,7 @@ from typing import Final, NamedTuple, NoReturn
 from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.flow import Call, Flow, Scope
-from core.controls.iso.macro import GAP, FaultError, Squeezed
+from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.iso.reader import Block, fill_words, is_words, without_comments
@@ -62,7 +62,7 @@ class Statement(NamedTuple):
     """A row as the macro reads it: its keyword (empty for a block of words), its text, and where the rest begins."""
 
     keyword: str
-    line: Squeezed
+    line: CompactText
     at: int
 
 
@@ -178,7 +178,7 @@ class MacroFlow(Flow):
     def _statement(self, row: int) -> Statement:
         text = self.lines[row]
         bare = without_comments(capitals(text), GAP)
-        line = Squeezed.of(bare, self.starts[row])
+        line = CompactText.of(bare, self.starts[row])
         if not _EXPRESSIONS.intersection(bare) and not _NO_LENGTHS.search(bare):
             places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
             self.no_point.extend((self.numbers[row], column) for column in places)
@@ -189,7 +189,7 @@ class MacroFlow(Flow):
             return Statement("OUT", line, 0)
         return Statement("", line, 0)
 
-    def _fault(self, fault: FaultError, row: int, line: Squeezed) -> NoReturn:
+    def _fault(self, fault: FaultError, row: int, line: CompactText) -> NoReturn:
         self.log.stop(fault.code, fault.text, self.numbers[row], line.column(fault.at))
 
     def _own_alarm(self, number: int, row: int) -> NoReturn:
@@ -221,10 +221,10 @@ class MacroFlow(Flow):
                 return self._skip_unless(reader, statement, row)
         return row + 1
 
-    def _set(self, reader: MacroReader, line: Squeezed, row: int) -> None:
+    def _set(self, reader: MacroReader, line: CompactText, row: int) -> None:
         set_variables(reader, line, self.numbers[row], self.variables, self.log)
 
-    def _if(self, reader: MacroReader, line: Squeezed, row: int) -> int:
+    def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
         text = line.text
         if text[reader.at :].startswith("GO"):
@@ -347,7 +347,7 @@ class MacroFlow(Flow):
         yield block
         self._after_move(block, row, moved)
 
-    def _block(self, row: int, line: Squeezed, start: int) -> Block | None:
+    def _block(self, row: int, line: CompactText, start: int) -> Block | None:
         number, text = self.numbers[row], self.lines[row]
         if row in self.plain_blocks:
             return self.plain_blocks[row]

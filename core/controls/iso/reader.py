@@ -13,7 +13,7 @@ from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.elsewhere import EXPRESSIONS, JUMPS, only_on
-from core.controls.iso.macro import GAP, MacroParameters, Squeezed, worked_out
+from core.controls.iso.macro import GAP, CompactText, MacroParameters, evaluated_line
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -34,7 +34,7 @@ _BRANCH: Final = re.compile(
 _EXPRESSION: Final = re.compile(r"[#\[]|[-+][ \t]*+[-+]")
 _NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
 
-WHOLE: Final = 1e-4
+INTEGER_TOLERANCE: Final = 1e-4
 """How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
 
 
@@ -122,13 +122,13 @@ def tenths(value: float) -> int | None:
     if not 0.0 <= value < 1e5:
         return None
     code = round(value * 10)
-    return code if abs(code - value * 10) < WHOLE else None
+    return code if abs(code - value * 10) < INTEGER_TOLERANCE else None
 
 
 def whole(value: float) -> int | None:
     """A whole number, None for one that is not."""
     number = round(value)
-    return number if abs(number - value) < WHOLE else None
+    return number if abs(number - value) < INTEGER_TOLERANCE else None
 
 
 def is_plain(line: str) -> bool:
@@ -141,11 +141,11 @@ def is_words(bare: str) -> bool:
     return _CLEAN.fullmatch(bare) is not None
 
 
-PLAIN: Final = Syntax()
+PLAIN_SYNTAX: Final = Syntax()
 
 
 def read_line(
-    text: str, line: int, log: Log, syntax: Syntax = PLAIN, values: MacroParameters | None = None
+    text: str, line: int, log: Log, syntax: Syntax = PLAIN_SYNTAX, values: MacroParameters | None = None
 ) -> list[Block]:  # fmt: skip
     """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
 
@@ -206,7 +206,9 @@ def _worked_out(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
     marked = without_comments(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
-    block.text, block.columns = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
+    block.text, block.columns = evaluated_line(
+        CompactText.of(marked[skip:], block.start + skip), block.line, values, log
+    )
     return [fill_words(block, block.text, log)] if block.columns else []
 
 
@@ -219,7 +221,7 @@ def _squeezed(block: Block, log: Log) -> str:
     return "".join(without_comments(capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
-def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN) -> Block:
+def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN_SYNTAX) -> Block:
     """The block with the words of a text in capitals that holds nothing else."""
     words = block.words
     for letter, number in _PAIR.findall(upper):

@@ -12,7 +12,7 @@ from math import hypot, pi, tau
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.compensation import elements
-from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, Outside, join
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Log, Stretch
 from core.controls.klartext import lead_curves
@@ -135,14 +135,14 @@ class Record:
         """The step's element as programmed, but ending at `end`."""
         element = step.element
         if element.turn:
-            self.arc(end, element.high, element.center, element.turn, step)
+            self.arc(end, element.end_height, element.center, element.turn, step)
         else:
-            self.line(end, element.high, step)
+            self.line(end, element.end_height, step)
 
     def sink(self, step: ProgrammedStep) -> None:
         """The tool axis alone, where the center stands."""
         x, y, _ = self.at(step)
-        self.line((x, y), step.element.high, step)
+        self.line((x, y), step.element.end_height, step)
 
     def open(self, step: ProgrammedStep) -> None:
         """Compensation begins: the next moves are a stretch."""
@@ -155,9 +155,9 @@ class Record:
         if self.programmed is None:
             return
         element = step.element
-        target, rapid = solid(*element.end, element.high, step.plane), element.rapid
+        target, rapid = solid(*element.end, element.end_height, step.plane), element.rapid
         if element.turn:
-            center = solid(*element.center, element.high, step.plane)
+            center = solid(*element.center, element.end_height, step.plane)
             self.programmed.arc(target, center, element.turn, step.plane, element.feed, element.line, rapid=rapid)
         else:
             self.programmed.straight(target, element.feed, element.line, rapid=rapid)
@@ -204,7 +204,7 @@ class CenterPathRecorder:
                     self._stop("HE7", NO_CONTOUR, self.entry)
                 if self.entry:  # an approach without compensation
                     goal = elements.offset_start(step.element, self.entry.offset)
-                    self._arrive(self.entry, goal, step.element.leaving)
+                    self._arrive(self.entry, goal, step.element.start_direction)
                     self.record.close()
                 self.record.plain(step, step.element.end)
             case Role.DEPTH if self.ahead:
@@ -261,7 +261,7 @@ class CenterPathRecorder:
         curve = lead_curves.approach(lead, (x, y), goal, way, step.hand)
         if curve is None:
             self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
-        depth = step.element.high
+        depth = step.element.end_height
         if lead.shape is LeadShape.LCT:
             self.record.line(curve.point, depth, step)
         else:
@@ -272,13 +272,13 @@ class CenterPathRecorder:
 
     def _depart(self, step: ProgrammedStep, lead: Lead) -> None:
         x, y, height = self.record.at(step)
-        curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.leaving, step.hand)
+        curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.start_direction, step.hand)
         if curve is None:
             self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
         self._run_curve(curve.point, height, curve, step)
         if lead.shape is LeadShape.LCT:
             self.record.line(step.element.end, height, step)
-        if step.element.high != height:
+        if step.element.end_height != height:
             self.record.sink(step)
 
     def _run_curve(self, end: Point, height: float, curve: lead_curves.Curve, step: ProgrammedStep) -> None:
@@ -299,7 +299,7 @@ class CenterPathRecorder:
             self._stop_too_large(step, why, abs(step.offset), element.radius)
         begin = elements.offset_start(element, step.offset)
         if self.entry:
-            self._arrive(self.entry, begin, element.leaving)
+            self._arrive(self.entry, begin, element.start_direction)
         elif self.held:
             begin = self._corner(self.held, step)
         self.held, self.begin = step, begin
@@ -308,7 +308,7 @@ class CenterPathRecorder:
         """Finish the held element at its corner with the next; the point at which that one's offset starts."""
         first, offset = _at_its_end(before.element), before.offset
         joint = join(first, after.element, offset, before.corner)
-        if joint.missed or (joint.corner is Corner.INSIDE and self._overruns(first, after.element, offset, joint)):
+        if joint.missed or (joint.corner is CornerKind.INSIDE and self._overruns(first, after.element, offset, joint)):
             why = "the {0}-radius tool cannot enter the corner before this block"
             self._stop_too_large(after, why, abs(offset))
         if joint.center is not None and self.depths:
@@ -318,7 +318,7 @@ class CenterPathRecorder:
             height, turn = self.record.at(before)[2], -1 if offset > 0.0 else 1
             self.record.arc(joint.start, height, first.end, turn, before)
         elif joint.start != joint.end:
-            self.record.line(joint.start, first.high, before)
+            self.record.line(joint.start, first.end_height, before)
         return joint.start
 
     @staticmethod
@@ -326,7 +326,7 @@ class CenterPathRecorder:
         """Whether two offsets meet beyond what there is of them."""
         if joint.start != joint.end:
             return False
-        slack = max(JOINED, ROUNDED / max(abs(elements.turn_angle(first, second)), elements.WHOLE))
+        slack = max(JOINED, ROUNDED / max(abs(elements.turn_angle(first, second)), elements.SAME_DIRECTION))
         end, begin = elements.offset_end(first, offset), elements.offset_start(second, offset)
         return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
 
@@ -339,9 +339,9 @@ class CenterPathRecorder:
         if element.turn and left > JOINED:
             if left >= tau * elements.offset_radius(element, step.offset) - JOINED:
                 end = self.begin
-            self.record.arc(end, element.high, element.center, element.turn, step, step.arc_feed)
+            self.record.arc(end, element.end_height, element.center, element.turn, step, step.arc_feed)
         else:
-            self.record.line(end, element.high, step)
+            self.record.line(end, element.end_height, step)
         self.record.note(step)
         self.held = None
         self._sink_waiting()
@@ -354,7 +354,7 @@ class CenterPathRecorder:
 
     def _gather(self, step: ProgrammedStep) -> None:
         """An element under M120: its path is known once the last one is."""
-        if step.corner is not KLARTEXT_CORNERS or step.element.low != step.element.high:
+        if step.corner is not KLARTEXT_CORNERS or step.element.start_height != step.element.end_height:
             self._stop_m120(step)
         if self.depths and not self.entry:
             self._stop_m120(self.depths[0])
@@ -389,7 +389,7 @@ class CenterPathRecorder:
             self._arrive(self.entry, path.start, path.way)
         for run in runs:
             step = steps[run.row]
-            height = step.element.high
+            height = step.element.end_height
             if run.turn:
                 self.record.arc(run.end, height, run.center, run.turn, step, None if run.corner else step.arc_feed)
             else:
@@ -420,7 +420,7 @@ def _at_its_end(element: Element) -> Element:
 def advance(element: Element, start: Point, end: Point) -> float:
     """Millimeters along an element from one point of its offset to another, negative backwards, at most half an arc."""
     if not element.turn:
-        (x, y), (ex, ey), way = start, end, element.leaving
+        (x, y), (ex, ey), way = start, end, element.start_direction
         return (ex - x) * way[0] + (ey - y) * way[1]
     angle = elements.sweep(start, end, element.center, element.turn)
     return (angle - tau if angle > pi else angle) * hypot(start[0] - element.center[0], start[1] - element.center[1])

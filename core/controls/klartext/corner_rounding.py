@@ -78,7 +78,7 @@ Blended = tuple[Element, Element, Element]
 def rounding(first: Element, second: Element, radius: float) -> Blended | str:
     """An arc of `radius` millimeters tangent to both elements; or the sentence that says why there is none."""
     angle = elements.turn_angle(first, second)
-    if abs(angle) < elements.WHOLE or not _level(first, second):
+    if abs(angle) < elements.SAME_DIRECTION or not _level(first, second):
         return "There is no corner to round. Both blocks must lie in the working plane and meet at an angle."
     offset = radius if angle > 0.0 else -radius
     ending = first._replace(start=first.end) if first.turn else first
@@ -89,7 +89,7 @@ def rounding(first: Element, second: Element, radius: float) -> Blended | str:
     if not _on(first, start) or not _on(second, end):
         return "The rounding is longer than the blocks it joins. Write a smaller R."
     turn = 1 if angle > 0.0 else -1
-    arc = arc_element(start, end, center, turn, first.high, first.high, first.feed, first.line)
+    arc = arc_element(start, end, center, turn, first.end_height, first.end_height, first.feed, first.line)
     return _cut_end(first, start), arc, _cut_start(second, end)
 
 
@@ -97,21 +97,24 @@ def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
     """A line that cuts `leg` millimeters off both straight elements; or the sentence that says why there is none."""
     if first.turn or second.turn or not _level(first, second):
         return "A chamfer needs two straight blocks in the working plane. Use RND."
-    start, end = elements.beyond(first.end, first.arriving, -leg), elements.beyond(first.end, second.leaving, leg)
+    start, end = (
+        elements.point_along(first.end, first.end_direction, -leg),
+        elements.point_along(first.end, second.start_direction, leg),
+    )
     if not _on(first, start) or not _on(second, end):
         return "The chamfer is longer than the blocks it joins. Write a shorter one."
-    between = line_element(start, end, first.high, first.high, first.rapid, first.feed, first.line)
+    between = line_element(start, end, first.end_height, first.end_height, first.rapid, first.feed, first.line)
     return _cut_end(first, start), between, _cut_start(second, end)
 
 
 def _level(first: Element, second: Element) -> bool:
-    return first.low == first.high == second.low == second.high
+    return first.start_height == first.end_height == second.start_height == second.end_height
 
 
 def _touch(element: Element, center: Point, offset: float) -> Point:
     """Where a circle about `center`, `offset` to the left of the element, touches it."""
     if not element.turn:
-        return elements.offset_point(center, element.leaving, -offset)
+        return elements.offset_point(center, element.start_direction, -offset)
     (x, y), (cx, cy) = center, element.center
     share = element.radius / hypot(x - cx, y - cy)
     return cx + (x - cx) * share, cy + (y - cy) * share
@@ -119,7 +122,7 @@ def _touch(element: Element, center: Point, offset: float) -> Point:
 
 def _on(element: Element, at: Point) -> bool:
     if not element.turn:
-        (x, y), way = element.start, element.leaving
+        (x, y), way = element.start, element.start_direction
         along = (at[0] - x) * way[0] + (at[1] - y) * way[1]
         return -JOINED <= along <= hypot(element.end[0] - x, element.end[1] - y) + JOINED
     return elements.sweep(element.start, at, element.center, element.turn) <= elements.element_sweep(element)
@@ -128,10 +131,10 @@ def _on(element: Element, at: Point) -> bool:
 def _cut_end(element: Element, end: Point) -> Element:
     if not element.turn:
         return element._replace(end=end)
-    return element._replace(end=end, arriving=elements.tangent(end, element.center, element.turn))
+    return element._replace(end=end, end_direction=elements.tangent(end, element.center, element.turn))
 
 
 def _cut_start(element: Element, start: Point) -> Element:
     if not element.turn:
         return element._replace(start=start, center=start)
-    return element._replace(start=start, leaving=elements.tangent(start, element.center, element.turn))
+    return element._replace(start=start, start_direction=elements.tangent(start, element.center, element.turn))

@@ -13,7 +13,7 @@ from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.settings import shift
-from core.controls.klartext.state import AXES, COMMON, CalledCycle, State
+from core.controls.klartext.state import AXES, COMMON_WORDS, CalledCycle, State
 from core.finding import Severity
 from core.units import to_mm
 
@@ -106,7 +106,7 @@ def _call_block(state: State, block: Block) -> None:
     head = _POSITION.match(block.body)
     rest = block.after(head.end() if head else 0)
     if head and head[1] == "POS":
-        words = state.words(rest, COMMON | frozenset(AXES))
+        words = state.words(rest, COMMON_WORDS | frozenset(AXES))
         _refuse_compensated(state, block)
         for index, value in enumerate(state.target(rest, words)):
             state.position[index] = value

@@ -13,7 +13,8 @@ from enum import StrEnum
 from math import acos, atan2, cos, hypot, sin, tau
 from typing import Final
 
-from core.controls.compensation.elements import WHOLE, beyond, offset_point, turned
+from core.controls.compensation.elements import SAME_DIRECTION, offset_point, point_along
+from core.geometry.construct import rotated
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -59,7 +60,7 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
     its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
     """
     if lead.shape is LeadShape.LT:
-        point = beyond(end, way, -lead.length)
+        point = point_along(end, way, -lead.length)
         return Curve(point, point, 0)
     if lead.shape is LeadShape.LN:
         point = offset_point(end, way, hand * lead.length)
@@ -67,8 +68,8 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
     if lead.shape is LeadShape.CT:
         center = offset_point(end, way, hand * lead.radius)
         turn = hand if lead.radius > 0.0 else -hand
-        whole = lead.angle >= tau - WHOLE
-        return Curve(end if whole else turned(end, center, -turn * lead.angle), center, turn)
+        whole = lead.angle >= tau - SAME_DIRECTION
+        return Curve(end if whole else rotated(end, center, -turn * lead.angle), center, turn)
     return _tangent_arc(lead.radius, start, end, way, hand or _side_of(start, end, way))
 
 

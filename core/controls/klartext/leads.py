@@ -12,7 +12,7 @@ from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
 from core.controls.klartext.path_functions import POLAR, check_pole_plane, polar_target, straight_element
 from core.controls.klartext.reader import Block
-from core.controls.klartext.state import AXES, COMMON, State, Words
+from core.controls.klartext.state import AXES, COMMON_WORDS, State, Words
 from core.controls.moves import solid
 from core.finding import Severity
 
@@ -50,7 +50,7 @@ def depart(state: State, block: Block) -> None:
     rapid, feed = state.chosen_feed(block, words)
     functions(state, block, words)
     state.moving(block, rapid=rapid, feed=feed)
-    element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(leaving=last.arriving)
+    element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(start_direction=last.end_direction)
     hand = _hand(state.offset, state.applied)
     state.push(ProgrammedStep(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=hand))
     state.position, state.last, state.side = goal, None, 0
@@ -67,7 +67,7 @@ def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words
     if polar:
         check_pole_plane(state, block)
     coordinates = POLAR if polar else frozenset(AXES)
-    return shape, polar, state.words(block.after(lead.end()), COMMON | coordinates | set(_NEEDED[shape]))
+    return shape, polar, state.words(block.after(lead.end()), COMMON_WORDS | coordinates | set(_NEEDED[shape]))
 
 
 def _check_side(state: State, block: Block, shape: LeadShape) -> None:
@@ -108,8 +108,8 @@ def _goal(
     if point != here:
         text = f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point."
         state.stop("WORD", text, block)
-    start = offset_point(here, last.arriving, state.offset)
-    curve = departure(lead, start, here, last.arriving, _hand(state.offset, state.applied))
+    start = offset_point(here, last.end_direction, state.offset)
+    curve = departure(lead, start, here, last.end_direction, _hand(state.offset, state.applied))
     return list(solid(*(curve.point if curve else here), height, state.plane))
 
 

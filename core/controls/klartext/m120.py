@@ -15,7 +15,7 @@ import numpy as np
 
 from core.comp.compensate import compensate
 from core.comp.compensated import Compensated
-from core.controls.compensation.elements import WHOLE, Element, offset_end, sweep
+from core.controls.compensation.elements import SAME_DIRECTION, Element, offset_end, sweep
 from core.geometry.path import Path
 from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
@@ -117,8 +117,8 @@ def _near(one: Point, other: Point) -> bool:
 def _trimmed_away(element: Element, start: Point, begin: Point, end: Point) -> bool:
     """Whether an element's offset, trimmed to `begin`, would run backwards to the end it is trimmed to."""
     if not element.turn:
-        (wx, wy), dx, dy = element.leaving, end[0] - begin[0], end[1] - begin[1]
+        (wx, wy), dx, dy = element.start_direction, end[0] - begin[0], end[1] - begin[1]
         return dx * wx + dy * wy < -JOINED
     center, turn = element.center, element.turn
     trimmed = sweep(start, begin, center, turn)
-    return trimmed > pi or trimmed > sweep(start, end, center, turn) + WHOLE
+    return trimmed > pi or trimmed > sweep(start, end, center, turn) + SAME_DIRECTION

@@ -7,12 +7,12 @@ from typing import Final
 
 from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
-from core.controls.iso.arcs import ArcRadii, NoArc, through
+from core.controls.iso.arcs import ArcRadii, NoArc, center_by_radius
 from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import Blend
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
-from core.controls.klartext.state import AXES, COMMON, SIDES, State, Words
+from core.controls.klartext.state import AXES, COMMON_WORDS, SIDES, State, Words
 from core.controls.moves import Plane, solid
 from core.finding import Severity
 from core.geometry.piece import Point
@@ -30,8 +30,8 @@ MAX_HELIX: Final = 5400.0
 NOT_YET: Final = "cutcomp assumes RL, RR or R0 with the tool axis alone acts in the next line of the working plane."
 ONE_STRAIGHT: Final = "The end point lies straight ahead or back: no tangent arc leads there. Write L."
 
-_LINE: Final = COMMON | frozenset(AXES)
-_POLAR_LINE: Final = COMMON | POLAR
+_LINE: Final = COMMON_WORDS | frozenset(AXES)
+_POLAR_LINE: Final = COMMON_WORDS | POLAR
 _CORNER: Final = frozenset(("R", "F", "LEN"))
 
 
@@ -191,7 +191,7 @@ def radius_arc(state: State, block: Block) -> None:
     end, radius = state.target(block, words), state.length(block, words, "R")
     if abs(radius) <= JOINED:
         state.stop("ARC", "An arc cannot have the radius 0.", block, "R")
-    center = through(state.flat(state.position, plane)[0], state.flat(end, plane)[0], radius, turn)
+    center = center_by_radius(state.flat(state.position, plane)[0], state.flat(end, plane)[0], radius, turn)
     if isinstance(center, NoArc):
         state.stop("ARC", center.text, block, "R", *center.lengths)
     _arc_to(state, block, words, end, center, turn, plane)
@@ -225,12 +225,12 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     if state.last is None or state.waiting.blend:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
         state.stop("HE6", text, block)
-    start, goal, way = state.flat(state.position)[0], state.flat(end)[0], state.last.arriving
+    start, goal, way = state.flat(state.position)[0], state.flat(end)[0], state.last.end_direction
     dx, dy = goal[0] - start[0], goal[1] - start[1]
     cross, chord = way[0] * dy - way[1] * dx, hypot(dx, dy)
     if chord <= JOINED:
         state.stop("ARC", "The end point must differ from the start point.", block)
-    if abs(cross) <= chord * elements.WHOLE:
+    if abs(cross) <= chord * elements.SAME_DIRECTION:
         state.stop("ARC", ONE_STRAIGHT, block)
     center = elements.offset_point(start, way, chord * chord / (2.0 * cross))
     _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1, state.plane)

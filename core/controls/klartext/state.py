@@ -32,7 +32,7 @@ AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
 """Axis words: which axis, and whether the value counts from the last programmed position."""
 
 SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
-COMMON: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
+COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
 FEEDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 

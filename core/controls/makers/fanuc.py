@@ -17,8 +17,8 @@ from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
-from core.controls.iso.machine import ONCE, Control
-from core.controls.iso.macro import Kept
+from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
+from core.controls.iso.macro import ParameterStore
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
@@ -85,7 +85,7 @@ DIALECT: Final = Dialect(
     Unit.MM,
     syntax=Syntax(semicolon_ends=True, blanks=False, last_counts=True),
     percent_ends=True,
-    parameters=Kept.FANUC,
+    parameters=ParameterStore.FANUC,
     cycle_rule="FN-CYCLE",
     d_anywhere=True,
     rule_names=RULE_NAMES,
@@ -262,7 +262,7 @@ class Fanuc(VectorQueue, Control):
     def _moves_in_plane(self, block: Block) -> bool:
         """Whether a block has a move in the plane."""
         codes = self.machine.dialect.codes
-        if any(code in codes and codes[code].action in ONCE for code in block.g):
+        if any(code in codes and codes[code].action in NON_MODAL_ACTIONS for code in block.g):
             return False
         letters = _PLANE_LETTERS[self.plane]
         turns = self.machine.mode in _ARC_MODES and not {"I", "J", "K", "R"}.isdisjoint(block.words)
@@ -315,7 +315,7 @@ class Fanuc(VectorQueue, Control):
             self.stop_compensation()
             super().travel(element)
             return
-        self.too_many = self.too_many or element.low == element.high
+        self.too_many = self.too_many or element.start_height == element.end_height
         self.across(element)
 
     def _tell_parameters(self, line: int) -> None:

@@ -14,19 +14,19 @@ from typing import Final
 
 from core.controls.compensation.corner_rules import (
     SAME_POINT,
-    Corner,
+    CornerKind,
     CornerRules,
     Joint,
     Outside,
-    change,
-    corner,
-    departure,
-    entry,
+    corner_kind,
+    entry_joint,
+    exit_joint,
     inward_turn,
     join,
+    offset_change_joint,
 )
 from core.controls.compensation.elements import (
-    WHOLE,
+    SAME_DIRECTION,
     Element,
     element_sweep,
     line_element,
@@ -158,7 +158,7 @@ class VectorQueue(Recorder):
 
     def _check_center(self, element: Element) -> None:
         ends = (element.start, element.end) if element.turn else ()
-        if any(hypot(x - element.center[0], y - element.center[1]) < WHOLE for x, y in ends):
+        if any(hypot(x - element.center[0], y - element.center[1]) < SAME_DIRECTION for x, y in ends):
             self.log.stop(self.alarms.point, "The arc starts or ends at its center. Correct I and J.", element.line, 1)
 
     def _check_new_offset(self, element: Element, start: float) -> None:
@@ -187,11 +187,11 @@ class VectorQueue(Recorder):
         if held.startup and not element_moves(first):
             return Joint(offset_start(element, start), offset_start(element, start)), tight
         if held.startup:
-            return entry(first, element, start, self.rules.outside, direct=self.vector_rules.type_a), tight
+            return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a), tight
         if start != offset:
             text = "The side changes here. cutcomp takes the way across from other makers' manuals."
             self.log.tell(Severity.INFO, "FN-G1", text, element.line, 1)
-            return change(first, element, offset, start), tight
+            return offset_change_joint(first, element, offset, start), tight
         return self._joined(first, element, offset), tight
 
     def _joined(self, first: Element, second: Element, offset: float) -> Joint:
@@ -203,7 +203,7 @@ class VectorQueue(Recorder):
 
     def _with_point(self, first: Element, second: Element, offset: float) -> Joint:
         """A corner at an arc that is no larger than the tool, so that its offset is a point or runs back."""
-        if corner(first, second, offset, self.rules) is not Corner.INSIDE:
+        if corner_kind(first, second, offset, self.rules) is not CornerKind.INSIDE:
             return join(first, second, offset, self.rules)
         point = meeting(first, second, offset, beyond_center=True)
         return self._without_meeting(first, second, offset) if point is None else Joint(point, point)
@@ -220,7 +220,7 @@ class VectorQueue(Recorder):
         if vector != (0.0, 0.0):
             size = hypot(*vector)
             start = offset_point(second.start, (vector[0] / size, vector[1] / size), offset)
-        return Joint(offset_end(first, offset), start, center=second.start, corner=Corner.OUTSIDE)
+        return Joint(offset_end(first, offset), start, center=second.start, corner=CornerKind.OUTSIDE)
 
     def _follow(self, element: Element, vectors: list[Point], center: Point | None) -> None:
         """The next element waits; from its start on, the stretch may have another side or radius."""
@@ -254,11 +254,11 @@ class VectorQueue(Recorder):
         """The way around the corner at an element's start."""
         *between, start = held.vectors[1:] or held.vectors
         for point in between:
-            self._line(held.element, point, low=True)
+            self._line(held.element, point, at_start_height=True)
         if held.center is not None:
-            self.arc_about(held.element, start, held.center, -1 if held.offset > 0.0 else 1, held.element.low)
+            self.arc_about(held.element, start, held.center, -1 if held.offset > 0.0 else 1, held.element.start_height)
         else:
-            self._line(held.element, start, low=True)
+            self._line(held.element, start, at_start_height=True)
 
     def _run_element(self, held: Held, end: Point) -> None:
         element, start = held.element, held.vectors[-1]
@@ -271,12 +271,12 @@ class VectorQueue(Recorder):
         feed = element.feed * abs(radius) / element.radius if inside else element.feed
         self.arc(element._replace(feed=feed), end, element.center)
 
-    def _line(self, element: Element, end: Point, *, low: bool = False) -> None:
+    def _line(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
         """A straight move, unless the tool stands there already."""
-        height = element.low if low else element.high
+        height = element.start_height if at_start_height else element.end_height
         target, now = solid(*end, height, self.plane), self.tape.last
         if any(abs(a - b) > SAME_POINT for a, b in zip(target, now, strict=True)):
-            self.straight(element, end, low=low)
+            self.straight(element, end, at_start_height=at_start_height)
 
     # interference
 
@@ -348,7 +348,7 @@ class VectorQueue(Recorder):
             self.end_square()
             return
         else:
-            joint = departure(held.element, element, held.offset, self.rules.outside)
+            joint = exit_joint(held.element, element, held.offset, self.rules.outside)
         vectors = _points(joint, None)
         if not held.element.turn and joint.center is None and len(vectors) > 1:
             vectors.pop(0)
@@ -375,7 +375,7 @@ class VectorQueue(Recorder):
 
 def element_moves(element: Element) -> bool:
     """Whether an element has a direction."""
-    return element.turn != 0 or element.leaving != (0.0, 0.0)
+    return element.turn != 0 or element.start_direction != (0.0, 0.0)
 
 
 def _points(joint: Joint, element: Element | None) -> list[Point]:
@@ -385,7 +385,7 @@ def _points(joint: Joint, element: Element | None) -> list[Point]:
         if hypot(point[0] - points[-1][0], point[1] - points[-1][1]) > SAME_POINT:
             points.append(point)
     if element is not None and not element.turn and len(points) > 1 and joint.center is None:
-        (ax, ay), (bx, by), way = points[-2], points[-1], element.leaving
+        (ax, ay), (bx, by), way = points[-2], points[-1], element.start_direction
         if abs((bx - ax) * way[1] - (by - ay) * way[0]) < SAME_POINT and (bx - ax) * way[0] + (by - ay) * way[1] > 0.0:
             points.pop()
     return points
@@ -402,7 +402,7 @@ def _crosses(element: Element, start: Point, end: Point) -> bool:
         if hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT:
             return False
         return sweep(start, end, element.center, element.turn) - element_sweep(element) > pi
-    way = element.leaving
+    way = element.start_direction
     return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_POINT
 
 

@@ -19,7 +19,7 @@ from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
-from core.controls.iso.macro import Kept
+from core.controls.iso.macro import ParameterStore
 from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane
@@ -56,7 +56,7 @@ DIALECT: Final = Dialect(
     percent_ends=True,
     end_needed=True,
     group_rule="N-TWOG",
-    parameters=Kept.NGC,
+    parameters=ParameterStore.NGC,
     cycle_rule="N-CYCLE",
     returns_to_r=True,
     dwell_takes_axes=False,
@@ -150,7 +150,7 @@ class LinuxCnc(OneMoveQueue, Control):
         mode = self._motion(block)
         if mode is not None:
             given.add(f"G{mode}")
-        for letter, codes_for in NEEDED.items():
+        for letter, codes_for in WORDS_NEED_CODES.items():
             if letter in block.words and given.isdisjoint(codes_for):
                 text = f"No code in this block uses {letter}. Remove it."
                 text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}" if letter == "H" else text
@@ -275,7 +275,7 @@ _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
 _CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
 
-NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
+WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
     {
         "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLES)),
         "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLES, *_SWITCHED, *_USER_M)),
@@ -286,7 +286,7 @@ NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
 )
 """Words that a block takes only with one of these codes."""
 
-_OTHERS: Final = frozenset((*NEEDED, "O"))
+_OTHERS: Final = frozenset((*WORDS_NEED_CODES, "O"))
 _CALL: Final = frozenset("OPLN")
 _TAKES_AXES: Final = frozenset((100, 280, 300, 520, 920))
 _KNOWN_M: Final = frozenset(

@@ -15,14 +15,14 @@ from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from core.controls.compensation.corner_rules import (
-    Corner,
+    CornerKind,
     CornerRules,
     Joint,
     Outside,
-    change,
-    departure,
-    entry,
+    entry_joint,
+    exit_joint,
     inward_turn,
+    offset_change_joint,
     vector_end,
 )
 from core.controls.compensation.element_queue import ElementQueue
@@ -265,19 +265,19 @@ class NineSeries(ElementQueue, Control):
             self.entering = False
             self.offset = self.coming
             self._interpreted(first, second)
-            joint = entry(first, second, self.coming, self.rules.outside, direct=self.type_a)
+            joint = entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes at this line. cutcomp assumes the moves across; the manual has none."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
-            joint = change(first, second, self.offset, self.coming)
+            joint = offset_change_joint(first, second, self.offset, self.coming)
             self._continue_stretch(joint)
             return joint
         joint = super().joint(first, second)
         if joint.missed:
             return self._missed(first, second)
-        return self._with_notice(joint, second) if joint.corner is Corner.OUTSIDE else joint
+        return self._with_notice(joint, second) if joint.corner is CornerKind.OUTSIDE else joint
 
     def _with_notice(self, joint: Joint, element: Element) -> Joint:
         """The joint; reports that generated blocks are made at any length."""
@@ -336,9 +336,9 @@ class NineSeries(ElementQueue, Control):
         elif self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
-            joint = self._with_notice(departure(held, element, self.offset, self.rules.outside), element)
+            joint = self._with_notice(exit_joint(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
-            self.lead_on(joint, element, self.offset)
+            self.run_joint(joint, element, self.offset)
         self._cancel()
         super().travel(element)
 

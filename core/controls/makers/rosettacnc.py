@@ -13,7 +13,7 @@ from math import acos, atan2, cos, hypot, pi, sin
 from types import MappingProxyType
 from typing import Final, NoReturn
 
-from core.controls.compensation.corner_rules import Corner, CornerRules
+from core.controls.compensation.corner_rules import CornerKind, CornerRules
 from core.controls.compensation.element_queue import AlarmCodes, ElementQueue, OneMoveQueue
 from core.controls.compensation.elements import Element, fits, offset_end, offset_start
 from core.controls.control_run import Log
@@ -21,7 +21,7 @@ from core.controls.control_tools import missing_tool
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
-from core.controls.iso.macro import Kept
+from core.controls.iso.macro import ParameterStore
 from core.controls.iso.reader import SWITCHES, Block, whole
 from core.controls.moves import Plane
 from core.finding import Severity
@@ -45,7 +45,7 @@ DIALECT: Final = Dialect(
         ("once", CodeAction.UNSUPPORTED, (650, 660)),
     ),
     Unit.MM,
-    parameters=Kept.MACRO_B,
+    parameters=ParameterStore.MACRO_B,
     cycle_rule="C8",
 )
 
@@ -204,7 +204,7 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.note(element)
         angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
         way = angle - pi / 2 * sign
-        self.before = element._replace(arriving=(cos(way), sin(way)))
+        self.before = element._replace(end_direction=(cos(way), sin(way)))
         self.straight(element, (px + radius * cos(angle), py + radius * sin(angle)))
         self.first = False
 
@@ -219,10 +219,10 @@ class NistEntry(ElementQueue, RosettaCnc):
         if self.before is None:
             return
         joint = self.joint(self.before, element)
-        if joint.corner is Corner.INSIDE:
+        if joint.corner is CornerKind.INSIDE:
             text = "An inside corner is an error with this entry. Round it in the program or use the normal entry."
             self.log.stop("C6", text, element.line, 1, at=element.start)
-        self.lead_on(joint, element, self.offset)
+        self.run_joint(joint, element, self.offset)
 
     def follow(self, element: Element) -> None:
         """A move on its offset, to the offset point at its end."""

@@ -12,7 +12,7 @@ import re
 from math import hypot, radians
 from typing import Final, NoReturn
 
-from core.controls.compensation.corner_rules import Corner, CornerRules, Joint
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joint
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
@@ -184,7 +184,7 @@ class ThreeBlock(ElementQueue, Control):
                 self._arc_exit(element.line, 1)
             super().travel(element)
             return
-        if not element.moves and element.low == element.high:
+        if not element.moves and element.start_height == element.end_height:
             text = "Under compensation every block must move the tool. Remove this one."
             self.log.stop("B10-NOMOVE", text, element.line, 1)
         self._height(element)
@@ -198,7 +198,7 @@ class ThreeBlock(ElementQueue, Control):
 
     def _height(self, element: Element) -> None:
         """The rules on Z: not at the beginning, not with an arc, not twice without two moves between."""
-        rises = element.low != element.high
+        rises = element.start_height != element.end_height
         self.blocks.append((element.line, rises, element.moves))
         if rises and len(self.blocks) <= 3:
             text = "No Z in the first three compensated blocks; move Z in the block with G41 or after them."
@@ -223,7 +223,7 @@ class ThreeBlock(ElementQueue, Control):
         held = self.held
         if held is None or self.elements < 2 or held.turn or element.turn or not element.moves:
             return
-        (ax, ay), (bx, by) = held.arriving, element.leaving
+        (ax, ay), (bx, by) = held.end_direction, element.start_direction
         if abs(ax * by - ay * bx) < TANGENT:
             text = "Two straight moves in a row lie on one line. Join them into one move."
             self.log.stop("B11-COLLINEAR", text, element.line, 1)
@@ -234,7 +234,7 @@ class ThreeBlock(ElementQueue, Control):
             start = offset_start(second, self.offset)
             return Joint(start, start)
         joint = super().joint(first, second)
-        if joint.corner is Corner.TANGENT:
+        if joint.corner is CornerKind.TANGENT:
             self._override(second)
         return joint
 

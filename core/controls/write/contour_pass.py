@@ -16,12 +16,12 @@ from core.comp.compensated import Compensated
 from core.controls.compensation.elements import (
     Element,
     arc_element,
-    beyond,
     element_sweep,
     line_element,
     meeting,
     offset_point,
     offset_radius,
+    point_along,
 )
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -220,7 +220,7 @@ def _rebuilt(element: Element) -> Element:
 def _surface(element: Element, point: Point, offset: float) -> Point:
     """The point of an element that belongs to a point of its offset."""
     if not element.turn:
-        return offset_point(point, element.leaving, -offset)
+        return offset_point(point, element.start_direction, -offset)
     share = element.radius / offset_radius(element, offset)
     (x, y), (cx, cy) = point, element.center
     return cx + (x - cx) * share, cy + (y - cy) * share
@@ -249,7 +249,7 @@ def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathE
         way = (sense * dx, sense * dy)
         off = side = offset_point((0.0, 0.0), way, compensated.side.sign)
         side = (-side[0], -side[1])
-    corner = beyond(at, side, compensated.radius)
+    corner = point_along(at, side, compensated.radius)
     return PathEnd(at, corner, way, off, blend)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Final
 
-from core.controls.compensation.elements import Element, beyond
+from core.controls.compensation.elements import Element, point_along
 from core.controls.write.contour_pass import PathEnd, ProgrammedElements, flat_arc, flat_line
 from core.controls.write.iso_style import EntryRule, IsoStyle
 from core.geometry.path import Path
@@ -56,7 +56,7 @@ def clear_leads(
     for length in LEAD_LENGTHS:
         if style.entry is EntryRule.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
             continue
-        start, out = _start(first, style, length * radius), beyond(last.at, last.off, length * radius)
+        start, out = _start(first, style, length * radius), point_along(last.at, last.off, length * radius)
         leads = (Line(start, first.at), *into), (*off, Line(last.at, out))
         depth = max(map(surface.gouge, leads))
         if depth <= GOUGE:
@@ -68,10 +68,10 @@ def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
     """Where the entry starts: `length` away from where it ends, on the line the control needs it on."""
     at = end.corner if style.entry is EntryRule.SQUARE_TO_ITSELF else end.at
     if end.blend:
-        return beyond(at, end.off, length)
+        return point_along(at, end.off, length)
     if style.entry is EntryRule.SQUARE_TO_NEXT:
-        return beyond(end.at, end.off, length)
-    return beyond(at, end.way, -length)
+        return point_along(end.at, end.off, length)
+    return point_along(at, end.way, -length)
 
 
 def with_blends(
@@ -85,8 +85,8 @@ def with_blends(
         return shape
     elements, size = shape.elements, first.blend + radius
     turn = 1 if first.off[1] * first.way[0] - first.off[0] * first.way[1] > 0.0 else -1
-    into = flat_arc(first.corner, elements[0].start, beyond(first.corner, first.way, size), turn)
-    off = flat_arc(elements[-1].end, last.corner, beyond(last.corner, last.way, -size), turn)
+    into = flat_arc(first.corner, elements[0].start, point_along(first.corner, first.way, size), turn)
+    off = flat_arc(elements[-1].end, last.corner, point_along(last.corner, last.way, -size), turn)
     return ProgrammedElements((into, *elements, off), (segments[0], *shape.segments, segments[1]))
 
 
@@ -105,6 +105,6 @@ def merged(shape: ProgrammedElements) -> ProgrammedElements:
 def _continues(first: Element, second: Element) -> bool:
     if first.turn or second.turn:
         return False
-    (ax, ay), (bx, by) = first.leaving, second.leaving
+    (ax, ay), (bx, by) = first.start_direction, second.start_direction
     length = min(hypot(line.end[0] - line.start[0], line.end[1] - line.start[1]) for line in (first, second))
     return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) * length <= ON_LINE

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.compensation.elements import beyond, offset_point
+from core.controls.compensation.elements import offset_point, point_along
 from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Plane
@@ -52,10 +52,10 @@ class RewrittenStretch:
     def end(self, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
         """The path's begin (`sense` 1) or its end (-1), with a quarter arc of radius `blend` or 0."""
         radius, off = self.stretch.radius, offset_point((0.0, 0.0), way, self.stretch.side.sign)
-        at = beyond(beyond(corner, off, radius + blend), way, -sense * blend)
+        at = point_along(point_along(corner, off, radius + blend), way, -sense * blend)
         if not blend:
             return PathEnd(at, corner, way, off, 0.0)
-        return PathEnd(at, beyond(at, way, -sense * radius), way, off, blend)
+        return PathEnd(at, point_along(at, way, -sense * radius), way, off, blend)
 
 
 def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> RewrittenStretch | NotTranslated:
@@ -111,8 +111,8 @@ def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> Pa
     first, last = shape.elements[0], shape.elements[-1]
     surface = ProtectedContour(source.surface, stretch.side, radius)
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
-        begin = source.end(first.start, first.leaving, blend * radius, 1)
-        finish = source.end(last.end, last.arriving, blend * radius, -1)
+        begin = source.end(first.start, first.start_direction, blend * radius, 1)
+        finish = source.end(last.end, last.end_direction, blend * radius, -1)
         leads = clear_leads(begin, finish, style, radius, surface, _blend(begin, turn, 1), _blend(finish, turn, -1))
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (0.0, max(shape.segments) + 1.0))
@@ -126,6 +126,6 @@ def _blend(end: PathEnd, turn: Turn, sense: int) -> tuple[Piece, ...]:
     """The quarter arc between a straight lead and the tool's path, at its begin (`sense` 1) or its end (-1)."""
     if not end.blend:
         return ()
-    center = beyond(end.at, end.way, sense * end.blend)
-    first, last = (end.at, beyond(center, end.off, -end.blend))[::sense]
+    center = point_along(end.at, end.way, sense * end.blend)
+    first, last = (end.at, point_along(center, end.off, -end.blend))[::sense]
     return (Arc(first, last, center, turn),)

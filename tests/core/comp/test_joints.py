@@ -13,7 +13,7 @@ import pytest
 from core.comp.compensate import compensate
 from core.comp.crossings import crossings
 from core.comp.offset import RawPart, offset
-from core.controls.compensation.corner_rules import Corner, CornerRules, join
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, join
 from core.controls.compensation.elements import Element, arc_element, line_element, meetings, offset_end, offset_start
 from core.geometry.distance import distance
 from core.geometry.path import Path, as_complex
@@ -27,7 +27,7 @@ RULES = CornerRules(touching=JOINED)
 NEAR = 1e-7
 """Millimeters by which the points may differ: what rounding makes of a meeting of two nearly tangent circles."""
 
-KINDS = {RawPart.CORNER: Corner.OUTSIDE, RawPart.BRIDGE: Corner.INSIDE}
+KINDS = {RawPart.CORNER: CornerKind.OUTSIDE, RawPart.BRIDGE: CornerKind.INSIDE}
 
 
 def _point(place: complex) -> Point:
@@ -73,11 +73,11 @@ def test_arrays_and_elements_see_the_same_corner(turns: tuple[int, int], bend: s
         chain = offset(Path.from_pieces([first, second]), side, radius)
         parts = [RawPart(part) for part in chain.parts.tolist()]
         joint = join(one, two, side.sign * radius, RULES)
-        assert joint.corner is (KINDS[parts[1]] if len(parts) == 3 else Corner.TANGENT)
+        assert joint.corner is (KINDS[parts[1]] if len(parts) == 3 else CornerKind.TANGENT)
         points = as_complex(chain.raw.points)
         assert _near(points[1], offset_end(one, side.sign * radius))
         assert _near(points[-2], offset_start(two, side.sign * radius))
-        if joint.corner is Corner.OUTSIDE:
+        if joint.corner is CornerKind.OUTSIDE:
             assert _near(as_complex(chain.raw.centers)[1], joint.center or (0.0, 0.0))
 
 
@@ -90,7 +90,7 @@ def test_arrays_and_elements_meet_in_the_same_points(turns: tuple[int, int], ben
         contour = Path.from_pieces([first, second])
         chain = offset(contour, side, radius)
         joint = join(one, two, side.sign * radius, RULES)
-        if joint.corner is not Corner.INSIDE or RawPart.VANISHED in chain.parts.tolist():
+        if joint.corner is not CornerKind.INSIDE or RawPart.VANISHED in chain.parts.tolist():
             continue
         found = crossings(chain, 1, closed=False).joints.points.tolist()
         pieces = piece_arrays(chain.raw.part(0, 1), chain.raw.part(2, 3))

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.iso.flow import o_words_of
-from core.controls.iso.macro import ExpressionReader, FaultError, Kept, MacroParameters
+from core.controls.iso.macro import ExpressionReader, FaultError, MacroParameters, ParameterStore
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome
@@ -145,7 +145,7 @@ def test_controls_of_which_nothing_is_known_stop_at_an_expression(control: str) 
 @given(st.text(alphabet="#[]<>-+*/.0123456789ABSINATMODGTEQ=_", max_size=40))
 @settings(max_examples=500, derandomize=True)
 def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
-    reader = ExpressionReader(text, MacroParameters(Kept.MACRO_B))
+    reader = ExpressionReader(text, MacroParameters(ParameterStore.MACRO_B))
     fault: FaultError | None = None
     value = 0.0
     try:

@@ -7,12 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import AlarmError, Log
-from core.controls.iso.reader import PLAIN, Block, Syntax, ToolData, read_line, tenths, whole
+from core.controls.iso.reader import PLAIN_SYNTAX, Block, Syntax, ToolData, read_line, tenths, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Finding
 
 
-def block(text: str, syntax: Syntax = PLAIN) -> Block:
+def block(text: str, syntax: Syntax = PLAIN_SYNTAX) -> Block:
     (found,) = read_line(text, 1, Log(), syntax)
     return found
 

@@ -6,7 +6,7 @@ from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
 
-from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, Outside, join
 from core.controls.compensation.elements import (
     Element,
     arc_element,
@@ -21,8 +21,8 @@ from core.controls.compensation.elements import (
     offset_start,
     runs_back,
     turn_angle,
-    turned,
 )
+from core.geometry.construct import rotated
 
 
 def line(ax: float, ay: float, bx: float, by: float) -> Element:
@@ -88,8 +88,8 @@ def test_backwards_is_reported_of_lines_and_arcs() -> None:
     assert runs_back(EAST, (3, 1), (2, 1))
     assert not runs_back(EAST, (2, 1), (3, 1))
     quarter = arc(2, 0, 0, 2, 0, 0, 1)
-    assert runs_back(quarter, turned((1, 0), (0, 0), 1.0), turned((1, 0), (0, 0), 0.9))
-    assert not runs_back(quarter, turned((1, 0), (0, 0), 0.9), turned((1, 0), (0, 0), 1.0))
+    assert runs_back(quarter, rotated((1, 0), (0, 0), 1.0), rotated((1, 0), (0, 0), 0.9))
+    assert not runs_back(quarter, rotated((1, 0), (0, 0), 0.9), rotated((1, 0), (0, 0), 1.0))
 
 
 def round_corner(angle: float, offset: float, rules: CornerRules, *, rapid: bool = False) -> Joint:
@@ -104,10 +104,10 @@ def test_the_default_rules_go_round_outside_corners_and_meet_at_inside_ones(angl
     joint = round_corner(angle, offset, CornerRules())
     if angle * offset > 0.0:
         reach = tan(abs(angle) / 2)
-        assert joint.corner is Corner.INSIDE
+        assert joint.corner is CornerKind.INSIDE
         assert joint.end == joint.start == pytest.approx((4 - reach, offset))
     else:
-        assert joint.corner is Corner.OUTSIDE
+        assert joint.corner is CornerKind.OUTSIDE
         assert joint.center == (4, 0)
         assert joint.end == pytest.approx((4, offset))
         assert joint.start == pytest.approx((4 - offset * sin(angle), offset * cos(angle)))
@@ -147,8 +147,10 @@ def test_a_rapid_may_go_straight_round_an_outside_corner() -> None:
     assert round_corner(radians(-90), 1.0, rules).center == (4, 0)
 
 
-@pytest.mark.parametrize(("angle", "kind"), [(0.04, Corner.TANGENT), (-0.04, Corner.TANGENT), (0.06, Corner.INSIDE)])
-def test_under_the_tangent_angle_a_corner_is_none(angle: float, kind: Corner) -> None:
+@pytest.mark.parametrize(
+    ("angle", "kind"), [(0.04, CornerKind.TANGENT), (-0.04, CornerKind.TANGENT), (0.06, CornerKind.INSIDE)]
+)
+def test_under_the_tangent_angle_a_corner_is_none(angle: float, kind: CornerKind) -> None:
     joint = round_corner(angle, 1.0, CornerRules(tangent=0.05))
     assert joint.corner is kind
     assert joint.end == joint.start
@@ -156,16 +158,16 @@ def test_under_the_tangent_angle_a_corner_is_none(angle: float, kind: Corner) ->
 
 def test_a_reversal_is_outside_but_inside_off_an_arc_with_hooks() -> None:
     back = line(4, 0, 0, 0)
-    assert [join(EAST, back, offset, CornerRules()).corner for offset in (1.0, -1.0)] == [Corner.OUTSIDE] * 2
+    assert [join(EAST, back, offset, CornerRules()).corner for offset in (1.0, -1.0)] == [CornerKind.OUTSIDE] * 2
     onto = arc(4, 0, 3, 1, 4, 1, -1)
     hooks = CornerRules(reversal=0.05, hooks=True, inside=Inside.BY_SIDE)
-    assert join(EAST, onto, 1.0, hooks).corner is Corner.INSIDE
-    assert join(EAST, onto, 1.0, hooks._replace(hooks=False)).corner is Corner.OUTSIDE
+    assert join(EAST, onto, 1.0, hooks).corner is CornerKind.INSIDE
+    assert join(EAST, onto, 1.0, hooks._replace(hooks=False)).corner is CornerKind.OUTSIDE
 
 
 def test_offsets_that_miss_each_other_at_an_inside_corner_are_said_to() -> None:
     joint = join(EAST, arc(4, 0, 4, 1, 4, 0.5, 1), 1.0, CornerRules(tangent=0.0))
-    assert joint.corner is Corner.TANGENT
+    assert joint.corner is CornerKind.TANGENT
     missed = join(EAST, arc(4, 0, 4, 1, 3.9, 0.5, 1), 1.0, CornerRules())
     assert missed.missed
     assert missed.end == (4, 1)
