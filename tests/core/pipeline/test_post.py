@@ -124,6 +124,20 @@ def test_pecks_are_runs_of_their_own() -> None:
     assert result.text.count("G0 Z-0.05\n") == 1
 
 
+@pytest.mark.parametrize("control", names())
+def test_a_control_s_program_never_rapids_across_the_part_below_its_top(control: str) -> None:
+    """Between pecks, on to the next block and at its end, where the tool stands at SAFE Z."""
+    found = derived(SQUARE, SQUARE)
+    text = posted(found, control).text
+    made = run(text.encode(), control, NO_TOOLS if control == "klartext" else table(found.program, text), Unit.IN)
+    assert isinstance(made, ControlRun)
+    points, rapid = made.moves.points, made.moves.rapid
+    across = np.any(points[1:, :2] != points[:-1, :2], axis=1) & rapid[1:]
+    assert across.any()
+    assert (np.minimum(points[1:, 2], points[:-1, 2])[across] >= 0.0).all()
+    assert points[-1, 2] == pytest.approx(25.4)
+
+
 def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
     result = post_control_program(derived(block(NOTCH, CutterComp.LEFT)), name="PART", control="threeblock")
     assert isinstance(result, Refusal)
