@@ -23,6 +23,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    ChamferSegment,
     LineSegment,
     Number,
     Part,
@@ -48,7 +49,7 @@ class DamagedError(Exception):
 Item = TypeVar("Item")
 Word = TypeVar("Word", bound=StrEnum)
 EMPTY: Final[Mapping[str, Segment]] = MappingProxyType(
-    {"LINE": LineSegment(), "ARC": ArcSegment(), "BLEND ARC": BlendSegment()}
+    {"LINE": LineSegment(), "ARC": ArcSegment(), "BLEND ARC": BlendSegment(), "CHAMFER": ChamferSegment()}
 )
 """The kinds of segments with nothing typed."""
 EMPTY_BLOCK: Final = Block()

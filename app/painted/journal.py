@@ -26,6 +26,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    ChamferSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -53,7 +54,7 @@ class Damaged(Exception):
 One = TypeVar("One")
 Word = TypeVar("Word", bound=StrEnum)
 EMPTY: Final[Mapping[str, Segment]] = MappingProxyType(
-    {"LINE": LineSegment(), "ARC": ArcSegment(), "BLEND ARC": BlendSegment()}
+    {"LINE": LineSegment(), "ARC": ArcSegment(), "BLEND ARC": BlendSegment(), "CHAMFER": ChamferSegment()}
 )
 """The kinds of segments with nothing typed."""
 EMPTY_BLOCK: Final = Block()

@@ -21,6 +21,7 @@ RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
         Form.LINE: frozenset({"length", "angle", "feed", "choice"}),
         Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "feed", "choice"}),
         Form.BLEND: frozenset({"feed"}),
+        Form.CHAMFER: frozenset({"feed"}),
     }
 )
 """The fields that stand in the right column of their form; the others stand in the left one."""
@@ -122,7 +123,7 @@ def _end_cells(solved: SolvedSegment, form: Form, unit: Unit) -> Iterator[Cell]:
     start = solved.start
     yield _read_only("X START", "" if start is None else _length(start[0], unit), 0, visible=start is not None)
     yield _read_only("Y START", "" if start is None else _length(start[1], unit), 0, visible=start is not None)
-    if form is Form.BLEND:
+    if form in (Form.BLEND, Form.CHAMFER):
         end = None if solved.piece is None else solved.piece.end
         yield _read_only("X END", "" if end is None else _length(end[0], unit), 1, visible=end is not None)
         yield _read_only("Y END", "" if end is None else _length(end[1], unit), 1, visible=end is not None)

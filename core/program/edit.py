@@ -29,8 +29,8 @@ from core.program.fields import (
 )
 from core.program.model import (
     ArcSegment,
-    BlendSegment,
     Block,
+    CornerSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -104,11 +104,16 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
     before, after = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
     if not 0 < where.segment <= len(block.segments) + 1:
         return _no_segment(block, where.segment)
-    if isinstance(segment, BlendSegment) and not before:
-        return Refused("A BLEND ARC cannot be the first segment: it blends two others.")
-    if isinstance(segment, BlendSegment) and BlendSegment in map(type, (*before[-1:], *after[:1])):
-        return Refused("A BLEND ARC cannot be next to another BLEND ARC.")
+    if isinstance(segment, CornerSegment):
+        if not before:
+            return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
+        if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
+            return Refused(f"A {form_of(segment)} cannot be next to {_another(form_of(segment), form_of(other))}.")
     return _with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
+
+
+def _another(form: Form, other: Form) -> str:
+    return f"another {other}" if form is other else f"a {other}"
 
 
 def delete_segment(program: Program, where: FormPlace) -> Edited:

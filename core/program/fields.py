@@ -16,6 +16,7 @@ from typing import Final, assert_never
 from core.program.model import (
     ArcSegment,
     BlendSegment,
+    ChamferSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -53,6 +54,7 @@ class Form(StrEnum):
     LINE = "LINE"
     ARC = "ARC"
     BLEND = "BLEND ARC"
+    CHAMFER = "CHAMFER"
     TOOL = "TOOL SETUP"
     PARAMETERS = "PROGRAM PARAMETERS"
     SETUP = "PART SETUP"
@@ -162,6 +164,11 @@ BLEND: Final = (
     _FEED,
 )
 
+CHAMFER: Final = (
+    _size("length", "LENGTH", "Length cut off both segments at their corner."),
+    _FEED,
+)
+
 TOOL: Final = (
     _count("number", "TOOL", "Tool number.", 1, 9999),
     Field("type", "TYPE", Kind.TEXT, "Type of the tool, such as END MILL."),
@@ -214,6 +221,7 @@ TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
         Form.LINE: LINE,
         Form.ARC: ARC,
         Form.BLEND: BLEND,
+        Form.CHAMFER: CHAMFER,
         Form.TOOL: TOOL,
         Form.PARAMETERS: PARAMETERS,
         Form.SETUP: SETUP,
@@ -243,6 +251,8 @@ def form_of(segment: Segment) -> Form:
             return Form.ARC
         case BlendSegment():
             return Form.BLEND
+        case ChamferSegment():
+            return Form.CHAMFER
         case _:
             assert_never(segment)
 

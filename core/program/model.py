@@ -93,7 +93,18 @@ class BlendSegment:
     feed: Typed = None
 
 
-Segment = LineSegment | ArcSegment | BlendSegment
+@dataclass(frozen=True, slots=True)
+class ChamferSegment:
+    """A CHAMFER as typed: the corner of its neighbors cut off, the same length from both."""
+
+    length: Typed = None
+    feed: Typed = None
+
+
+CornerSegment = BlendSegment | ChamferSegment
+"""The kinds of segments that stand at the corner of their two neighbors and shorten both."""
+
+Segment = LineSegment | ArcSegment | CornerSegment
 """The kinds of segment.  A new kind also needs its form in `fields`, its rules in `solve`, and its keys in `file.read`;
 a new curve needs a piece in `geometry.piece`."""
 
@@ -160,7 +171,10 @@ class Program:
     blocks: tuple[Block, ...] = ()
 
 
-Part = TypeVar("Part", bound=Block | LineSegment | ArcSegment | BlendSegment | Tool | ProgramParameters | PartSetup)
+Part = TypeVar(
+    "Part",
+    bound=Block | LineSegment | ArcSegment | BlendSegment | ChamferSegment | Tool | ProgramParameters | PartSetup,
+)
 
 
 def changed(part: Part, values: Mapping[str, Any]) -> Part:

@@ -32,7 +32,7 @@ HELD = frozenset({"lookahead", "number"})
 """CUTCOMP LOOKAHEAD keeps its old value, and a tool without a number is none."""
 FIELDS = [
     (form, one.name)
-    for form in Form
+    for form in FORMS
     for one in TABLES[form]
     if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in HELD
 ]

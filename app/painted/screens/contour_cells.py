@@ -60,7 +60,13 @@ _ARC: Final[Mapping[str, tuple[int, int]]] = MappingProxyType(
 _BLEND: Final[Mapping[str, tuple[int, int]]] = MappingProxyType({"radius": (0, 0), "feed": (1, 0)})
 
 PLACES: Final[Mapping[Form, Mapping[str, tuple[int, int]]]] = MappingProxyType(
-    {Form.START: _START, Form.LINE: _LINE, Form.ARC: _ARC, Form.BLEND: _BLEND}
+    {
+        Form.START: _START,
+        Form.LINE: _LINE,
+        Form.ARC: _ARC,
+        Form.BLEND: _BLEND,
+        Form.CHAMFER: {"length": (0, 0), "feed": (1, 0)},
+    }
 )
 """Column and line of every field on its form."""
 

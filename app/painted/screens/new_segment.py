@@ -13,7 +13,7 @@ from app.painted.widgets.header import block_line, header, segment_line
 from app.painted.widgets.rows import Look, Row, Span
 from app.painted.widgets.verdict import before_first
 from core.program.edit import FormPlace, Refused, insert_segment
-from core.program.fields import TABLES, Form
+from core.program.fields import TABLES, Form, form_of
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
 
 KINDS: Final[tuple[tuple[str, Form, type[Segment], str], ...]] = (
@@ -78,4 +78,4 @@ def _kind_row(letter: str, form: str, words: str) -> Row:
 
 def form_name(segment: Segment) -> str:
     """LINE, ARC or BLEND ARC."""
-    return next(form for _, form, kind, _ in KINDS if isinstance(segment, kind))
+    return form_of(segment)

@@ -138,6 +138,8 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         ),
         (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
         (Form.BLEND, "feed"): _FEED,
+        (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),
+        (Form.CHAMFER, "feed"): _FEED,
         (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
         (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
         (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),

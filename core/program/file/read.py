@@ -16,11 +16,12 @@ from typing import Any, Final, TypeVar
 
 from core.program.fields import NUMBER_FIELDS, TABLES, Field, Form, unread_reason, value_refusal
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
-from core.program.file.write import FORMAT, KIND, UNREAD
+from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, UNREAD
 from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    ChamferSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -157,8 +158,9 @@ def loads(text: str, file: str) -> Program:
         )
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
-    if isinstance(version, bool) or version != FORMAT:
-        raise top.fault("format", f"format cannot be {_written(version)}: this program reads format = {FORMAT}.")
+    if isinstance(version, bool) or version not in (FORMAT, NEWER_FORMAT):
+        readable = f"format = {FORMAT} and {NEWER_FORMAT}"
+        raise top.fault("format", f"format cannot be {_written(version)}: this program reads {readable}.")
     top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
     return Program(
         top.unit,
@@ -283,8 +285,12 @@ def _segment(table: _Table) -> Segment:
         case "BLEND ARC":
             table.only(_keys(Form.BLEND, "kind"))
             return BlendSegment(**_numbers(table, Form.BLEND))
+        case "CHAMFER":
+            table.only(_keys(Form.CHAMFER, "kind"))
+            return ChamferSegment(**_numbers(table, Form.CHAMFER))
         case other:
-            raise table.fault("kind", f"kind cannot be {printable(other)}: write LINE, ARC or BLEND ARC, in quotes.")
+            kinds = "LINE, ARC, BLEND ARC or CHAMFER"
+            raise table.fault("kind", f"kind cannot be {printable(other)}: write {kinds}, in quotes.")
 
 
 def _choice(table: _Table) -> int | None:

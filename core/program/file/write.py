@@ -7,11 +7,24 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.program.fields import TABLES, Form, form_of
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Tool, Unread
+from core.program.model import (
+    Block,
+    ChamferSegment,
+    Number,
+    PartSetup,
+    Program,
+    ProgramParameters,
+    Segment,
+    Tool,
+    Unread,
+)
 from core.units import Kind
 
 FORMAT: Final = 1
-"""The format of program files that is read and written."""
+"""The format of program files that every version reads."""
+
+NEWER_FORMAT: Final = 2
+"""The format of files with anything that format 1 does not have."""
 
 KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
@@ -28,7 +41,10 @@ PROMISE: Final = f'# its last line is "{END}"'
 
 def dumps(program: Program) -> str:
     """The text of a program's file."""
-    lines = [f"format = {FORMAT}  {PROMISE}", f'units = "{program.unit}"  # every length and feed below is in it']
+    lines = [
+        f"format = {format_of(program)}  {PROMISE}",
+        f'units = "{program.unit}"  # every length and feed below is in it',
+    ]
     lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)
     lines += _table("[setup]", "setup", Form.SETUP, program.setup)
     for tool in program.tools:
@@ -39,6 +55,12 @@ def dumps(program: Program) -> str:
             form = form_of(segment)
             lines += _table("[[block.segment]]", "block.segment", form, segment, form.value)
     return "\n".join((*lines, "", END)) + "\n"
+
+
+def format_of(program: Program) -> int:
+    """The format a program needs: 2 where it has anything that format 1 does not have."""
+    segments = (segment for block in program.blocks for segment in block.segments)
+    return NEWER_FORMAT if any(isinstance(segment, ChamferSegment) for segment in segments) else FORMAT
 
 
 Typable = ProgramParameters | PartSetup | Tool | Block | Segment

@@ -17,9 +17,9 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
-from core.program.fields import Form, field_of
-from core.program.model import BlendSegment, Block, CutterComp, Program
-from core.program.solve.blend_arc import Blends, put_blends_in
+from core.program.fields import TABLES, Form, field_of, form_of
+from core.program.model import Block, CornerSegment, CutterComp, Program
+from core.program.solve.corners import Corners, put_corners_in
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import Origin, SolvedBlock, SolvedSegment, Value
@@ -79,19 +79,23 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> list[Draft]:
 
 
 def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
-    """Every segment, blends put in."""
-    blends = _blends(block, drafts)
+    """Every segment, blends and chamfers put in."""
+    corners = _corners(block, drafts)
     adjusted = _adjustment(drafts)
-    return tuple(_segment(index, draft, blends, adjusted.get(index)) for index, draft in enumerate(drafts))
+    return tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
 
 
-def _blends(block: Block, drafts: Sequence[Draft]) -> Blends:
-    """The surface with its blends."""
-    blends = [index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)]
-    radii = {index: known["radius"] for index in blends if "radius" in (known := drafts[index].reading.known)}
+def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
+    """The surface with its blends and chamfers."""
+    corners = [index for index, segment in enumerate(block.segments) if isinstance(segment, CornerSegment)]
+    sizes = {
+        index: known[name]
+        for index in corners
+        if (name := TABLES[form_of(block.segments[index])][0].name) in (known := drafts[index].reading.known)
+    }
     shapes = [draft.shape for draft in drafts]
     lengthless = {index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None}
-    return put_blends_in(block.segments, [shape.piece for shape in shapes], radii, lengthless.difference(blends))
+    return put_corners_in(block.segments, [shape.piece for shape in shapes], sizes, lengthless.difference(corners))
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
@@ -106,17 +110,17 @@ def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
     return {worst: replace(finding, text=finding.text + more)}
 
 
-def _segment(index: int, draft: Draft, blends: Blends, adjusted: Finding | None) -> SolvedSegment:
+def _segment(index: int, draft: Draft, corners: Corners, adjusted: Finding | None) -> SolvedSegment:
     shape, before, after = draft.shape, draft.before, draft.after
-    findings = [finding for finding in (*shape.findings, blends.faults.get(index), adjusted) if finding is not None]
+    findings = [finding for finding in (*shape.findings, corners.faults.get(index), adjusted) if finding is not None]
     return SolvedSegment(
         number=index + 1,
         values=draft.reading.values,
-        piece=blends.pieces[index],
+        piece=corners.pieces[index],
         missing=shape.missing,
         choices=shape.choices,
         start=before.point,
-        end=None if index in blends.waiting else shape.end,
+        end=None if index in corners.waiting else shape.end,
         sketch=shape.sketch,
         z_start=before.z or 0.0,
         z_end=after.z or 0.0,

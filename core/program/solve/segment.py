@@ -7,8 +7,8 @@ from typing import Final, assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.program.fields import FARTHEST, form_of
-from core.program.model import ArcSegment, BlendSegment, LineSegment, Number, Segment
+from core.program.fields import FARTHEST, TABLES, form_of
+from core.program.model import ArcSegment, BlendSegment, ChamferSegment, CornerSegment, LineSegment, Number, Segment
 from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
 from core.program.solve.line import LINE_TASK, heading, kept_axis, line_sketch
 from core.program.solve.reading import Reading, read_form
@@ -69,11 +69,11 @@ def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
     kept = _keep_coordinate(segment, reading, before, unit)
     shape = _shape(segment, reading, before, unit)
     reading.fill("feed", None if feed is None else from_mm(feed, unit))
-    if not isinstance(segment, BlendSegment):
+    if not isinstance(segment, CornerSegment):
         reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
-    typed = before.typed if isinstance(segment, BlendSegment) else typed_point(reading.values, _ENDS)
+    typed = before.typed if isinstance(segment, CornerSegment) else typed_point(reading.values, _ENDS)
     if kept is not None:
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
@@ -95,8 +95,8 @@ def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: 
 
 def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:
     match segment:
-        case BlendSegment():
-            return _blend(reading, before.point)
+        case BlendSegment() | ChamferSegment():
+            return _corner(segment, reading, before.point)
         case _ if before.point is None:
             return Shape()
         case LineSegment():
@@ -117,11 +117,12 @@ def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, fl
     )
 
 
-def _blend(reading: Reading, corner: Point | None) -> Shape:
-    if reading.values["radius"] is not None:
+def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> Shape:
+    size = TABLES[form_of(segment)][0]
+    if reading.values[size.name] is not None:
         return Shape(end=corner)
-    text = "More data needed: type RADIUS."
-    return Shape(end=corner, missing=("radius",), findings=(Finding("MISSING", Severity.ERROR, text, field="radius"),))
+    missing = Finding("MISSING", Severity.ERROR, f"More data needed: type {size.label}.", field=size.name)
+    return Shape(end=corner, missing=(size.name,), findings=(missing,))
 
 
 def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> Shape:

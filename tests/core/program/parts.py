@@ -11,6 +11,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    ChamferSegment,
     CutterComp,
     Direction,
     LineSegment,
@@ -60,6 +61,11 @@ def _typed(typed: dict[str, float]) -> dict[str, Number | int]:
 def blend(radius: float) -> BlendSegment:
     """A BLEND ARC of this radius."""
     return BlendSegment(Number(radius))
+
+
+def chamfer(length: float) -> ChamferSegment:
+    """A CHAMFER of this length."""
+    return ChamferSegment(Number(length))
 
 
 def program(
@@ -114,7 +120,8 @@ def segments(unit: Unit) -> st.SearchStrategy[Segment]:
     choice = st.sampled_from((None, 0, 1))
     lines = st.builds(LineSegment, **_entries(Form.LINE, unit), choice=choice)
     arcs = st.builds(ArcSegment, st.sampled_from(Direction), **_entries(Form.ARC, unit), choice=choice)
-    return st.one_of(lines, arcs, st.builds(BlendSegment, **_entries(Form.BLEND, unit)))
+    blends = st.builds(BlendSegment, **_entries(Form.BLEND, unit))
+    return st.one_of(lines, arcs, blends, st.builds(ChamferSegment, **_entries(Form.CHAMFER, unit)))
 
 
 def blocks(unit: Unit) -> st.SearchStrategy[Block]:

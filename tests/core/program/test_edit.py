@@ -155,7 +155,7 @@ def test_insert_segment():
         (FormPlace(1, 5), LineSegment(), "Segment 5 does not exist; the last is 3."),
         (FormPlace(1, -1), LineSegment(), "Segment -1 does not exist; the last is 3."),
         (FormPlace(3, 1), LineSegment(), "Block 3 does not exist; the last is 1."),
-        (FormPlace(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it blends two others."),
+        (FormPlace(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it stands between two others."),
     ],
 )
 def test_inserting_is_refused(where, segment, text):

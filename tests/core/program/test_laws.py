@@ -14,7 +14,7 @@ from core.geometry.piece import Arc, Piece, Point
 from core.program import edit
 from core.program.edit import FormPlace
 from core.program.fields import field_of, form_of, value_refusal
-from core.program.model import ArcSegment, BlendSegment, Direction, Number, Program, Segment
+from core.program.model import ArcSegment, CornerSegment, Direction, Number, Program, Segment
 from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit
@@ -99,7 +99,7 @@ def value(typed: object) -> float:
 
 
 def shifted(segment: Segment, dx: float, dy: float) -> Segment:
-    if isinstance(segment, BlendSegment):
+    if isinstance(segment, CornerSegment):
         return segment
     found = replace(segment, x_end=Number(value(segment.x_end) + dx), y_end=Number(value(segment.y_end) + dy))
     if isinstance(found, ArcSegment):
@@ -116,7 +116,7 @@ def mirrored(part: Program) -> Program:
 
 
 def mirrored_segment(segment: Segment) -> Segment:
-    if isinstance(segment, BlendSegment):
+    if isinstance(segment, CornerSegment):
         return segment
     found = replace(segment, x_end=Number(-value(segment.x_end)))
     if isinstance(found, ArcSegment):

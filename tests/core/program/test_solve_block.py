@@ -31,7 +31,7 @@ from core.program.model import (
 )
 from core.program.solve.block import NEEDED, solve_block
 from core.program.solve.reading import read_form, shared_findings
-from core.program.solve.solved import Solved, SolvedBlock
+from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.units import Kind, Unit, sentence, to_mm
 from tests.core.program.parts import arc, blend, line, number, program, programs, tags
 
@@ -294,7 +294,7 @@ def test_a_wrong_tool_comes_before_what_is_still_blank():
 def test_blanks_that_stand_for_zero_are_calculated():
     given = program(ALONG, start={"finish_tool": None, "peck_depth": None})
     block = solve_block(given.blocks[0], given)
-    assert (block.values["finish_tool"], block.values["peck_depth"]) == (Solved(0.0), Solved(0.0))
+    assert (block.values["finish_tool"], block.values["peck_depth"]) == (Solved(0.0, Origin.USUAL),) * 2
     assert (block.peck_depth, block.finish_diameter) == (0.0, None)
     assert block.postable
 

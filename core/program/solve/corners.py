@@ -1,0 +1,144 @@
+"""BLEND ARCs and CHAMFERs: each put between its two neighbors at their corner, which it shortens.
+
+In order of the segments; a neighbor that one of them has shortened is shortened further as it then is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+from dataclasses import dataclass, field
+from typing import assert_never
+
+from core.finding import Finding, Severity
+from core.geometry.chamfer import Chamfer, ChamferReason, NoChamfer, chamfer
+from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
+from core.geometry.piece import Piece
+from core.program.fields import TABLES, form_of
+from core.program.model import BlendSegment, ChamferSegment, CornerSegment, Segment
+
+
+@dataclass(slots=True)
+class Corners:
+    """The surface with its blends and chamfers, by index of segment: pieces as they are left, and what is wrong.
+
+    `waiting` are those that are not in place: faulty, without a size, or next to a segment not determined yet.
+    """
+
+    pieces: list[Piece | None]
+    faults: dict[int, Finding] = field(default_factory=dict)
+    waiting: set[int] = field(default_factory=set)
+
+
+def put_corners_in(
+    segments: Sequence[Segment], pieces: Sequence[Piece | None], sizes: dict[int, float], lengthless: Set[int]
+) -> Corners:
+    """The pieces of the segments with every BLEND ARC and CHAMFER put in.
+
+    `sizes` holds the typed radii and lengths (mm), `lengthless` the determined segments without length.
+    """
+    corners = Corners(list(pieces))
+    determined = lengthless | {index for index, piece in enumerate(pieces) if piece is not None}
+    for index, segment in enumerate(segments):
+        if not isinstance(segment, CornerSegment):
+            continue
+        fault = _misplaced(segments, index, segment)
+        if fault is None and index in sizes:
+            fault = _put_in(corners.pieces, index, segment, sizes[index], determined)
+        if fault is not None:
+            corners.faults[index] = fault
+        if corners.pieces[index] is None:
+            corners.waiting.add(index)
+    return corners
+
+
+def _fault(segment: CornerSegment, what: str, text: str, value: float | None = None, *lengths: float) -> Finding:
+    kind = "BLEND" if isinstance(segment, BlendSegment) else "CHAMFER"
+    size = TABLES[form_of(segment)][0].name
+    return Finding(f"{kind}_{what}", Severity.ERROR, text, field=size, value=value, lengths=lengths)
+
+
+def _misplaced(segments: Sequence[Segment], index: int, segment: CornerSegment) -> Finding | None:
+    name = form_of(segment)
+    if index == 0:
+        text = f"A {name} cannot be the first segment: put a LINE or an ARC before it."
+    elif isinstance(before := segments[index - 1], CornerSegment):
+        other = f"another {name}" if form_of(before) is name else f"a {form_of(before)}"
+        text = f"A {name} cannot follow {other}: delete one or put a segment between."
+    elif index + 1 == len(segments):
+        text = f"A {name} cannot be the last segment: add the LINE or ARC after it."
+    else:
+        return None
+    return _fault(segment, "PLACE", text)
+
+
+def _put_in(
+    pieces: list[Piece | None], index: int, segment: CornerSegment, size: float, determined: Set[int]
+) -> Finding | None:
+    """Put a blend or a chamfer in and shorten its neighbors, or say why not; nothing while a neighbor is unknown."""
+    before, after = pieces[index - 1], pieces[index + 1]
+    if before is None or after is None:
+        return _no_neighbor(pieces, index, segment, determined)
+    match segment:
+        case BlendSegment():
+            corner: Fillet | NoFillet | Chamfer | NoChamfer = fillet(before, after, size)
+        case ChamferSegment():
+            corner = chamfer(before, after, size)
+        case _:
+            assert_never(segment)
+    match corner:
+        case Fillet(first, middle, last) | Chamfer(first, middle, last):
+            pieces[index - 1 : index + 2] = first, middle, last
+            return None
+        case NoFillet():
+            return _no_fillet(corner, segment, index + 1, size)
+        case NoChamfer():
+            return _no_chamfer(corner, segment, index + 1, size)
+        case _:
+            assert_never(corner)
+
+
+def _no_neighbor(
+    pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
+) -> Finding | None:
+    """What is wrong where a determined neighbor has no length, or none any more."""
+    verb, what = ("blend", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "LENGTH")
+    for neighbor in (index - 1, index + 1):
+        if pieces[neighbor] is None and neighbor in determined:
+            text = f"Segment {neighbor + 1} has no length left to {verb}: correct it or delete this {form_of(segment)}."
+            return _fault(segment, what, text)
+    return None
+
+
+def _no_fillet(refused: NoFillet, segment: CornerSegment, number: int, radius: float) -> Finding:
+    pair = f"segments {number - 1} and {number + 1}"
+    match refused.reason:
+        case Reason.TANGENT:
+            text = f"There is no corner to blend: {pair} already run smoothly into each other."
+            return _fault(segment, "TANGENT", text)
+        case Reason.REVERSAL:
+            text = f"No arc fits: segment {number + 1} goes straight back along segment {number - 1}."
+            return _fault(segment, "RADIUS", text)
+        case Reason.TOO_LARGE if refused.largest is not None:
+            text = f"RADIUS {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
+            return _fault(segment, "RADIUS", text, radius, refused.largest)
+        case Reason.TOO_LARGE:
+            text = f"RADIUS {{value}} does not fit between {pair}: enter a smaller one."
+            return _fault(segment, "RADIUS", text, radius)
+        case _:
+            assert_never(refused.reason)
+
+
+def _no_chamfer(refused: NoChamfer, segment: CornerSegment, number: int, length: float) -> Finding:
+    pair = f"segments {number - 1} and {number + 1}"
+    match refused.reason:
+        case ChamferReason.TANGENT:
+            text = f"There is no corner to chamfer: {pair} already run smoothly into each other."
+            return _fault(segment, "TANGENT", text)
+        case ChamferReason.REVERSAL:
+            text = f"No chamfer fits: segment {number + 1} goes straight back along segment {number - 1}."
+            return _fault(segment, "LENGTH", text)
+        case ChamferReason.TOO_LARGE:
+            text = f"LENGTH {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
+            return _fault(segment, "LENGTH", text, length, refused.largest)
+        case _:
+            assert_never(refused.reason)
