@@ -188,7 +188,7 @@ def _part_put(name: str, program: Program, value: object) -> Program:
 
 def _tools_put(program: Program, value: object) -> Program:
     tools = _put(program.tools, value, tool_of)
-    if any(before.number >= after.number for before, after in pairwise(tools)):
+    if len({tool.number for tool in tools}) < len(tools):
         raise DamagedError
     return replace(program, tools=tools)
 
@@ -314,6 +314,15 @@ def text_of(value: object) -> str:
     raise DamagedError
 
 
+def _as_typed(text: str) -> str:
+    """A text that a file can hold."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise DamagedError from error
+    return text
+
+
 def whole_of(value: object) -> int:
     """A whole number that is no truth value."""
     if isinstance(value, int) and not isinstance(value, bool):
@@ -347,7 +356,7 @@ def _typed(value: object) -> Typed:
         case None:
             return None
         case [str(text), str(reason)]:
-            return Unread(text_of(text), text_of(reason))
+            return Unread(_as_typed(text), text_of(reason))
         case int() | float() if not isinstance(value, bool) and abs(value) <= LARGEST and isfinite(value):
             return Number(float(value))
         case _:

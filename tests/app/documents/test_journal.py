@@ -1,11 +1,9 @@
-"""The journal: each edit a line that any crash leaves whole, read back as what was done."""
+"""The journal: each edit a line that any crash leaves whole, read back as what was done; both kinds, both formats."""
 
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable
-from dataclasses import replace
 from functools import reduce
 from pathlib import Path
 
@@ -13,36 +11,27 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.documents import contour_journal, nc_journal
 from app.documents.files import Stamp
-from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, lines, set_aside
+from app.documents.journal import Head, Journal, Kind, beginning, continuing, read_journal
+from app.documents.journal_file import Record, lines
 from app.documents.lock import Owner
-from app.painted.journal import (
-    Cursor,
-    Damaged,
-    Head,
-    Recovered,
-    applied,
-    delta,
-    edit_records,
-    head_record,
-    history_records,
-    moved_record,
-    recovered,
-)
-from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
+from app.documents.nc_text import NcText
+from core.program.edit import FormPlace, type_field
 from core.program.history import History
-from core.program.model import LineSegment, Number, Program, Unread
+from core.program.model import Number, Program
 from tests.core.program.parts import line, program, programs
 
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))
 OWNER = Owner("ann", "mill-3", 4711, "boot:12", "2025-03-04T06:00:00+01:00")
-HEAD = Head(OWNER, "/parts/pocket.toml", Stamp(120, 5, "ab"))
-CURSOR = Cursor(FormPlace(1, 2), "y_end", "2025-03-04T06:05:00+01:00")
+HEAD = Head(OWNER, "/parts/pocket.toml", Stamp(120, 5, "0123456789abcdef"))
+PLACE = (1, 2, "y_end")
+TIME = "2025-03-04T06:05:00+01:00"
 
-Step = Callable[[History], History]
+EditStep = Callable[[History], History]
 
 
-def typed(number: float) -> Step:
+def typed(number: float) -> EditStep:
     """An edit: this number into Y END of segment 2."""
 
     def do(history: History) -> History:
@@ -53,35 +42,57 @@ def typed(number: float) -> Step:
     return do
 
 
-def journal(*steps: Step, start: History | None = None) -> tuple[bytes, History]:
+def whole(history: History) -> bytes:
+    return lines(beginning(Kind.CONTOUR, HEAD, contour_journal.whole_records(history), PLACE, TIME))[0]
+
+
+def further(data: bytes, old: History, new: History) -> bytes | None:
+    """The lines with what led to the next history; None where it does not follow."""
+    records = contour_journal.records_between(old, new)
+    return None if records is None else data + lines(continuing(records, PLACE, TIME), _sum(data))[0]
+
+
+def _sum(data: bytes) -> int:
+    """The sum at the end of whole lines."""
+    return int(data.splitlines()[-1][:8], 16)
+
+
+def journal(*steps: EditStep) -> tuple[bytes, History]:
     """The lines of a journal in which these steps were made, and the history they led to."""
-    history = start or History(PART)
-    data, total = lines([head_record(HEAD, history.program, CURSOR)])
+    history = History(PART)
+    data = whole(history)
     for step in steps:
         after = step(history)
-        records = edit_records(history, after, CURSOR)
-        assert records is not None
-        more, total = lines(records, total)
-        data, history = data + more, after
+        more = further(data, history, after)
+        assert more is not None
+        data, history = more, after
     return data, history
 
 
-def read(data: bytes) -> Recovered:
-    found = recovered(data)
+def read(data: bytes) -> Journal:
+    found = read_journal(data)
     assert found is not None
     return found
 
 
-STEPS: tuple[Step, ...] = (typed(2.0), typed(3.0), History.undo, typed(4.0), History.undo, History.undo, History.redo)
+STEPS: tuple[EditStep, ...] = (
+    typed(2.0),
+    typed(3.0),
+    History.undo,
+    typed(4.0),
+    History.undo,
+    History.undo,
+    History.redo,
+)
 
 
-def test_program_cursor_and_undo_come_back() -> None:
+def test_work_place_time_and_head_come_back() -> None:
     data, history = journal(*STEPS)
     found = read(data)
-    assert found.history == history
-    assert (found.head, found.cursor, found.damaged) == (HEAD, CURSOR, False)
-    assert found.length == len(data)
-    assert found.history.undo().program == PART
+    assert found.work == history
+    assert (found.kind, found.head, found.place, found.time) == (Kind.CONTOUR, HEAD, PLACE, TIME)
+    assert not found.damaged
+    assert found.edits == history.undo_count
 
 
 steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), st.just(History.redo)), max_size=12)
@@ -89,42 +100,43 @@ steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), s
 
 @settings(max_examples=60, derandomize=True, deadline=None)
 @given(steps)
-def test_any_edits(made: list[Step]) -> None:
+def test_any_edits_come_back(made: list[EditStep]) -> None:
     data, history = journal(*made)
-    assert read(data).history == history
+    assert read(data).work == history
+    assert read(whole(history)).work == history
 
 
 @settings(max_examples=40, derandomize=True, deadline=None)
 @given(steps, steps)
-def test_several_edits_in_one_key(before: list[Step], key: list[Step]) -> None:
-    """However much one key does, its records lead there, or the journal is begun anew."""
+def test_several_edits_in_one_key_come_back_or_begin_a_journal_anew(
+    before: list[EditStep], key: list[EditStep]
+) -> None:
     data, old = journal(*before)
     new = reduce(lambda history, step: step(history), key, old)
-    records = edit_records(old, new, CURSOR)
-    if records is None:
-        assert read(lines(history_records(HEAD, new, CURSOR))[0]).history == new
-    else:
-        assert read(data + lines(records, read(data).total)[0]).history == new
+    more = further(data, old, new)
+    assert read(whole(new) if more is None else more).work == new
 
 
 @settings(max_examples=15, derandomize=True, deadline=None)
 @given(programs, programs)
-def test_any_program(first: Program, second: Program) -> None:
+def test_any_program_comes_back(first: Program, second: Program) -> None:
     history = History(first).do(second, "everything")
-    assert read(lines(history_records(HEAD, history, CURSOR))[0]).history == history
+    assert read(whole(history)).work == history
 
 
 def test_a_history_of_another_program_does_not_follow() -> None:
-    assert edit_records(History(PART), History(program(line(x_end=7.0))), CURSOR) is None
+    assert contour_journal.records_between(History(PART), History(program(line(x_end=7.0)))) is None
 
 
 def test_cut_anywhere_the_whole_lines_before_come_back() -> None:
     data, _ = journal(*STEPS)
-    ends = [0, *(index + 1 for index, byte in enumerate(data) if byte == 10)]
-    wanted = {end: recovered(data[:end]) for end in ends}
-    assert [None if one is None else one.length for one in wanted.values()] == [None, *ends[1:]]
-    for cut in range(len(data)):
-        assert recovered(data[:cut]) == wanted[max(end for end in ends if end <= cut)], cut
+    ends = [index + 1 for index, byte in enumerate(data) if byte == 10]
+    wanted = {end: read(data[:end]).work for end in ends}
+    assert read_journal(data[: ends[0] - 1]) is None
+    for cut in range(ends[0], len(data)):
+        found = read(data[:cut])
+        assert found.work == wanted[max(end for end in ends if end <= cut)], cut
+        assert not found.damaged
 
 
 @settings(max_examples=200, derandomize=True, deadline=None)
@@ -133,10 +145,9 @@ def test_a_wrong_byte_is_never_taken_for_a_right_one(draws: st.DataObject) -> No
     data, history = journal(*STEPS)
     at = draws.draw(st.integers(0, len(data) - 1))
     byte = draws.draw(st.integers(0, 255).filter(lambda one: one != data[at]))
-    wrong = data[:at] + bytes([byte]) + data[at + 1 :]
-    found = recovered(wrong)
+    found = read_journal(data[:at] + bytes([byte]) + data[at + 1 :])
     before = data[: data.rfind(b"\n", 0, at) + 1]
-    assert found is None or found.history == (read(before).history if before else history)
+    assert found is None or found.work == (read(before).work if before else history)
 
 
 def test_a_damaged_middle_is_told_and_a_torn_end_is_none() -> None:
@@ -148,232 +159,193 @@ def test_a_damaged_middle_is_told_and_a_torn_end_is_none() -> None:
 
 
 def test_a_line_left_out_ends_the_journal() -> None:
-    whole = journal(*STEPS)[0].splitlines(keepends=True)
-    found = read(whole[0] + b"".join(whole[2:]))
-    assert found.history == History(PART)
+    rows = journal(*STEPS)[0].splitlines(keepends=True)
+    found = read(rows[0] + b"".join(rows[2:]))
+    assert found.work == History(PART)
     assert found.damaged
 
 
-def test_random_bytes_are_no_journal() -> None:
-    assert recovered(b"") is None
-    assert recovered(b"not ours\n") is None
-    assert recovered(bytes(range(256)) * 40) is None
+@pytest.mark.parametrize("data", [b"", b"not ours\n", bytes(range(256)) * 40])
+def test_random_bytes_are_no_journal(data: bytes) -> None:
+    assert read_journal(data) is None
 
 
-def test_a_whole_history_is_written_with_what_was_undone() -> None:
-    _, history = journal(*STEPS)
-    assert history.future
-    assert read(lines(history_records(HEAD, history, CURSOR))[0]).history == history
-
-
-def test_other_hands_and_another_file() -> None:
+def test_a_line_with_an_owner_puts_the_work_into_other_hands() -> None:
     data, history = journal(typed(2.0))
-    later = Head(Owner("bob", "office", 1, "", "later"), "/parts/b.toml", None)
-    more, _ = lines([moved_record(later, CURSOR)], read(data).total)
-    assert read(data + more).head == later
-    assert read(data + more).history == history
+    later: Record = {"owner": {"user": "bob", "host": "x", "pid": 1, "started": "", "since": ""}, "file": None}
+    more, _ = lines([{**later, "stamp": None, "at": PLACE, "time": TIME}], _sum(data))
+    assert read(data + more).head == Head(Owner("bob", "x", 1, "", ""))
+    assert read(data + more).work == history
 
 
-def begun(path: Path) -> JournalFile:
-    file = JournalFile(path)
-    file.add([head_record(HEAD, PART, CURSOR)])
-    return file
+# ---- NC texts
+
+WORK = st.lists(st.tuples(st.sampled_from("cidur"), st.integers(0, 9), st.text("GX1.\t", max_size=4)), max_size=25)
 
 
-def add(file: JournalFile, old: History, step: Step) -> History:
-    new = step(old)
-    records = edit_records(old, new, CURSOR)
-    assert records is not None
-    file.add(records)
-    return new
+def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
+    row %= len(text) + 1
+    match kind:
+        case "c" if len(text) > row:
+            return text.changed(row, typed)
+        case "i":
+            return text.inserted(row, typed)
+        case "d" if len(text) > row:
+            return text.deleted(row)
+        case "u":
+            return text.undone()
+        case "r":
+            return text.redone()
+        case _:
+            return text
 
 
-def test_every_edit_is_in_the_file_when_add_returns(tmp_path: Path) -> None:
-    path, history = tmp_path / "j", History(PART)
-    file = begun(path)
-    for step in STEPS:
-        history = add(file, history, step)
-        assert read(path.read_bytes()).history == history
-    file.remove()
-    assert list(tmp_path.iterdir()) == []
+@settings(derandomize=True, deadline=None)
+@given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00", b"\xef\xbb\xbfA\n"]))
+def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], content: bytes) -> None:
+    text = NcText.read(content)
+    data = lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]
+    for kind, row, typed_text in work:
+        before, text = text, nc_edited(text, kind, row, typed_text)
+        records = nc_journal.records_between(before, text)
+        assert records is not None
+        data += lines(continuing(records, (row,), TIME), _sum(data))[0]
+    for written in (data, lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]):
+        found = read(written)
+        assert not found.damaged
+        assert isinstance(found.work, NcText)
+        assert (found.work.lines, found.work.encoding) == (text.lines, text.encoding)
+        assert (len(found.work.past), len(found.work.future)) == (len(text.past), len(text.future))
+        assert found.work.unsaved
 
 
-def test_a_journal_goes_on_behind_a_torn_line(tmp_path: Path) -> None:
-    path = tmp_path / "j"
-    file = begun(path)
-    history = add(file, History(PART), typed(2.0))
-    file.close()
-    path.write_bytes(path.read_bytes() + b"0000")
-    held = read(path.read_bytes())
-    resumed = JournalFile.resumed(path, held.length, held.total)
-    history = add(resumed, history, typed(5.0))
-    assert read(path.read_bytes()).history == history
+def test_differences_of_texts_in_words() -> None:
+    file, work = NcText.read(b"A\nB\nC\nD\n"), NcText.read(b"A\nX\nB\nD\nE\n")
+    told = ("Line 2 is new: X", "Line 3 of the file is deleted: C", "Line 5 is new: E")
+    assert nc_journal.differences(file, work) == told
+    assert nc_journal.differences(file, file) == ()
+    long = NcText.read(b"".join(b"%d\n" % row for row in range(900)))
+    assert nc_journal.differences(file, long) == ("Lines 1 to 900 differ from the file.",)
 
 
-def test_undo_reaches_back_over_a_save(tmp_path: Path) -> None:
-    path = tmp_path / "j"
-    file = begun(path)
-    history = add(file, History(PART), typed(2.0))
-    assert file.put_away()
-    assert list(tmp_path.iterdir()) == []
-    history = add(file, history, typed(5.0))
-    assert read(path.read_bytes()).history == history
+# ---- format 1
 
 
-def test_a_very_long_journal_is_not_kept_over_a_save(tmp_path: Path) -> None:
-    file = JournalFile(tmp_path / "j", unwritten=b"x" * LARGEST_KEPT)
-    file.add([head_record(HEAD, PART, CURSOR)])
-    assert not file.put_away()
-    assert list(tmp_path.iterdir()) == []
+def old(name: str) -> bytes:
+    return (Path(__file__).parent / "format_1" / name).read_bytes()
 
 
-def test_a_journal_that_stands_there_is_moved_aside(tmp_path: Path) -> None:
-    path = tmp_path / "j"
-    path.write_text("somebody else's")
-    begun(path).remove()
-    assert [one.read_text() for one in tmp_path.iterdir()] == ["somebody else's"]
+def test_a_program_of_format_1_is_read() -> None:
+    found = read(old("program.journal"))
+    assert isinstance(found.work, History)
+    assert [step.program.blocks[0].tool for step in found.work.past] == [Number(1.0), Number(7.0)]
+    assert found.work.program.blocks[0].tool == Number(8.0)
+    assert found.work.redo().program.blocks[0].tool == Number(9.0)
+    assert (found.head.file, found.head.owner.user, found.damaged) == ("/parts/notch.toml", "ann", False)
+    assert found.place == (1, 0, "tool")
 
 
-def test_remove_leaves_what_another_put_there(tmp_path: Path) -> None:
-    path = tmp_path / "j"
-    file = begun(path)
-    aside = set_aside(path, "taken")
-    path.write_text("another's")
-    file.remove()
-    assert path.read_text() == "another's"
-    assert not aside.exists(), "its own is gone, whatever it was called by then"
+def test_an_nc_text_of_format_1_is_read() -> None:
+    found = read(old("nc.journal"))
+    assert isinstance(found.work, NcText)
+    assert found.work.lines == ("T7\r\n", "\xb0 M30\r\n")
+    assert found.work.undone().undone().lines[0] == "G20 G17\r\n"
+    content = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
+    from app.documents.files import stamp_of_data
+
+    assert found.head.stamp is not None
+    assert found.head.stamp.same_content(stamp_of_data(content))
+    assert not found.head.stamp.same_content(stamp_of_data(content.replace(b"1", b"2")))
+    assert not found.damaged
 
 
-def test_a_shorter_journal_in_the_place_of_a_long_one(tmp_path: Path) -> None:
-    path = tmp_path / "j"
-    file = begun(path)
-    history = History(PART)
-    for number in range(50):
-        history = add(file, history, typed(float(number)))
-    long = path.stat().st_size
-    file.replace(history_records(HEAD, History(history.program), CURSOR))
-    assert path.stat().st_size < long / 3
-    history = add(file, History(history.program), typed(77.0))
-    assert read(path.read_bytes()).history == history
+# ---- right sums, wrong content
 
 
-def test_a_full_disk_loses_nothing_once_there_is_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A write that stops in the middle is taken back, and everything is written with the next edit."""
-    path = tmp_path / "j"
-    file = begun(path)
-    history = add(file, History(PART), typed(2.0))
-    before = path.read_bytes()
-    whole = os.write
-
-    def full(handle: int, data: bytes) -> int:
-        if len(data) > 4:
-            return whole(handle, data[:4])
-        raise OSError(28, "No space left on device")
-
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "write", lambda handle, data: full(handle, data) if len(data) > 10 else full(handle, b""))
-        for number in (3.0, 4.0):
-            after = typed(number)(history)
-            records = edit_records(history, after, CURSOR)
-            assert records is not None
-            with pytest.raises(OSError, match="No space"):
-                file.add(records)
-            history = after
-            assert path.read_bytes() == before
-    history = add(file, history, typed(5.0))
-    assert read(path.read_bytes()).history == history
+def signed(record: object, total: int = 0) -> bytes:
+    """A line with a right sum, whatever it says."""
+    return lines([record], total)[0]  # type: ignore[list-item]
 
 
-def test_no_journal_is_begun_on_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> int:
-        raise OSError(28, "No space left on device")
-
-    file = JournalFile(tmp_path / "j")
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "write", full)
-        with pytest.raises(OSError, match="No space"):
-            file.add([head_record(HEAD, PART, CURSOR)])
-    assert list(tmp_path.iterdir()) == []
-    history = add(file, History(PART), typed(2.0))
-    assert read((tmp_path / "j").read_bytes()).history == history
-
-
-def test_the_journal_of_a_link_is_beside_the_file(tmp_path: Path) -> None:
-    (tmp_path / "shop").mkdir()
-    (tmp_path / "shop" / "part.toml").touch()
-    (tmp_path / "link.toml").symlink_to(tmp_path / "shop" / "part.toml")
-    assert journal_path(tmp_path / "link.toml") == tmp_path / "shop" / ".part.toml.cutcomp-journal"
-
-
-@settings(max_examples=20, derandomize=True, deadline=None)
-@given(programs, programs)
-def test_any_two_programs(old: Program, new: Program) -> None:
-    assert applied(old, json.loads(json.dumps(delta(old, new)))) == new
-
-
-def test_one_field_is_one_small_record() -> None:
-    edited = type_field(PART, FormPlace(1, 2), "y_end", Number(2.5))
-    assert isinstance(edited, Program)
-    assert delta(PART, edited) == {"block": [0, {}, [1, 1, [["LINE", {"y_end": 2.5}]]]]}
-
-
-def test_a_blank_and_an_unreadable_text() -> None:
-    blank = type_field(PART, FormPlace(1), "x_start", None)
-    unread = type_field(PART, FormPlace(1), "x_start", Unread("2..5", "two points"))
-    assert isinstance(blank, Program)
-    assert isinstance(unread, Program)
-    assert delta(PART, blank) == {"block": [0, {"x_start": None}, [3, 0, []]]}
-    assert delta(PART, unread) == {"block": [0, {"x_start": ["2..5", "two points"]}, [3, 0, []]]}
-
-
-def test_segments_in_and_out() -> None:
-    longer = insert_segment(PART, FormPlace(1, 2), LineSegment())
-    shorter = delete_segment(PART, FormPlace(1, 1))
-    assert isinstance(longer, Program)
-    assert isinstance(shorter, Program)
-    assert delta(PART, longer) == {"block": [0, {}, [1, 0, [["LINE", {}]]]]}
-    assert delta(PART, shorter) == {"block": [0, {}, [0, 1, []]]}
+FIRST = json.loads(whole(History(PART))[9:])
+NC_FIRST = json.loads(old("nc.journal").splitlines()[0][9:])
 
 
 @pytest.mark.parametrize(
-    "values",
+    "wrong",
     [
         None,
-        {"color": 3},
-        {"unit": "FEET"},
-        {"tools": [0, 0, [{"number": "1"}]]},
-        {"tools": [0, 0, [{"number": 1, "type": "END\x1b[2JMILL"}]]},
-        {"tools": [0, 2, []]},
-        {"tools": [5, 0, []]},
-        {"setup": {"name": 5}},
-        {"setup": {"segments": 5}},
-        {"block": [1, {}, [0, 0, []]]},
-        {"block": [0, {"x_start": float("nan")}, [0, 0, []]]},
-        {"block": [0, {"x_start": True}, [0, 0, []]]},
-        {"block": [0, {"x_start": 1e9}, [0, 0, []]]},
-        {"block": [0, {"cutter_comp": "UP"}, [0, 0, []]]},
-        {"block": [0, {}, [0, 4, []]]},
-        {"block": [0, {}, [-1, 1, []]]},
-        {"block": [0, {}, [0, 0, [["SPLINE", {}]]]]},
-        {"blocks": [0, 1, [[{}]]]},
+        [],
+        {},
+        {"journal": 3},
+        {"kind": "drawing"},
+        {"kind": ["NC text"]},
+        {"kind": "NC text"},
+        {"owner": None},
+        {"owner": {"user": "ann"}},
+        {"owner": {**FIRST["owner"], "pid": "7"}},
+        {"file": 5},
+        {"file": "a\0b"},
+        {"stamp": []},
+        {"stamp": [1, 2, "x"]},
+        {"stamp": [True, 2, "01234567"]},
+        {"base": None},
+        {"base": {"blocks": 10**309}},
+        {"base": {"setup": {"safe_z": 10**309}}},
+        {"at": [1]},
+        {"at": [1, 2, 3]},
+        {"at": 10**309},
+        {"time": 5},
+        {"time": "\n"},
     ],
 )
-def test_what_is_no_difference_is_refused(values: object) -> None:
-    with pytest.raises(Damaged):
-        applied(PART, values)
+def test_a_first_line_with_right_sums_and_wrong_content_is_no_journal(wrong: object) -> None:
+    record = {**FIRST, **wrong} if isinstance(wrong, dict) and wrong else wrong
+    found = read_journal(signed(record))
+    # a place of one number is that of an NC text, and says nothing in a program
+    assert found is None or wrong == {"at": [1]}
 
 
-def test_a_thousand_segments_share_all_but_one() -> None:
-    long = program(*(line(x_end=float(number)) for number in range(1000)))
-    edited = type_field(long, FormPlace(1, 500), "x_end", Number(0.5))
-    assert isinstance(edited, Program)
-    again = applied(long, delta(long, edited))
-    assert again == edited
-    shared = zip(again.blocks[0].segments, long.blocks[0].segments, strict=True)
-    assert sum(one is other for one, other in shared) == 999
-    assert len(json.dumps(delta(long, edited))) < 80
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"nc": 2},
+        {"owner": 1},
+        {"file": [1]},
+        {"file": [1, -1]},
+        {"encoding": "no-such"},
+        {"encoding": "rot13"},
+        {"text": "!"},
+        {"text": 5},
+        {"time": None},
+    ],
+)
+def test_a_first_line_of_an_nc_text_with_wrong_content_is_no_journal(wrong: dict[str, object]) -> None:
+    assert read_journal(signed({**NC_FIRST, **wrong})) is None
 
 
-def test_units_change_everything() -> None:
-    metric = replace(PART, unit=type(PART.unit)("IN"))
-    assert delta(PART, metric) == {"unit": "IN"}
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"do": "x"},
+        {"do": 5, "delta": {}},
+        {"do": "\x1b", "delta": {}},
+        {"do": "x", "delta": {"block": [10**309, {}, [0, 0, []]]}},
+        {"do": "x", "delta": {"block": [0, {"x_start": 10**309}, [0, 0, []]]}},
+        {"do": "x", "delta": {"blocks": [0, 1, [[{}, [["SPLINE", {}]]]]]}},
+        {"undo": 1},
+        {"redo": 1},
+        {"undo": 2},
+        {"owner": {}},
+        {"jump": 1},
+        [],
+        None,
+        5,
+    ],
+)
+def test_a_later_line_with_wrong_content_ends_the_journal_as_damaged(wrong: object) -> None:
+    first = signed(FIRST)
+    record = {**wrong, "at": PLACE, "time": TIME} if isinstance(wrong, dict) else wrong
+    found = read(first + signed(record, _sum(first)))
+    assert found.damaged
+    assert found.work == History(PART)

@@ -1,17 +1,144 @@
-"""Journals that are moved aside while they are written, and who may read them."""
+"""The file of a journal: every line on the disk when `add` returns, full disks, moved aside while it is written."""
 
 from __future__ import annotations
 
 import errno
 import os
+import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from app.documents.journal_file import JournalFile, asides, journal_path, place_of, set_aside, why_aside
-from app.painted.journal import head_record, history_records
+from app.documents import contour_journal
+from app.documents.journal import Kind, beginning, continuing
+from app.documents.journal_file import (
+    JournalFile,
+    Record,
+    asides,
+    journal_path,
+    new_path,
+    place_of,
+    set_aside,
+    why_aside,
+)
 from core.program.history import History
-from tests.app.documents.test_journal import CURSOR, HEAD, PART, add, begun, read, typed
+from tests.app.documents.test_journal import HEAD, PART, PLACE, STEPS, TIME, EditStep, read, typed
+
+
+def records_of(history: History) -> Iterator[Record]:
+    """A whole history as lines."""
+    return beginning(Kind.CONTOUR, HEAD, contour_journal.whole_records(history), PLACE, TIME)
+
+
+def records_between(old: History, new: History) -> list[Record]:
+    records = contour_journal.records_between(old, new)
+    assert records is not None
+    return list(continuing(records, PLACE, TIME))
+
+
+def first() -> list[Record]:
+    return list(records_of(History(PART)))
+
+
+def begun(path: Path) -> JournalFile:
+    file = JournalFile(path)
+    file.add(first())
+    return file
+
+
+def add(file: JournalFile, old: History, step: EditStep) -> History:
+    new = step(old)
+    records = records_between(old, new)
+    file.add(records)
+    return new
+
+
+def test_every_edit_is_in_the_file_when_add_returns(tmp_path: Path) -> None:
+    path, history = tmp_path / "j", History(PART)
+    file = begun(path)
+    for step in STEPS:
+        history = add(file, history, step)
+        assert read(path.read_bytes()).work == history
+    file.remove()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_journal_that_stands_there_is_moved_aside(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    path.write_text("somebody else's")
+    begun(path).remove()
+    assert [one.read_text() for one in tmp_path.iterdir()] == ["somebody else's"]
+
+
+def test_remove_leaves_what_another_put_there(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    file = begun(path)
+    aside = set_aside(path, "taken")
+    path.write_text("another's")
+    file.remove()
+    assert path.read_text() == "another's"
+    assert not aside.exists(), "its own is gone, whatever it was called by then"
+
+
+def test_a_shorter_journal_in_the_place_of_a_long_one(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    file = begun(path)
+    history = History(PART)
+    for number in range(50):
+        history = add(file, history, typed(float(number)))
+    long = path.stat().st_size
+    file.replace(records_of(History(history.program)))
+    assert path.stat().st_size < long / 3
+    history = add(file, History(history.program), typed(77.0))
+    assert read(path.read_bytes()).work == history
+
+
+def test_a_full_disk_loses_nothing_once_there_is_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A write that stops in the middle is taken back, and everything is written with the next edit."""
+    path = tmp_path / "j"
+    file = begun(path)
+    history = add(file, History(PART), typed(2.0))
+    before = path.read_bytes()
+    whole = os.write
+
+    def full(handle: int, data: bytes) -> int:
+        if len(data) > 4:
+            return whole(handle, data[:4])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "write", lambda handle, data: full(handle, data) if len(data) > 10 else full(handle, b""))
+        for number in (3.0, 4.0):
+            after = typed(number)(history)
+            records = records_between(history, after)
+            with pytest.raises(OSError, match="No space"):
+                file.add(records)
+            history = after
+            assert path.read_bytes() == before
+    history = add(file, history, typed(5.0))
+    assert read(path.read_bytes()).work == history
+
+
+def test_no_journal_is_begun_on_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    file = JournalFile(tmp_path / "j")
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "write", full)
+        with pytest.raises(OSError, match="No space"):
+            file.add(first())
+    assert list(tmp_path.iterdir()) == []
+    history = add(file, History(PART), typed(2.0))
+    assert read((tmp_path / "j").read_bytes()).work == history
+
+
+def test_the_journal_of_a_link_is_beside_the_file(tmp_path: Path) -> None:
+    (tmp_path / "shop").mkdir()
+    (tmp_path / "shop" / "part.toml").touch()
+    (tmp_path / "link.toml").symlink_to(tmp_path / "shop" / "part.toml")
+    assert journal_path(tmp_path / "link.toml") == tmp_path / "shop" / ".part.toml.cutcomp-journal"
 
 
 def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path) -> None:
@@ -20,10 +147,10 @@ def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path)
     history = add(file, History(PART), typed(2.0))
     long = set_aside(path, "theirs")
     path.write_text("another's")
-    file.replace(history_records(HEAD, history, CURSOR))
+    file.replace(records_of(history))
     assert file.aside is not None
     assert file.aside.read_text() == "another's"
-    assert read(path.read_bytes()).history == history
+    assert read(path.read_bytes()).work == history
     assert long.exists()
 
 
@@ -43,7 +170,7 @@ def test_a_journal_is_as_readable_as_its_program(tmp_path: Path) -> None:
     program.touch()
     program.chmod(0o664)
     file = JournalFile(journal_path(program), program=program)
-    file.add([head_record(HEAD, PART, CURSOR)])
+    file.add(first())
     assert journal_path(program).stat().st_mode & 0o777 == 0o664
 
 
@@ -51,12 +178,13 @@ class Killed(BaseException):
     """The program ends here, whatever it is doing."""
 
 
-def test_a_journal_that_begins_with_all_of_the_one_before_is_there_whole_or_not_at_all(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("again", [False, True])
+def test_killed_while_a_journal_begins_it_is_there_whole_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, again: bool
 ) -> None:
-    file = begun(tmp_path / "j")
-    history = add(file, History(PART), typed(2.0))
-    assert file.put_away()
+    """Also where it takes the place of a longer one."""
+    path = tmp_path / "j"
+    file = begun(path) if again else JournalFile(path)
 
     def half(handle: int, data: bytes) -> None:
         os.write(handle, data[: len(data) // 2])
@@ -64,8 +192,15 @@ def test_a_journal_that_begins_with_all_of_the_one_before_is_there_whole_or_not_
 
     monkeypatch.setattr("app.documents.journal_file.write_all", half)
     with pytest.raises(Killed):
-        add(file, history, typed(3.0))
-    assert list(tmp_path.iterdir()) == []
+        file.replace(first()) if again else file.add(first())
+    left = [one for one in tmp_path.iterdir() if one != new_path(path)]
+    assert left == ([path] if again else [])
+    if again:
+        assert read(path.read_bytes()).work == History(PART)
+        monkeypatch.undo()
+        begun(tmp_path / "other").replace(first())
+        file.replace(first())
+        assert not new_path(path).exists()
 
 
 @pytest.mark.parametrize("nameless", [0, None])
@@ -76,7 +211,7 @@ def test_where_files_have_their_name_first_it_is_the_same_journal(
         monkeypatch.setattr("app.documents.journal_file.NAMELESS", nameless)
     file = begun(tmp_path / "j")
     history = add(file, History(PART), typed(2.0))
-    assert read((tmp_path / "j").read_bytes()).history == history
+    assert read((tmp_path / "j").read_bytes()).work == history
     assert file.standing() == tmp_path / "j"
     assert (tmp_path / "j").stat().st_mode & 0o777 == 0o600
 
@@ -90,10 +225,10 @@ def test_a_full_disk_leaves_no_half_journal(tmp_path: Path, monkeypatch: pytest.
     with monkeypatch.context() as patch:
         patch.setattr("app.documents.journal_file.write_all", full)
         with pytest.raises(OSError, match="No space"):
-            file.add([head_record(HEAD, PART, CURSOR)])
+            file.add(first())
     assert list(tmp_path.iterdir()) == []
     file.add([])
-    assert read((tmp_path / "j").read_bytes()).history == History(PART)
+    assert read((tmp_path / "j").read_bytes()).work == History(PART)
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root may give a file to a group it is not in")
@@ -110,5 +245,66 @@ def test_a_group_that_cannot_be_given_may_do_what_everybody_may(
 
     monkeypatch.setattr(os, "fchown", refused)
     file = JournalFile(journal_path(program), program=program)
-    file.add([head_record(HEAD, PART, CURSOR)])
+    file.add(first())
     assert journal_path(program).stat().st_mode & 0o777 == 0o644
+
+
+# ---- gone while it is written
+
+
+def gone_by_removing(path: Path) -> None:
+    path.unlink()
+
+
+def gone_by_moving(path: Path) -> None:
+    shutil.move(path, path.with_name("elsewhere"))
+
+
+def gone_by_replacing(path: Path) -> None:
+    path.with_name("other").write_bytes(b"another's")
+    path.with_name("other").replace(path)
+
+
+def gone_by_emptying(path: Path) -> None:
+    os.truncate(path, 0)
+
+
+def gone_by_writing(path: Path) -> None:
+    with path.open("ab") as file:
+        file.write(b"x")
+
+
+def gone_with_its_folder(path: Path) -> None:
+    shutil.rmtree(path.parent)
+
+
+def gone_with_its_folder_moved(path: Path) -> None:
+    path.parent.rename(path.parent.with_name("moved"))
+
+
+GONE = [
+    gone_by_removing,
+    gone_by_moving,
+    gone_by_replacing,
+    gone_by_emptying,
+    gone_by_writing,
+    gone_with_its_folder,
+    gone_with_its_folder_moved,
+]
+
+
+@pytest.mark.parametrize("gone", GONE)
+def test_a_journal_that_is_gone_is_noticed(tmp_path: Path, gone: Callable[[Path], None]) -> None:
+    path = tmp_path / "shop" / "j"
+    path.parent.mkdir()
+    file = begun(path)
+    assert not file.lost()
+    gone(path)
+    assert file.lost()
+    file.close()
+
+
+def test_a_journal_that_was_set_aside_by_a_colleague_is_not_gone(tmp_path: Path) -> None:
+    file = begun(tmp_path / "j")
+    set_aside(tmp_path / "j", "theirs")
+    assert not file.lost()

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from app.documents.journal_file import journal_path
+from app.documents.left_overs import read
 from app.documents.lock import lock_path
 from app.documents.programs import example
 from app.documents.service import Opened, Trouble
+from tests.app.documents.test_journal_file import GONE
 from tests.app.documents.typist import DEAD, names, number_in, service, started
 
 
@@ -206,3 +210,40 @@ def test_a_file_is_open_once(own: Path, file: Path) -> None:
     assert isinstance(again, Trouble)
     assert again.text == f"{file.name} is open already."
     assert again.open_already is operator.document
+
+
+@pytest.mark.parametrize("gone", GONE)
+def test_a_journal_that_is_gone_is_made_anew_with_everything_and_said(
+    own: Path, file: Path, gone: Callable[[Path], None]
+) -> None:
+    operator = started(own, file).type(7, 8)
+    journal = journal_path(file)
+    gone(journal)
+    operator.type(9)
+    assert operator.said.startswith("The journal of unsaved work was gone: all of it is in ")
+    assert operator.type(10).said == ""
+    operator.undo().killed()
+    places = [journal, *own.glob("*.cutcomp-journal")]
+    [place] = [path for path in places if path.exists()]
+    assert str(place) in operator.said or place.exists()
+    held = read(place)
+    assert held is not None
+    assert held.edits == 3
+    file.parent.mkdir(exist_ok=True)
+    file.write_bytes(started(own / "x").document.data() if file.suffix == ".toml" else b"M30\n")
+    assert started(own, file).answer("RESTORE").work == operator.work
+
+
+def test_a_journal_folder_of_ones_own_that_is_gone_is_made_anew(own: Path) -> None:
+    operator = started(own).type(7)
+    shutil.rmtree(own)
+    assert "was gone" in operator.type(8).said
+    operator.killed()
+    assert started(own).answer("RESTORE").work == operator.work
+
+
+def test_a_journal_gone_at_the_end_is_made_anew_by_stopping(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    journal_path(file).unlink()
+    operator.service.stop()
+    assert started(own, file).answer("RESTORE").number == 7
