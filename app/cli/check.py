@@ -17,10 +17,13 @@ from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
-from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours
+from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable
 from app.cli.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
 from app.documents.nc_text import NC_SUFFIXES
-from core.controls.registry import names
+from core.controls.registry import choices
+
+JSON_VERSION: Final = 1
+"""Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
@@ -45,7 +48,7 @@ def _done(options: argparse.Namespace) -> int:
     single = len(paths) == 1 and paths[0] == options.files[0]
     answers = _answers(paths, asked)
     if options.json:
-        return _as_json(answers, single=single)
+        return _as_json(answers)
     return _as_text(answers, asked) if single else _as_summary(answers)
 
 
@@ -53,7 +56,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "cutcomp check",
         description="What a control does with an NC program: its moves, its alarms, what it gouges.",
-        epilog="controls: " + ", ".join(names()),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="controls:\n" + "\n".join(f"  {one.name:<24} {one.title}: {one.about}" for one in choices()),
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a program, or a folder of them")
     parser.add_argument("--control", required=True, metavar="NAME[:VARIANT]|all", help="the control, or all of them")
@@ -170,15 +174,16 @@ def _contours(paths: list[Path], asked: Asked) -> int:
     return CLEAN if same else FINDINGS
 
 
-def _as_json(answers: Iterator[_Checked], *, single: bool) -> int:
-    """One object for one program on one control; otherwise a list of them, each with its file."""
-    status, objects = CLEAN, []
+def _as_json(answers: Iterator[_Checked]) -> int:
+    """One shape for any number of files and controls; `check-json.md` describes it."""
+    status, results = CLEAN, list[dict[str, object]]()
     for checked in answers:
         status = max(status, _told(checked))
-        objects += [one.json() if single else {"file": str(checked.path), **one.json()} for one in checked.answers]
-    if not (single and status == UNUSABLE):
-        json.dump(objects[0] if single and len(objects) == 1 else objects, sys.stdout)
-        print()
+        if checked.unusable:
+            results.append(unreadable(str(checked.path), checked.unusable))
+        results += [{"file": str(checked.path), **one.json()} for one in checked.answers]
+    json.dump({"version": JSON_VERSION, "results": results}, sys.stdout)
+    print()
     return status
 
 
@@ -196,10 +201,10 @@ def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
 
 
 def _print_table(answers: tuple[Answer, ...]) -> None:
-    width = max(len(one.control) for one in answers)
+    width = max(len(one.name) for one in answers)
     outcome = max(len(one.outcome) for one in answers)
     for one in answers:
-        print(f"{one.control:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
+        print(f"{one.name:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
     for reason in reasons(answers):
         print(reason)
 
@@ -221,7 +226,7 @@ def _as_summary(answers: Iterator[_Checked]) -> int:
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            print(f"{name_of(checked.path)}: {one.control}: {one.outcome}", flush=True)
+            print(f"{name_of(checked.path)}: {one.name}: {one.outcome}", flush=True)
     print(f"{sum(counts.values())} files: {counts[CLEAN]} clean, {counts[FINDINGS]} with errors, ", end="")
     print(f"{counts[UNUSABLE]} not readable.")
     return status

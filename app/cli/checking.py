@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from enum import StrEnum, auto
 from typing import Final
 
 from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
+from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.modal_state import RADIUS_ZERO
@@ -30,6 +32,22 @@ _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|diameter of tool|Off
 """How the controls say that they know no size of a tool."""
 _NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
 """How Klartext says that it knows no tool at all."""
+
+
+class State(StrEnum):
+    """What came of a program on a control: the word for it in JSON."""
+
+    CLEAN = auto()
+    GOUGES = auto()
+    ALARM = auto()
+    NOT_FOLLOWED = auto()
+    UNJUDGED = auto()
+    WRONG_SIDE = auto()
+    UNCOMPENSATED = auto()
+    ERRORS = auto()
+    OTHER_LANGUAGE = auto()
+    EMPTY = auto()
+    UNREADABLE = auto()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -58,6 +76,15 @@ class Answer:
     stretches: int = 0
     parts: str = ""
     why: Finding | None = None
+    state: State = State.CLEAN
+    gouge: tuple[float, int | None] | None = None
+    parting: Parting | None = None
+    parting_of: str = ""
+
+    @property
+    def name(self) -> str:
+        """The control's name for people."""
+        return shown_name(self.control)
 
     @property
     def errors(self) -> bool:
@@ -92,11 +119,14 @@ class Answer:
         moves = [] if self.moves is None else [_move(move, self.unit) for move in self.moves]
         told = [_finding(finding, self.unit) for finding in self.findings]
         return {
-            "control": self.control,
+            "control": self.name,
             "units": self.unit.value,
+            "state": self.state.value,
+            "stopped_at": self.stopped_at,
+            "deepest_gouge": None if self.gouge is None else _gouge(self.gouge, self.unit),
+            "parts_from": None if self.parting is None else _parts_from(self.parting, self.parting_of, self.unit),
             "moves": moves,
             "findings": told,
-            "stopped_at": self.stopped_at,
         }
 
 
@@ -135,15 +165,25 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
         text = f"It is written in another language, and is not compared by its contour: {row.why}."
         told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
         return Answer(
-            row.control, Unit.MM, None, told, None, "reads another language", parts=f"not compared: {row.why}"
+            row.control,
+            Unit.MM,
+            None,
+            told,
+            None,
+            "reads another language",
+            parts=f"not compared: {row.why}",
+            state=State.OTHER_LANGUAGE,
         )
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
-        return _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
-    text = f"It is written in another language: compared by the contour as {row.by} reads it, with straight leads."
+        told_here = _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
+        return replace(told_here, parting=row.parts, parting_of=row.of)
+    by = shown_name(row.by)
+    text = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
     told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
     parts = f"by the contour{'; ' if parts else ''}{parts}"
-    return _answer(row.run, row.results, told, parts, shop=asked.shop)
+    found = _answer(row.run, row.results, told, parts, shop=asked.shop)
+    return replace(found, parting=row.parts, parting_of=row.of)
 
 
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
@@ -159,7 +199,28 @@ def _answer(
     told = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
-    return replace(row, stretches=len(done.stretches), parts=parts, why=why)
+    gouge = deepest_gouge(results)
+    state = _state(done, results, why, told)
+    deepest = gouge if gouge[0] else None
+    return replace(row, stretches=len(done.stretches), parts=parts, why=why, state=state, gouge=deepest)
+
+
+def _state(
+    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, told: tuple[Finding, ...]
+) -> State:  # fmt: skip
+    """What came of a run, the worst first: an alarm before a gouge, a gouge before what cannot be judged."""
+    stopped = done.stopped_at is not None
+    cases = (
+        (any(one.code == NOTHING for one in done.findings), State.EMPTY),
+        (stopped and why is not None and why.code in NOT_FOLLOWED, State.NOT_FOLLOWED),
+        (stopped, State.ALARM),
+        (deepest_gouge(results)[0] > 0.0, State.GOUGES),
+        (first_unjudged(results)[0], State.UNJUDGED),
+        (any(result.verdict.wrong_side for result in results), State.WRONG_SIDE),
+        (any(one.code in RADIUS_ZERO for one in done.findings), State.UNCOMPENSATED),
+        (any(one.severity is Severity.ERROR for one in told), State.ERRORS),
+    )
+    return next((state for holds, state in cases if holds), State.CLEAN)
 
 
 def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
@@ -195,7 +256,7 @@ def _last_error(told: tuple[Finding, ...]) -> Finding | None:
 
 def _parting(parts: Parting, of: str, unit: Unit) -> str:
     """Where the paths part, and by how much where they are farthest apart; short enough for a line of the screen."""
-    where = f"parts from {of} at line {parts.line}"
+    where = f"parts from {shown_name(of)} at line {parts.line}"
     return f"{where}, by {_length(parts.distance, unit)} at line {parts.farthest}"
 
 
@@ -220,6 +281,20 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
     return told
 
 
+def _gouge(gouge: tuple[float, int | None], unit: Unit) -> dict[str, object]:
+    depth, line = gouge
+    return {"depth": from_mm(depth, unit), "line": line}
+
+
+def _parts_from(parting: Parting, of: str, unit: Unit) -> dict[str, object]:
+    return {
+        "control": shown_name(of),
+        "line": parting.line,
+        "farthest_line": parting.farthest,
+        "distance": from_mm(parting.distance, unit),
+    }
+
+
 def _finding(finding: Finding, unit: Unit) -> dict[str, object]:
     return {
         "rule": finding.code,
@@ -227,7 +302,22 @@ def _finding(finding: Finding, unit: Unit) -> dict[str, object]:
         "line": finding.line,
         "column": finding.column,
         "text": sentence(finding, unit),
+        "lengths": [from_mm(length, unit) for length in finding.lengths],
     }
+
+
+def unreadable(file: str, why: str) -> dict[str, object]:
+    """The machine-readable object of a file that could not be read."""
+    told: dict[str, object] = {
+        "rule": "UNREADABLE",
+        "severity": "error",
+        "line": None,
+        "column": None,
+        "text": why,
+        "lengths": [],
+    }
+    nothing: dict[str, object] = {"control": None, "units": None, "state": State.UNREADABLE.value, "stopped_at": None}
+    return {"file": file, **nothing, "deepest_gouge": None, "parts_from": None, "moves": [], "findings": [told]}
 
 
 def lines(one: Answer) -> Iterator[str]:
@@ -236,7 +326,7 @@ def lines(one: Answer) -> Iterator[str]:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
     moves, stretches = counted(one.count, "move"), counted(one.stretches, "compensated stretch")
-    yield f"{one.control}: {one.outcome}; {moves}, {stretches}, {one.unit.value}."
+    yield f"{one.name}: {one.outcome}; {moves}, {stretches}, {one.unit.value}."
 
 
 def counted(number: int, what: str) -> str:

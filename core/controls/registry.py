@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.control_names import CONTROL_NAMES, ControlChoice, inside_name, shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
@@ -72,18 +73,32 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
 
 def arc_radii(control: str) -> ArcRadii:
     """How far the radii of an arc may differ on a control, by its full or short name."""
-    dialect = CONTROLS[control.partition(":")[0]].dialect
+    dialect = CONTROLS[inside_name(control).partition(":")[0]].dialect
     return dialect.arc_radii if dialect else KLARTEXT_RADII
 
 
 def is_klartext(control: str) -> bool:
     """Whether a control, by its full or short name, reads Klartext; all others read word addresses."""
-    return CONTROLS[control.partition(":")[0]].dialect is None
+    return CONTROLS[inside_name(control).partition(":")[0]].dialect is None
 
 
 def names() -> tuple[str, ...]:
     """Every control with every variant."""
     return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.variants)
+
+
+def choices() -> tuple[ControlChoice, ...]:
+    """Every control with every variant for a list to choose from: the best known first, each with a line about it."""
+    return tuple(
+        ControlChoice(
+            full := _joined(inside, variant),
+            shown_name(full),
+            entry.title,
+            f"{entry.about}; {entry.variants[variant]}" if variant else entry.about,
+        )
+        for inside, entry in CONTROL_NAMES.items()
+        for variant in CONTROLS[inside].variants
+    )
 
 
 def compared() -> tuple[str, ...]:
@@ -102,10 +117,11 @@ def reads(control: str, text: bytes) -> bool:
 
 def resolve(control: str) -> str | UnknownControl:
     """The full name of a control, the default variant added; or the sentence that says which there are."""
-    name, _, variant = control.strip().lower().partition(":")
+    name, _, variant = inside_name(control).partition(":")
     entry = CONTROLS.get(name)
     if entry is None or (variant and variant not in entry.variants):
-        return UnknownControl(f"No such control. Choose one of: {', '.join(names())}.")
+        known = ", ".join(choice.name for choice in choices())
+        return UnknownControl(f"No such control. Choose one of: {known}.")
     return _joined(name, variant or next(iter(entry.variants)))
 
 

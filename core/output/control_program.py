@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+from core.controls.control_names import shown_name
 from core.controls.registry import is_klartext
 from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, offsets
@@ -67,7 +68,7 @@ def control_program(
         return Refusal(written.findings, unit)
     style, notes = STYLES.get(control), _no_work_offset(jobs, control)
     if style is not None and not style.comments and part.strip():
-        text = f"PART NAME {printable(part)} is not in the file: {control} has no comments."
+        text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
         notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
     return Posted(written.text, notes=(*notes, *written.notes))
 
@@ -76,7 +77,8 @@ def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
     """That this control has no word for the jobs' work offset."""
     style = STYLES.get(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
-        text = f"Work offset G{jobs[0].work_offset} cannot be written for {control}; set its origin on the control."
+        name = shown_name(control)
+        text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
         return (Finding("WORK_OFFSET", Severity.WARNING, text),)
     return ()
 
@@ -91,7 +93,7 @@ def _header(
     """The sentences of the header below its titles."""
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
-    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {compensation}"
+    yield f"WRITTEN BY CUTCOMP FOR {shown_name(control)}: THE CONTOUR AS TYPED, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     table = "" if is_klartext(control) else ": THE CONTROL'S TABLE MUST SAY THE SAME"
     yield from dict.fromkeys(f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}" for cut in cuts)

@@ -13,11 +13,15 @@ import pytest
 
 from app.cli.check import check
 from app.cli.checking import Asked, answer_all
+from core.controls.control_names import shown_name
 from core.controls.control_tools import ToolTable
 
 NC = Path(__file__).parents[1] / "data" / "nc"
 
 MOVE_KEYS = {"type", "mode", "line", "x", "y", "z"}
+RESULT_KEYS = {
+    *("file", "control", "units", "state", "stopped_at", "deepest_gouge", "parts_from", "moves", "findings"),
+}
 ARC_KEYS = {"cx", "cy", "cz", "plane", "ccw"}
 
 
@@ -30,9 +34,13 @@ def output(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[
 def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str]) -> None:
     file = NC / "threeblock-square.nc"
     status, out, _ = output(capsys, file, "--control", "threeblock", "--tool", "1=.5", "--json")
-    told = json.loads(out)
-    assert set(told) == {"control", "units", "moves", "findings", "stopped_at"}
-    assert (told["control"], told["units"], told["stopped_at"]) == ("threeblock", "IN", None)
+    answer = json.loads(out)
+    assert set(answer) == {"version", "results"}
+    assert answer["version"] == 1
+    (told,) = answer["results"]
+    assert set(told) == RESULT_KEYS
+    assert (told["control"], told["units"], told["stopped_at"]) == ("three-block", "IN", None)
+    assert (told["file"], told["state"], told["parts_from"]) == (str(file), "gouges", None)
     assert status == (1 if any(finding["severity"] == "error" for finding in told["findings"]) else 0)
     first, second = told["moves"][0], told["moves"][1]
     assert (first["mode"], first["line"], first["x"], first["y"], first["z"]) == ("rapid", 0, 0, 0, 0)
@@ -42,14 +50,15 @@ def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str])
     arc = next(move for move in told["moves"] if move["type"] == "arc")
     assert set(arc) == MOVE_KEYS | ARC_KEYS | {"feed"}
     assert (arc["cx"], arc["cy"], arc["plane"], arc["ccw"]) == (pytest.approx(1.5), pytest.approx(0), "XY", False)
-    assert all(set(finding) == {"rule", "severity", "line", "column", "text"} for finding in told["findings"])
+    keys = {"rule", "severity", "line", "column", "text", "lengths"}
+    assert all(set(finding) == keys for finding in told["findings"])
 
 
 def test_an_alarm_has_line_column_and_rule(capsys: pytest.CaptureFixture[str]) -> None:
     file = NC / "rosettacnc-square.ngc"
     status, out, _ = output(capsys, file, "--control", "rosettacnc", "--tool", "1=6", "--json")
-    told = json.loads(out)
-    assert (status, told["stopped_at"]) == (1, 15)
+    (told,) = json.loads(out)["results"]
+    assert (status, told["stopped_at"], told["state"]) == (1, 15, "alarm")
     (alarm,) = [finding for finding in told["findings"] if finding["severity"] == "error"]
     assert (alarm["rule"], alarm["line"]) == ("C6", 15)
 
@@ -68,8 +77,8 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
     assert rows["rosettacnc:easy"].strip() == "runs"
     assert "parts from rosettacnc:easy at line 14, by 3.075 at line 14" in rows["rosettacnc:normal"]
-    assert rows["klartext"].split("  ", 1)[0] == "runs"
-    assert "by the contour" in rows["klartext"]
+    assert rows["heidenhain"].split("  ", 1)[0] == "runs"
+    assert "by the contour" in rows["heidenhain"]
 
 
 def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest.CaptureFixture[str]) -> None:
@@ -125,7 +134,7 @@ def test_compensation_with_radius_0_is_no_clean_run(capsys: pytest.CaptureFixtur
     file = tmp_path / "w.nc"
     file.write_text("T1/.5/0.\nG0 X0 Y0\nG41 X1. Y0\nG1 X3. F10.\nY2.\nX1.\nG40 X1. Y3.\nM2\n")
     _, out, _ = output(capsys, file, "--control", "threeblock")
-    assert out.splitlines()[-1].startswith("threeblock: runs, nothing compensated; ")
+    assert out.splitlines()[-1].startswith("three-block: runs, nothing compensated; ")
 
 
 def test_the_shop_s_rules_when_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
@@ -146,7 +155,7 @@ def test_a_folder_is_checked_in_one_line_each(capsys: pytest.CaptureFixture[str]
 def test_many_files_as_json_have_their_names(capsys: pytest.CaptureFixture[str]) -> None:
     files = [NC / "threeblock-line.nc", NC / "threeblock-circle.nc"]
     told = json.loads(output(capsys, *files, "--control", "threeblock", "--tool", "1=.5", "--json")[1])
-    assert [one["file"] for one in told] == [str(file) for file in files]
+    assert [one["file"] for one in told["results"]] == [str(file) for file in files]
 
 
 def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
@@ -154,9 +163,9 @@ def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     table.write_text("T1 P1 D10 ;mill\n")
     file.write_text("G41 D1\nG1 X20 F100\nX40\nM2\n")
     arguments = (file, "--control", "linuxcnc", "--tools", table, "--json")
-    metric = json.loads(output(capsys, *arguments, "--units", "mm")[1])
+    (metric,) = json.loads(output(capsys, *arguments, "--units", "mm")[1])["results"]
     assert (metric["units"], metric["moves"][1]["y"]) == ("MM", 5)
-    other = json.loads(output(capsys, *arguments, "--units", "IN", "--tool", "1=25.4mm")[1])
+    (other,) = json.loads(output(capsys, *arguments, "--units", "IN", "--tool", "1=25.4mm")[1])["results"]
     assert (other["units"], other["moves"][1]["y"]) == ("IN", pytest.approx(0.5))
 
 
@@ -245,7 +254,7 @@ def test_an_empty_program_is_an_error(capsys: pytest.CaptureFixture[str], tmp_pa
             status, out, _ = output(capsys, file, "--control", control)
             assert status == 1
             assert "1:1  error    EMPTY" in out
-            assert f"{control}: has nothing to run; 0 moves, " in out
+            assert f"{shown_name(control)}: has nothing to run; 0 moves, " in out
         assert "runs" not in output(capsys, file, "--control", "all")[1].replace("that runs", "")
 
 

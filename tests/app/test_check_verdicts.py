@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.cli.check import check
+from core.controls.control_names import shown_name
 
 THREEBLOCK = """G70G90
 N10G0G90X-1.Y1.T1M6
@@ -69,7 +70,7 @@ def checked(
     file.write_text(text)
     arguments = [str(file), "--control", control, "--tool", "1=.5"]
     status = check([*arguments, "--json"])
-    findings = json.loads(capsys.readouterr().out)["findings"]
+    findings = json.loads(capsys.readouterr().out)["results"][0]["findings"]
     assert check(arguments) == status
     return status, findings, capsys.readouterr().out.splitlines()[-1]
 
@@ -91,7 +92,7 @@ def test_an_over_run_at_a_corner_is_a_lead_and_said_once(
     assert over_run["severity"] == "info"
     assert "X 0.0000 Y 0.0000" in str(over_run["text"])
     assert status == 0, findings
-    assert f"{control}: runs;" in outcome
+    assert f"{shown_name(control)}: runs;" in outcome
 
 
 SEED = """N10G0G90X-1.Y1.T1M6
@@ -140,7 +141,7 @@ def test_an_end_that_runs_past_the_corner_where_the_contour_begins_is_a_lead(
     assert over_run["severity"] == "info"
     assert {"GOUGE", "CROSSES", "UNCUT"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
-    assert f"{control}: runs;" in outcome
+    assert f"{shown_name(control)}: runs;" in outcome
 
 
 def test_an_entry_that_nicks_the_corner_gouges_by_its_depth_there(
@@ -155,7 +156,7 @@ def test_an_entry_that_nicks_the_corner_gouges_by_its_depth_there(
     assert "OVER_RUN" in rules(findings)
     assert "CROSSES" not in rules(findings)
     assert status == 1
-    assert "threeblock: gouges by 0.0075 at line 3;" in outcome
+    assert "three-block: gouges by 0.0075 at line 3;" in outcome
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:easy", "nine-series:a"])

@@ -63,7 +63,7 @@ def test_that_it_is_being_calculated_is_never_cut(steps: int) -> None:
 def test_what_a_control_takes_is_told_with_its_remarks() -> None:
     operator = answered(worked_out("plate-mm", "f8", "f6", *["down"] * 5))
     assert "Nothing stands against posting." in words(operator)
-    assert "nine-series:a takes corners differently" in words(operator)
+    assert "allen-bradley:a takes corners differently" in words(operator)
 
 
 def test_the_path_of_the_center_waits_for_no_control() -> None:
@@ -224,5 +224,5 @@ def test_what_was_found_clear_is_asked_about_at_once_and_worked_out_again_when_i
     Path("part.nc").write_text("M30\n")
     operator = answered(worked_out("plate-mm", "f8", "f6", *["down"] * 5)).press("enter")
     assert isinstance(operator.desk.page, Ask)
-    assert "nine-series" in operator.press("r").said
+    assert "allen-bradley" in operator.press("r").said
     assert "G41 D2 G1" in Path("part.nc").read_text()

@@ -38,7 +38,7 @@ def test_the_program_of_a_control_is_written(tmp_path: Path, monkeypatch: pytest
     file = tmp_path / "part.nc"
     one = operator("flange").press("down", *str(file), "enter")
     assert one.said.startswith("Posted:")
-    assert one.said.endswith("PART NAME FLANGE is not in the file: threeblock has no comments.")
+    assert one.said.endswith("PART NAME FLANGE is not in the file: three-block has no comments.")
     assert file.read_text().startswith("G17G70G40G90\nT1//0.5\n")
 
 
@@ -47,7 +47,7 @@ def test_what_the_control_does_otherwise_is_said(tmp_path: Path, monkeypatch: py
     one = operator("plate-mm").press(*["down"] * 5, *str(tmp_path / "a.nc"), "enter")
     assert one.said.startswith("! Posted: a.nc, ")
     assert "lines. Segment" in one.said
-    assert "nine-series:a takes corners differently" in one.said
+    assert "allen-bradley:a takes corners differently" in one.said
 
 
 def test_what_the_control_cannot_is_said_and_nothing_is_written(

@@ -9,7 +9,7 @@ import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
 from core.controls.judged_runs import deepest_gouge, first_unjudged, judge_run, judged_findings
-from core.controls.registry import compared, names, reads, resolve
+from core.controls.registry import choices, compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence, to_mm
@@ -254,3 +254,13 @@ def test_a_gouge_below_half_the_last_digit_is_none_and_said_once(unit: Unit, dig
     assert ("GOUGE" in codes) == seen
     assert codes.count("DIGIT") == (not seen)
     assert (deepest_gouge(results)[0] > 0.0) == seen
+
+
+def test_every_control_has_a_name_a_title_and_a_line_for_lists() -> None:
+    listed = choices()
+    assert {choice.control for choice in listed} == set(names())
+    assert all(resolve(choice.name) == choice.control for choice in listed)
+    assert all(choice.title and 0 < len(choice.about) <= 70 for choice in listed)
+    first = list(dict.fromkeys(choice.name.partition(":")[0] for choice in listed))
+    assert first == ["fanuc", "haas", "linuxcnc", "heidenhain", "rosettacnc", "allen-bradley", "three-block"]
+    assert next(one.title for one in listed if one.control == "nine-series:a") == "Allen-Bradley 9/Series"

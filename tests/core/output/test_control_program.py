@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from core.comp.compensate import compensate
+from core.controls.control_names import shown_name
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
@@ -114,7 +115,7 @@ def test_a_whole_program_in_klartext() -> None:
         "0 BEGIN PGM key-way-1 INCH",
         "1 ; PROGRAM key way/1",
         "2 ; PART PART 7",
-        "3 ; WRITTEN BY CUTCOMP FOR klartext: THE CONTOUR AS TYPED, THE CONTROL",
+        "3 ; WRITTEN BY CUTCOMP FOR heidenhain: THE CONTOUR AS TYPED, THE CONTROL",
         "4 ; COMPENSATES",
         "5 ; UNITS INCH",
         "6 ; TOOL 1 DIAMETER 0.5000",
@@ -148,7 +149,7 @@ def test_a_control_that_has_the_stock_in_its_block_needs_no_offset() -> None:
 def test_what_differs_from_the_path_of_the_block_is_noted_with_its_segment() -> None:
     found = posted("nine-series:a")
     assert [(note.code, note.severity, note.segment) for note in found.notes] == [("DIFFERS", Severity.WARNING, 2.0)]
-    assert "(NOTE DIFFERS SEGMENT 2: nine-series:a takes corners differently, by up)" in found.text
+    assert "(NOTE DIFFERS SEGMENT 2: allen-bradley:a takes corners differently, by up)" in found.text
     assert "(to 0.1036. It does not gouge or leave more.)" in found.text
 
 
@@ -163,7 +164,9 @@ def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> 
     for control in ("threeblock", "klartext"):
         (note,) = (one for one in posted(control, jobs=(square(work_offset=56),)).notes if one.code == "WORK_OFFSET")
         assert note.severity is Severity.WARNING
-        assert note.text == f"Work offset G56 cannot be written for {control}; set its origin on the control."
+        assert (
+            note.text == f"Work offset G56 cannot be written for {shown_name(control)}; set its origin on the control."
+        )
         assert not [one for one in posted(control).notes if one.code == "WORK_OFFSET"]
     assert "WORK_OFFSET" not in [one.code for one in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]
     assert "G56" in posted("linuxcnc", jobs=(square(work_offset=56),)).text
@@ -173,7 +176,7 @@ def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> 
 def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
     (note,) = posted("threeblock", part="A\x1bB").notes
     assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
-    assert note.text == "PART NAME A?B is not in the file: threeblock has no comments."
+    assert note.text == "PART NAME A?B is not in the file: three-block has no comments."
     assert posted("threeblock", part="  ").notes == ()
     assert posted("klartext", part="A").notes == ()
 

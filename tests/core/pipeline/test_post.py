@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from app.documents.files import load
+from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.registry import NO_TOOLS, names, run
@@ -266,7 +267,7 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
     found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
     result = post_control_program(found, name="PART", control=control)
     assert isinstance(result, Refusal)
-    assert f"{control} ends line" in result.text
+    assert f"{shown_name(control)} ends line" in result.text
 
 
 def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:

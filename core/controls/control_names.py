@@ -1,0 +1,86 @@
+"""Control names: how people call the controls, what each one is in a line, and the names it has inside cutcomp."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Final
+
+
+@dataclass(frozen=True, slots=True)
+class ControlName:
+    """A control's name as it is typed and shown, its title, and a line about it and about each of its variants."""
+
+    name: str
+    title: str
+    about: str
+    variants: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class ControlChoice:
+    """One line of a list of controls: `control` is the full name for `registry.run`, the rest is for people."""
+
+    control: str
+    name: str
+    title: str
+    about: str
+
+
+_SHARP: Final = {"a": "type A, corners by lines", "b": "type B, corners by lines"}
+_FANUC: Final = _SHARP | {"c": "type C, G41 moves at once"}
+
+CONTROL_NAMES: Final[Mapping[str, ControlName]] = MappingProxyType(
+    {
+        "fanuc": ControlName(
+            "fanuc",
+            "Fanuc mill",
+            "0i, 16, 18, 21, 30i to 32i; macro B",
+            _FANUC | {f"{kind}-arc": f"type {kind.upper()}, sharp corners by arcs" for kind in "abc"},
+        ),
+        "haas": ControlName(
+            "haas",
+            "Haas mill",
+            "compensates as Fanuc, own alarms",
+            {
+                "a": "settings 43 A, 58 FANUC",
+                "b": "settings 43 B, 58 FANUC",
+                "a-yasnac": "settings 43 A, 58 YASNAC",
+                "b-yasnac": "settings 43 B, 58 YASNAC",
+            },
+        ),
+        "linuxcnc": ControlName("linuxcnc", "LinuxCNC", "2.4 and later, as its own interpreter runs programs"),
+        "klartext": ControlName("heidenhain", "HEIDENHAIN Klartext", "TNC conversational with RL, RR, APPR and DEP"),
+        "rosettacnc": ControlName(
+            "rosettacnc",
+            "RosettaCNC",
+            "G41 and G41.1 with a choice of entries",
+            {"nist": "entry NIST", "easy": "entry Easy Lead-In", "normal": "entry Normal"},
+        ),
+        "nine-series": ControlName(
+            "allen-bradley",
+            "Allen-Bradley 9/Series",
+            "Rockwell 8520 mill control",
+            _SHARP
+            | {f"{kind}-g39": f"type {kind.upper()}, starts with G39 corners" for kind in "ab"}
+            | {f"{kind}-g39.1": f"type {kind.upper()}, starts with G39.1 corners" for kind in "ab"},
+        ),
+        "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
+    }
+)
+"""By the name inside cutcomp, in the order in which lists show them."""
+
+_INSIDE: Final = {entry.name: inside for inside, entry in CONTROL_NAMES.items()}
+
+
+def inside_name(control: str) -> str:
+    """A control's name as typed, with the name inside cutcomp in place of the one people use."""
+    name, colon, variant = control.strip().lower().partition(":")
+    return f"{_INSIDE.get(name, name)}{colon}{variant}"
+
+
+def shown_name(control: str) -> str:
+    """A control's full or short name inside cutcomp as people type and read it."""
+    name, colon, variant = control.partition(":")
+    return f"{CONTROL_NAMES[name].name if name in CONTROL_NAMES else name}{colon}{variant}"
