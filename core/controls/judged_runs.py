@@ -20,7 +20,7 @@ from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import DIGIT, SHOWN, contact_findings, or_more
-from core.verify.verdict import Gouge, Verdict
+from core.verify.verdict import Gouge, OverRun, Verdict
 
 MAX_GOUGES: Final = 20
 """Gouges of a stretch that have a finding each, deepest first."""
@@ -52,10 +52,10 @@ class Judged:
     Surface and center path are without the passes that they repeat, each by itself; `lines` are those of the whole
     surface, since of two equal passes one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, and
-    `lead_gouges` what is cut of them: they may be surface after all.  `by_itself`: the side changed where it begins,
-    and what is cut on the other side is not judged.  `open_lines`: the lines of all of an open contour among closed
-    ones, of which this is the first part.  `unseen_gouges`: how many are too shallow for a digit of the program's unit,
-    and are not in the verdict.
+    `lead_gouges` what is cut of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
+    `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
+    lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
+    too shallow for a digit of the program's unit, and are not in the verdict.
     """
 
     stretch: Stretch
@@ -65,6 +65,7 @@ class Judged:
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
+    lead_slack: float = 0.0
     by_itself: bool = False
     open_lines: frozenset[float] = frozenset()
     uneven: ToleratedArc | None = None
@@ -195,7 +196,9 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
         gouges = verdict.gouges if verdict.judged else ()
         doubtful = set(leads) - {float(whole.numbers[row]) for row in blend_leads(whole, tuple(contours))}
         lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in doubtful)
-        results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges)
+        results[0] = replace(
+            results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges, lead_slack=verdict.radius_slack
+        )
         if not verdict.judged:
             results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
     return results
@@ -204,7 +207,7 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
     surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
-    verdict = judge(surface, stretch.side, stretch.radius, center, accepted)
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, lead_arcs=contours == 1)
     if stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
@@ -375,8 +378,10 @@ def _leads(result: Judged) -> list[Finding]:
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
-        line = _line(gouge.path_number)
-        listed.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
+        slack = (result.lead_slack,) if result.lead_slack > 0.0 else ()
+        text += " It is judged with {0} extra tolerance." if slack else ""
+        line, at = _line(gouge.path_number), gouge.surface_at
+        listed.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=at, value=gouge.depth, lengths=slack, line=line))
     return listed
 
 
@@ -413,11 +418,26 @@ def _uncut(result: Judged) -> list[Finding]:
 def _crossing(result: Judged) -> list[Finding]:
     """That the contour's ends run past its corner, or that it crosses itself."""
     verdict, line = result.verdict, _first_line(result.surface)
-    if verdict.over_run_at is not None:
-        text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
-        return [Finding("OVER_RUN", Severity.INFO, text, at=verdict.over_run_at, line=line)]
+    if verdict.over_run is not None:
+        return [_over_run(verdict.over_run, result.surface)]
     if not verdict.crosses_itself:
         return []
     place = " at X {x} Y {y}" if verdict.crossing_at else ""
     text = f"The programmed contour crosses or touches itself{place}. All of it counts as surface."
     return [Finding("CROSSES", Severity.WARNING, text, at=verdict.crossing_at, line=line)]
+
+
+def _over_run(over_run: OverRun, surface: Path) -> Finding:
+    """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
+    first, last = _line(surface.numbers[0]), _line(surface.numbers[-1])
+    if not over_run.doubtful:
+        text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
+        return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=first)
+    length, line = max(over_run.lead_in, over_run.lead_out), last
+    text = "The contour begins on this line, whose last {value} is taken for lead-out. Check where it begins."
+    if over_run.lead_in > over_run.lead_out:
+        text, line = (
+            "The contour ends on this line, whose first {value} is taken for lead-in. Check where it ends.",
+            first,
+        )
+    return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length, line=line)

@@ -20,20 +20,34 @@ from core.verify.verdict import NOTHING, UnevenArc, Verdict
 from core.verify.wrong_side import sided, wrong_side
 
 
-def judge(surface: Path, side: Side, radius: float, center: Path, arc_radii: float = ARC_RADII) -> Verdict:
+def judge(
+    surface: Path,
+    side: Side,
+    radius: float,
+    center: Path,
+    arc_radii: float = ARC_RADII,
+    *,
+    lead_arcs: bool = False,
+) -> Verdict:
     """What a cutter of this radius does whose center runs along `center`, lead moves included, beside `surface`.
 
     Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
     `arc_radii`, or at all with both ends on one ray from the center, give a verdict that is not `judged` and so never
-    clean.
+    clean.  With `lead_arcs` arcs at the surface's two ends may be leads of an over-run.
     """
-    return judge_together(surface, side, radius, (center,), arc_radii)
+    return judge_together(surface, side, radius, (center,), arc_radii, lead_arcs=lead_arcs)
 
 
 def judge_together(
-    surface: Path, side: Side, radius: float, centers: Sequence[Path], arc_radii: float = ARC_RADII
+    surface: Path,
+    side: Side,
+    radius: float,
+    centers: Sequence[Path],
+    arc_radii: float = ARC_RADII,
+    *,
+    lead_arcs: bool = False,
 ) -> Verdict:
     """The verdict on several center paths that are all cut, such as the loops of one contour.
 
@@ -43,7 +57,7 @@ def judge_together(
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, None, (), NOTHING, 0.0, crosses_itself=False)
-    return judge_prepared(Surface.prepare(surface, side), radius, centers, arc_radii)
+    return judge_prepared(Surface.prepare(surface, side, lead_arcs=lead_arcs), radius, centers, arc_radii)
 
 
 def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc_radii: float = ARC_RADII) -> Verdict:
@@ -91,7 +105,7 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         loose=loose(pairs, radius),
         backwards=backwards(pairs, radius),
         crossing_at=(crossed[0].real, crossed[0].imag) if crossed else None,
-        over_run_at=surface.over_run_at,
+        over_run=surface.over_run,
         radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )
     # the pairs of the walls need the room of those of the moves

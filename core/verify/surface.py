@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -12,15 +13,18 @@ from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import CLOSED, JOINED
 from core.verify.crossing import NO_CROSSINGS, SelfCrossings, self_crossings
 from core.verify.pairs import nearest, pairs_of, rounding_of
+from core.verify.verdict import OverRun
 from core.verify.wrong_side import on_part_side, sided
+
+LONG_LEAD: Final = 0.25
+"""Share of its segment from which on a lead may be a wall all the same, with START or the last end mistyped."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
     """The walls of a contour on whose `side` the cutter runs, and where they meet themselves.
 
-    `over_run_at` is where the first and the last element meet, if what lies beyond is a lead-in or a lead-out: the
-    walls are closed there.
+    Where the contour's ends are an `over_run` the walls are closed without them.
     """
 
     path: Path
@@ -28,47 +32,68 @@ class Surface:
     walls: PieceArrays
     closed: bool
     crossings: SelfCrossings
-    over_run_at: Point | None = None
+    over_run: OverRun | None = None
 
     @staticmethod
-    def prepare(path: Path, side: Side) -> Surface:
-        """The surface of a contour that can be judged."""
+    def prepare(path: Path, side: Side, *, lead_arcs: bool = False) -> Surface:
+        """The surface of a contour that can be judged.
+
+        With `lead_arcs` an arc at either end may lead to the first element and from the last one.
+        """
         with np.errstate(all="ignore"):
             walls = piece_arrays(path)
             closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
             whole = Surface(path, side, walls, closed, self_crossings(walls, closed=closed))
-            return _without_over_run(whole) or whole
+            return _without_over_run(whole, lead_arcs=lead_arcs) or whole
 
 
-def _without_over_run(surface: Surface) -> Surface | None:
+def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
     """The surface between the crossing of its first and its last element.
 
     One of them may begin, end or join the next element at the crossing, as long as either runs beyond it.  None where
-    anything else crosses, where a run beyond the crossing is on the part's side of what is left, and where it is as
-    long as that.
+    anything else crosses, where a run beyond the crossing is not clear of what is left, and where it is as long as
+    that.
     """
-    walls, places, points = surface.walls, surface.crossings.places, surface.crossings.points
-    if surface.closed or not len(points) or len(walls) < 3:
+    walls, stations = surface.walls, surface.walls.stations
+    crossing = _crossing_of_ends(surface, lead_arcs=lead_arcs)
+    if crossing is None:
         return None
-    stations = walls.stations
-    at_ends = (places[:, 0] <= stations[1] + JOINED) & (places[:, 1] >= stations[-2] - JOINED)
-    if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
-        return None
-    first, last = float(places[:, 0].min()), float(places[:, 1].max())
+    at, first, last = crossing
     lead_in, lead_out = first, float(stations[-1]) - last
     if max(lead_in, lead_out) <= JOINED or max(lead_in, lead_out) >= last - first:
         return None
-    x, y = points[0].real.item(), points[0].imag.item()
-    begin, end = walls.rows[0] + (first >= stations[1] - JOINED), walls.rows[-1] - (last <= stations[-2] + JOINED)
-    left = piece_arrays(_between(surface.path, int(begin), int(end), (x, y)))
-    side = sided(surface.side, left, NO_CROSSINGS, closed=True)
-    before, after = _beyond(surface.path, walls, (x, y))
-    ends = [(before, walls.start[0])] * (lead_in > JOINED) + [(after, walls.end[-1])] * (lead_out > JOINED)
-    runs, far = piece_arrays(*(run for run, _ in ends)), np.array([point for _, point in ends])
-    near = nearest(pairs_of(runs, left, rounding_of(walls)), np.arange(len(runs)), far)
-    if on_part_side(left, far, near, side).any():
+    begin = int(np.count_nonzero(stations[1:-1] <= first + JOINED))
+    end = int(np.count_nonzero(stations[:-1] < last - JOINED)) - 1
+    left = piece_arrays(_between(surface.path, int(walls.rows[begin]), int(walls.rows[end]), at))
+    runs = [_run_in(surface, first, at)] if lead_in > JOINED else []
+    runs += [_run_out(surface, last, at)] if lead_out > JOINED else []
+    if not all(_is_clear(run, left, surface.side) for run in runs):
         return None
-    return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, (x, y))
+    if lead_in > JOINED:
+        share = lead_in / float(walls.length[0]) if begin == 0 else 0.0
+    else:
+        share = lead_out / float(walls.length[-1]) if end == len(walls) - 1 else 0.0
+    over_run = OverRun(at, lead_in, lead_out, doubtful=len(runs) == 1 and share > LONG_LEAD)
+    return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
+
+
+def _crossing_of_ends(surface: Surface, *, lead_arcs: bool) -> tuple[Point, float, float] | None:
+    """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled
+    there; with `lead_arcs` the elements next to an arc at an end may cross too."""
+    walls, crossings = surface.walls, surface.crossings
+    if surface.closed:
+        # ends that are one point within CLOSED may run past each other all the same
+        apart = abs(walls.end[-1] - walls.start[0]) > JOINED
+        crossings = self_crossings(walls, closed=False) if apart else NO_CROSSINGS
+    places, points = crossings.places, crossings.points
+    if not len(points) or len(walls) < 3:
+        return None
+    arc_in, arc_out = (int(lead_arcs and bool(walls.arcs[end])) for end in (0, -1))
+    at_ends = places[:, 0] <= walls.stations[1 + arc_in] + JOINED
+    at_ends &= places[:, 1] >= walls.stations[-2 - arc_out] - JOINED
+    if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
+        return None
+    return (points[0].real.item(), points[0].imag.item()), float(places[:, 0].min()), float(places[:, 1].max())
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:
@@ -81,9 +106,37 @@ def _between(path: Path, begin: int, end: int, at: Point) -> Path:
     return Path(points, centers, turns, path.numbers)
 
 
-def _beyond(path: Path, walls: PieceArrays, at: Point) -> tuple[Path, Path]:
-    """What lies before a point of the first wall, and behind it on the last one."""
-    first, last = (path.part(row, row + 1) for row in (int(walls.rows[0]), int(walls.rows[-1])))
-    before = Path.of(np.array((first.points[0], at)), first.centers, first.turns)
-    center = last.centers if last.turns[0] else np.array((at,))
-    return before, Path.of(np.array((at, last.points[1])), center, last.turns)
+def _run_in(surface: Surface, first: float, at: Point) -> Path:
+    """What lies before a point at a length traveled, backwards: it ends where the surface begins."""
+    walls = surface.walls
+    row = int(walls.rows[np.count_nonzero(walls.stations[:-1] < first - JOINED) - 1])
+    part = surface.path.part(int(walls.rows[0]), row + 1).reversed()
+    return _begun_at(part, at)
+
+
+def _run_out(surface: Surface, last: float, at: Point) -> Path:
+    """What lies behind a point at a length traveled."""
+    walls = surface.walls
+    row = int(walls.rows[np.count_nonzero(walls.stations[1:-1] <= last + JOINED)])
+    return _begun_at(surface.path.part(row, int(walls.rows[-1]) + 1), at)
+
+
+def _begun_at(path: Path, at: Point) -> Path:
+    points, centers = path.points.copy(), path.centers.copy()
+    points[0] = at
+    if not path.turns[0]:
+        centers[0] = at
+    return Path.of(points, centers, path.turns)
+
+
+def _is_clear(run: Path, left: PieceArrays, side: Side) -> bool:
+    """Whether a run from a point of closed walls, which meets them nowhere else, ends off them on the cutter's side.
+
+    One that ends on them, such as part of a full circle, is part of them.
+    """
+    pieces = piece_arrays(run)
+    pairs = pairs_of(pieces, left, rounding_of(left))
+    far = pieces.end[-1:]
+    near = nearest(pairs, np.array([len(pieces) - 1]), far)
+    on_part = on_part_side(left, far, near, sided(side, left, NO_CROSSINGS, closed=True))
+    return bool(near.apart.min() > JOINED) and not on_part.any()

@@ -161,6 +161,20 @@ class UnevenArc:
     on_surface: bool
 
 
+@dataclass(frozen=True, slots=True)
+class OverRun:
+    """Where a contour's first and last element meet, `at`, and how long what lies before and behind that is: leads.
+
+    `doubtful` is one lead alone that is so long a part of its segment that it may be a wall: the contour's other end,
+    START or the last one, lies on that segment and may be mistyped.
+    """
+
+    at: Point
+    lead_in: float
+    lead_out: float
+    doubtful: bool
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
     """What one center path does to one surface.
@@ -172,9 +186,10 @@ class Verdict:
     they gouge most.
     `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
     `backwards` rows that run against all walls they touch.
-    `crossing_at` is the first place where the surface crosses or touches itself.  `over_run_at` is where its first and
-    its last element meet, and nothing else, if what lies beyond is clear of the part: that is judged as lead-in and
-    lead-out and is no surface.  `radius_slack` is how much the uneven radii of arcs add to the tolerance at most.
+    `crossing_at` is the first place where the surface crosses or touches itself.  There is an `over_run` where its
+    first and its last element meet, and nothing else, if what lies beyond is clear of the part: that is judged as
+    lead-in and lead-out and is no surface.  `radius_slack` is how much the uneven radii of arcs add to the tolerance at
+    most.
     `judged` is False, and `clearance` not a number, where coordinates or radius are no lengths a machine could have or
     an arc, `uneven_arc`, has two clearly different radii: nothing is known then.
     """
@@ -189,10 +204,15 @@ class Verdict:
     loose: tuple[int, ...] = ()
     backwards: tuple[int, ...] = ()
     crossing_at: Point | None = None
-    over_run_at: Point | None = None
+    over_run: OverRun | None = None
     radius_slack: float = 0.0
     judged: bool = True
     uneven_arc: UnevenArc | None = None
+
+    @property
+    def over_run_at(self) -> Point | None:
+        """Where the first and the last element of an over-run meet."""
+        return None if self.over_run is None else self.over_run.at
 
     @property
     def clearance(self) -> float:

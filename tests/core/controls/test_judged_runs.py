@@ -210,6 +210,19 @@ def test_more_tolerance_than_one_arc_s_rounding_is_said(off: str, said: list[int
     assert all(finding.value == pytest.approx(2 * float(off), abs=1e-6) for finding in arcs)
 
 
+@pytest.mark.parametrize(("center", "slack"), [(".25", 0.0), (".2502", 0.0004)])
+def test_what_is_cut_of_a_lead_says_with_which_tolerance_it_is_judged(center: str, slack: float) -> None:
+    """The last move crosses the lead, an arc whose radii differ by `slack` inches."""
+    lead = f"G41 D1 X-.5 Y-.5\nY0\nG2 X0 Y0 I{center} J0\n"
+    text = f"G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\n{lead}G1 Y2\nX2\nY0\nX0\nG40 X-1\nM2\n"
+    results = judge_run(ran(text, "nine-series:a", t1=0.05))
+    cut = [finding for finding in judged_findings(results) if finding.code == "LEAD-GOUGE"]
+    assert cut
+    for finding in cut:
+        assert ("extra tolerance" in finding.text) == (slack > 0.0)
+        assert [from_mm(length, Unit.IN) for length in finding.lengths] == pytest.approx([slack] if slack else [])
+
+
 def test_leads_that_cannot_be_judged_are_an_error() -> None:
     """The arc of the lead ends on the ray it begins on: nobody knows whether it is empty or a full circle."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X-.5 Y0\n"

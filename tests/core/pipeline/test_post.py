@@ -13,6 +13,7 @@ from app.documents.files import load
 from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
+from core.controls.judged_runs import judge_run, judged_findings
 from core.controls.registry import NO_TOOLS, names, run
 from core.controls.write.contour_pass import CenterMove
 from core.geometry.distance import distance
@@ -39,7 +40,7 @@ from core.program.model import (
 )
 from core.units import Unit, from_mm
 from tests import rs274
-from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 from tests.tool_tables import end_mills
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
@@ -137,6 +138,16 @@ def test_a_control_s_program_never_rapids_across_the_part_below_its_top(control:
     assert across.any()
     assert (np.minimum(points[1:, 2], points[:-1, 2])[across] >= 0.0).all()
     assert points[-1, 2] == pytest.approx(25.4)
+
+
+@pytest.mark.parametrize("control", names())
+def test_an_over_run_posted_for_a_control_reads_back_as_the_form_tells_it(control: str) -> None:
+    """The blends' arcs come before its first element and after its last one: they are leads too."""
+    _, _, made = made_by(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT), parameters=BLENDS), control)
+    results = judge_run(made)
+    codes = [finding.code for finding in judged_findings(results)]
+    assert codes.count("OVER_RUN") == 1, codes
+    assert {"GOUGE", "CROSSES", "UNCUT", "WRONG-SIDE"}.isdisjoint(codes), codes
 
 
 def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:

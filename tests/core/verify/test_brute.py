@@ -130,11 +130,22 @@ def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
 
 
 def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
-    """The judge says what the slow judge finds."""
-    truth = slow(surface, radius, path, STOCK)
+    """The judge says what the slow judge finds; that one knows no over-runs, and gets the contour without them."""
     told = judge(surface, side, radius, path)
+    if told.over_run is not None:
+        surface = _between_leads(surface, told.over_run.at)
+    truth = slow(surface, radius, path, STOCK)
     _agree(told, truth, surface, radius, path)
     _as_deep(told, truth, surface, side, path)
+
+
+def _between_leads(surface: Path, crossing: tuple[float, float]) -> Path:
+    """The contour with its first and its last element cut at their crossing."""
+    points, centers = surface.points.copy(), surface.centers.copy()
+    points[0] = points[-1] = crossing
+    if not surface.turns[0]:
+        centers[0] = crossing
+    return Path.of(points, centers, surface.turns, surface.numbers)
 
 
 def _as_deep(told: Verdict, truth: Slow, surface: Path, side: Side, path: Path) -> None:

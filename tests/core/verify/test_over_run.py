@@ -7,9 +7,11 @@ from math import sqrt
 
 import pytest
 
+from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.verify.judge import judge
+from core.verify.report import verdict_findings
 from tests.core.verify.shapes import lines, mirrored
 
 R = 0.25
@@ -99,10 +101,91 @@ def test_a_crossing_of_other_elements_and_a_run_as_long_as_the_loop_are_no_over_
 
 
 def test_a_contour_whose_ends_meet_has_no_over_run() -> None:
-    for end in ((0.0, 0.0), (0.0, 0.002), (0.0, -0.002)):
+    for end in ((0.0, 0.0), (0.0, -0.002)):
         verdict = judge(lines((0, 0), *SQUARE, end), Side.LEFT, R, around(R))
         assert verdict.over_run_at is None
         assert not verdict.crosses_itself
+        assert verdict.clean
+
+
+def test_ends_that_run_past_each_other_by_less_than_what_counts_as_closed_are_leads() -> None:
+    for contour in (lines((0, 0), *SQUARE, (0, 0.002)), lines((-0.001, 0), *SQUARE, (0, 0.001))):
+        verdict = judge(contour, Side.LEFT, R, around(R))
+        assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
+        assert verdict.clean
+        inside = judge(contour, Side.RIGHT, R, lines((0.5, -0.5), (1, -0.5)))
+        assert inside.over_run_at is None
+        assert not inside.gouges
+
+
+def test_a_full_circle_is_no_over_run_of_what_crosses_it() -> None:
+    """Only the place where the crossing line leaves the circle is a part of both: all of the circle is a wall."""
+    circle = Arc((2, 0), (2, 0), (0, 0), Turn.CCW)
+    contour = Path.from_pieces([circle, Line((2, 0), (4, 1)), Line((4, 1), (0.5, 3))])
+    crossing = Path.from_pieces([circle, Line((2, 0), (4, 0)), Line((4, 0), (4, 1)), Line((4, 1), (0, 1))])
+    cut = lines((2.5, 0.1), (1.9, 0.1))
+    for surface in (contour, crossing, crossing.reversed()):
+        for side in Side:
+            verdict = judge(surface, side, R, cut)
+            assert verdict.over_run_at is None
+            assert verdict.depth >= R - 0.005
+
+
+TAIL = lines((-1, 0), *SQUARE, (0, 1))
+TAIL_ARCS = (Arc((-1.5, -0.5), (-1, 0), (-1, -0.5), Turn.CW), Arc((0, 1), (-0.5, 1.5), (-0.5, 1), Turn.CCW))
+WITH_ARCS = Path.from_pieces([TAIL_ARCS[0], *TAIL, TAIL_ARCS[1]])
+
+
+@pytest.mark.parametrize("motion", MOTIONS)
+@pytest.mark.parametrize("part", [slice(None), slice(1, None), slice(None, -1)])
+def test_arcs_that_lead_to_an_over_run_are_leads_where_they_may_be(part: slice, motion: str) -> None:
+    move, side = MOTIONS[motion]
+    contour = move(Path.from_pieces(list(WITH_ARCS)[part]))
+    assert judge(contour, side, R, move(around(R))).over_run_at is None
+    verdict = judge(contour, side, R, move(around(R)), lead_arcs=True)
+    assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert verdict.surface_length == pytest.approx(6.0)
+    assert verdict.clean
+    assert judge(contour, side, R, move(around(R - 0.01)), lead_arcs=True).depth == pytest.approx(0.01)
+
+
+def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
+    into = Arc((0, 1), (0.5, -0.5), (-2.75, -0.75), Turn.CW)
+    verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), lead_arcs=True)
+    assert verdict.over_run_at is None
+    assert verdict.crosses_itself
+    lines_only = Path.from_pieces([*TAIL, Line((0, 1), (-1, 1))])
+    assert judge(lines_only, Side.LEFT, R, around(R), lead_arcs=True).over_run_at is None
+
+
+@pytest.mark.parametrize(
+    ("contour", "text"),
+    [
+        (lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 0)), "START is on segment 4, whose last {value} is taken for"),
+        (
+            lines((0, 0), (0, 2), (2, 2), (2, 0), (0, 1.5)),
+            "The contour ends on segment 1, whose first {value} is taken",
+        ),
+    ],
+)
+def test_a_long_lead_on_whose_segment_the_contour_begins_or_ends_may_be_a_mistyped_start(
+    contour: Path, text: str
+) -> None:
+    side = Side.RIGHT if contour.points[0][1] else Side.LEFT
+    verdict = judge(contour, side, R, lines((9, 9), (8, 9)))
+    assert verdict.over_run_at == pytest.approx((0.0, 1.5))
+    (over_run,) = [finding for finding in verdict_findings(verdict, contour) if finding.code == "OVER_RUN"]
+    assert over_run.severity is Severity.WARNING
+    assert over_run.text.startswith(text)
+    assert over_run.text.endswith("Check START.")
+    assert over_run.value == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("contour", [*OVER_RUNS.values(), TAIL, lines((0, 0), *SQUARE, (0, 0.4))])
+def test_leads_that_are_short_or_cross_or_have_a_segment_of_their_own_are_told_as_information(contour: Path) -> None:
+    verdict = judge(contour, Side.LEFT, R, around(R))
+    (over_run,) = [finding for finding in verdict_findings(verdict, contour) if finding.code == "OVER_RUN"]
+    assert over_run.severity is Severity.INFO
 
 
 LEAF_CENTER = (0.75, 2.25)
