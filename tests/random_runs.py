@@ -45,7 +45,7 @@ def random_case(seed: int, least: int = 2, most: int = 5, surplus: int = 0) -> t
     chosen += rest[: unknowns - len(chosen)]
     segments = []
     for index, piece in enumerate(pieces):
-        segment = {key: piece[key] for key in ("kind", "direction") if key in piece}
+        segment: dict[str, Any] = {key: piece[key] for key in ("kind", "direction") if key in piece}
         segment |= {name: pools[index][name] for at, name in chosen if at == index}
         segments.append(segment)
     return {"units": "MM", "start": list(start), "segments": segments}, pieces
@@ -153,7 +153,7 @@ def _walked(segment: Piece, piece: Piece, x: float, y: float) -> tuple[float, fl
 def _difference(name: str, typed: float, actual: Mapping[str, float], size: float) -> float:
     if name in ("angle", "start_angle", "sweep"):
         return _turned(math.radians(typed - actual[name])) * size
-    return abs(typed - actual[name])
+    return float(abs(typed - actual[name]))
 
 
 def _turned(angle: float) -> float:
@@ -164,8 +164,8 @@ def _point_difference(segment: Piece, piece: Piece, x: float, y: float, leaving:
     px, py, distance = segment["point_x"], segment["point_y"], segment.get("point_dist", 0.0)
     if segment["kind"] == "ARC":
         cx, cy = piece["x_center"], piece["y_center"]
-        return abs(math.hypot(px - cx, py - cy) - math.hypot(x - cx, y - cy))
-    return abs(abs((py - y) * math.cos(leaving) - (px - x) * math.sin(leaving)) - distance)
+        return float(abs(math.hypot(px - cx, py - cy) - math.hypot(x - cx, y - cy)))
+    return float(abs(abs((py - y) * math.cos(leaving) - (px - x) * math.sin(leaving)) - distance))
 
 
 def _parallel_differences(
@@ -312,7 +312,8 @@ class BruteForce:
             missed = np.where(better[:, None], after, missed)
             damping = np.where(better, damping * 0.2, np.minimum(damping * 6.0, 1e6))
             damping = np.maximum(damping, 1e-14)
-        return numbers[np.linalg.norm(missed, axis=1) < 1e-7]
+        roots: Floats = numbers[np.linalg.norm(missed, axis=1) < 1e-7]
+        return roots
 
     def _answer(self, row: Floats) -> list[dict[str, float]] | None:
         """The pieces of a row, None where a length, radius or sweep is none."""
@@ -333,4 +334,4 @@ def apart(first: Sequence[Piece], second: Sequence[Piece]) -> float:
     """The largest difference between two answers, in millimeters."""
     names = ("x_end", "y_end", "x_center", "y_center")
     pairs = zip(first, second, strict=True)
-    return max(abs(a[name] - b[name]) for a, b in pairs for name in names if name in a and name in b)
+    return float(max(abs(a[name] - b[name]) for a, b in pairs for name in names if name in a and name in b))

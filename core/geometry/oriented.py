@@ -83,7 +83,7 @@ def meeting(first: Locus, second: Locus) -> Meeting:
     """What two loci share.
 
     A line and a circle: first along the line's heading; two circles: left of the way from the first center to the
-    second.    """
+    second."""
     if isinstance(first, OrientedLine):
         return _lines(first, second) if isinstance(second, OrientedLine) else _line_circle(first, second)
     return _line_circle(second, first) if isinstance(second, OrientedLine) else _circles(first, second)

@@ -45,7 +45,7 @@ class Anchor(NamedTuple):
         return Anchor(self.at, self.along * c + self.left * s, self.left * c - self.along * s)
 
 
-class DeadEnd(Exception):  # noqa: N818 - no error: a branch that has no answer
+class DeadEnd(Exception):
     """What is known cannot be; `finding` says why."""
 
     def __init__(self, finding: Finding) -> None:
@@ -375,7 +375,9 @@ class Branch:
         rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
         for anchor in self.arriving_linked(element):
             if turn:
-                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(turn * (self.sweep[element] or 0.0))
+                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(
+                    turn * (self.sweep[element] or 0.0)
+                )
                 yield Anchor(anchor.at, at_center.along, at_center.left - rho)
             else:
                 yield Anchor(anchor.at, anchor.along + (self.length[element] or 0.0), anchor.left)
@@ -421,14 +423,13 @@ class Branch:
         return size * tx, size * ty
 
     def loci(self, index: int) -> list[Locus]:
-        """Where a joint that is not known may lie, no two the same: what holds at it and at joints rigidly tied to it."""
+        """Where a joint that is not known may lie, no two the same: by what holds at it and at joints tied to it."""
         found: list[Locus] = []
         for dx, dy, joint in self._tied_joints(index):
             for locus in self._loci_at(joint):
                 moved = locus.shifted(-dx, -dy)
                 if not any(type(other) is type(moved) and meeting(other, moved).coincident for other in found):
                     found.append(moved)
-        # lines and circles of elements first, then circles about a joint
         return found
 
     def _tied_joints(self, index: int) -> Iterator[tuple[float, float, int]]:

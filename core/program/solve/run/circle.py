@@ -212,9 +212,7 @@ def _take_tied(condition: _Tied, rows: list[Row], quadrics: list[Quadric], origi
     else:
         x, y, r = locus.center[0] - origin[0], locus.center[1] - origin[1], locus.radius
         rest = x * x + y * y - r * r
-        quadrics.append(
-            Quadric(1.0, 1.0, -2.0 * nx, -2.0 * ny, -2.0 * x, -2.0 * y, 2.0 * (nx * x + ny * y), rest)
-        )
+        quadrics.append(Quadric(1.0, 1.0, -2.0 * nx, -2.0 * ny, -2.0 * x, -2.0 * y, 2.0 * (nx * x + ny * y), rest))
 
 
 def _take_turned(condition: _Turned, rows: list[Row], quadrics: list[Quadric], origin: Point) -> None:
@@ -293,9 +291,10 @@ def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ..
     """Where a line in (x, y, rho) meets a quadric, and whether two have become one; None where it lies on it."""
     size = max(1.0, hypot(*at), abs(quadric.rest) ** 0.5)
     a = quadric.curvature(*along)
-    b = (quadric.at(*(p + d * size for p, d in zip(at, along, strict=True))) - quadric.at(
-        *(p - d * size for p, d in zip(at, along, strict=True))
-    )) / (2.0 * size)
+    b = (
+        quadric.at(*(p + d * size for p, d in zip(at, along, strict=True)))
+        - quadric.at(*(p - d * size for p, d in zip(at, along, strict=True)))
+    ) / (2.0 * size)
     c = quadric.at(*at)
     if abs(a) < INDEPENDENT:
         if abs(b) < INDEPENDENT * size:

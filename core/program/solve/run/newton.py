@@ -183,7 +183,7 @@ class _Problem:
                 return None
             if turn:
                 center = (known.get("x_center", there.center[0]), known.get("y_center", there.center[1]))
-                pieces.append(construct.settled(start, end, center, turn))
+                pieces.append(construct.even_arc(start, end, center, turn))
             else:
                 pieces.append(Line(start, end))
             start = end
@@ -196,28 +196,39 @@ def _measured(there: _Walked) -> Iterator[tuple[str, float]]:
     yield from (("x_center", cx), ("y_center", cy), ("x_center_inc", cx - x), ("y_center_inc", cy - y))
 
 
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """The answers near a pick, the shortest first, and the index of the one that is taken, if any.
+
+    `joint` is the first joint that is not known: the end of element `joint` - 1, to which the pick points.
+    """
+
+    joint: int
+    answers: tuple[Answer, ...] = ()
+    taken: int | None = None
+
+
 @lru_cache(64)
-def picked_answer(run: Run, pick: Point) -> Answer | None:
-    """The answer to which a pick leads, None where it leads to none, or nearby picks lead elsewhere."""
-    stuck = search(run)
-    if stuck.stuck is None:
-        return None
-    problem = _Problem(run, stuck.known)
-    joint = next(index for index in range(1, len(run.elements) + 1) if stuck.known.joint(index) is None)
+def picked_answers(run: Run, pick: Point) -> Picked:
+    """The answers to which the starts about a pick lead, and the one that is nearest to it."""
+    known = search(run).known
+    problem = _Problem(run, known)
+    joint = next((index for index in range(1, len(run.elements) + 1) if known.joint(index) is None), 1)
     answers = _answers(problem, joint, pick)
-    return None if answers is None else _nearest(answers, joint, pick, problem.scale)
+    answers.sort(key=lambda answer: round(answer.length, 5))
+    return Picked(joint, tuple(answers), _nearest(answers, joint, pick, problem.scale))
 
 
-def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> Answer | None:
-    """The answer that lies nearest to the pick and to all picks nearby."""
+def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> int | None:
+    """The index of the answer that lies nearest to the pick and to all picks nearby."""
     if not answers:
         return None
     reach = NEARBY * size
     picks = [pick, *((pick[0] + reach * cos(turn), pick[1] + reach * sin(turn)) for turn in (0.0, pi / 2, pi, -pi / 2))]
-    nearest = [min(answers, key=lambda answer: _distances(answer, joint, at)) for at in picks]
-    if any(near is not nearest[0] for near in nearest[1:]) or _distances(nearest[0], joint, pick)[0] > FARTHEST_PICK * size:
-        return None
-    return nearest[0]
+    nearest = {min(range(len(answers)), key=lambda index: _distances(answers[index], joint, at)) for at in picks}
+    taken = nearest.pop()
+    far = _distances(answers[taken], joint, pick)[0] > FARTHEST_PICK * size
+    return None if nearest or far else taken
 
 
 def _distances(answer: Answer, joint: int, pick: Point) -> tuple[float, ...]:
@@ -227,8 +238,8 @@ def _distances(answer: Answer, joint: int, pick: Point) -> tuple[float, ...]:
     return tuple(round(dist(point, pick), 4) for point in points)
 
 
-def _answers(problem: _Problem, joint: int, pick: Point) -> list[Answer] | None:
-    """All proved answers to which the starts lead; None where the data leave one free to move."""
+def _answers(problem: _Problem, joint: int, pick: Point) -> list[Answer]:
+    """All proved answers to which the starts lead; none where the data leave one free to move."""
     answers: list[Answer] = []
     for start in _starts(problem, joint, pick):
         root = _root(problem, start)
@@ -238,16 +249,14 @@ def _answers(problem: _Problem, joint: int, pick: Point) -> list[Answer] | None:
         if any(_same_ends(chain.pieces, answer.pieces) for answer in answers):
             continue
         if _free(problem, root):
-            return None
+            return []
         answers.append(Answer(0, chain.pieces, chain.length))
     return answers
 
 
 def _same_ends(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
     pairs = list(zip(first, second, strict=True))
-    centers = all(
-        dist(a.center, b.center) <= SAME * 10 for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc)
-    )
+    centers = all(dist(a.center, b.center) <= SAME * 10 for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc))
     return centers and all(dist(a.end, b.end) <= SAME * 10 for a, b in pairs)
 
 

@@ -43,8 +43,10 @@ def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
     findings: list[Finding] = []
     for index, element in enumerate(run.elements):
         start, end = branch.joint(index), branch.joint(index + 1)
-        assert start is not None and end is not None
+        assert start is not None
+        assert end is not None
         far = max(map(abs, end)) > FARTHEST
+        piece: Piece | None
         if element.turn:
             center = branch.center(index)
             assert center is not None
@@ -87,7 +89,7 @@ def _arc(
         return None, [reasons.no_length(run, index)]
     if abs(radius - out) > ARC_RADII:
         return None, [reasons.radii_differ(run, index, radius, out)]
-    arc = construct.settled(start, end, center, element.turn)
+    arc = construct.even_arc(start, end, center, element.turn)
     if arc.length <= JOINED:
         return None, [reasons.no_length(run, index)]
     return arc, []

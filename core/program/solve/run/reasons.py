@@ -132,7 +132,9 @@ def coincident(run: Run, index: int) -> Finding:
     """Both lines at a joint are one line."""
     first, second = run.elements[index - 1], run.elements[index]
     shape = "circle" if first.turn and second.turn else "line"
-    text = f"Segments {first.number} and {second.number} run on one {shape}: their joint may be anywhere. Enter one end."
+    text = (
+        f"Segments {first.number} and {second.number} run on one {shape}: their joint may be anywhere. Enter one end."
+    )
     return _fault("UNDETERMINED", text, second, None)
 
 
@@ -147,7 +149,8 @@ def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Findi
     if isinstance(first, Circle) and isinstance(second, Circle):
         return _apart(before, after, first, second, carriers)
     line, circle = (first, second) if isinstance(first, OrientedLine) else (second, first)
-    assert isinstance(line, OrientedLine) and isinstance(circle, Circle)
+    assert isinstance(line, OrientedLine)
+    assert isinstance(circle, Circle)
     return _line_misses(before, after, line, circle, carriers[0] if circle is first else carriers[1])
 
 
@@ -171,9 +174,7 @@ def _parallel_lines(before: Element, after: Element, first: OrientedLine, second
     return _fault("NO_MEETING", text, after, None, apart)
 
 
-def _line_misses(
-    before: Element, after: Element, line: OrientedLine, circle: Circle, arc: Element | None
-) -> Finding:
+def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Circle, arc: Element | None) -> Finding:
     nx, ny = line.normal
     height = abs(nx * circle.center[0] + ny * circle.center[1] - line.offset)
     if arc is not None:
@@ -188,9 +189,7 @@ def _line_misses(
     return _fault("TOO_SHORT", text, element, field, circle.radius, height)
 
 
-def _apart(
-    before: Element, after: Element, first: Circle, second: Circle, carriers: list[Element | None]
-) -> Finding:
+def _apart(before: Element, after: Element, first: Circle, second: Circle, carriers: list[Element | None]) -> Finding:
     between = dist(first.center, second.center)
     if carriers[0] is not None and carriers[1] is not None:
         text = f"The circles of segments {before.number} and {after.number} never meet: their centers are {{2}} apart, "
@@ -198,7 +197,9 @@ def _apart(
         return _fault("NO_MEETING", text, after, "radius", first.radius, second.radius, between)
     names = [_size_label(element) for element in (before, after)]
     both = names[0] if names[0] == names[1] else ""
-    text = f"{both or names[0]} {{0}} and {'' if both else f'{names[1]} '}{{1}} do not reach: the points are {{2}} apart."
+    text = (
+        f"{both or names[0]} {{0}} and {'' if both else f'{names[1]} '}{{1}} do not reach: the points are {{2}} apart."
+    )
     field = "radius" if after.turn else "length"
     return _fault("TOO_SHORT", text, after, field, first.radius, second.radius, between)
 
@@ -295,10 +296,19 @@ def suggested(run: Run) -> tuple[Element, str]:
     return run.elements[0], "x_end"
 
 
-def not_yet(run: Run) -> Finding:
-    """Enough data, and no method."""
+def not_yet(run: Run, *, tried: bool) -> Finding:
+    """Enough data, and no method; nor does the pick lead anywhere, if there is one."""
     text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, or a center."
+    if tried:
+        text += " The pick leads to no solution: set it nearer to the joint."
     return Finding("NOT_YET", Severity.ERROR, text, segment=run.elements[0].number)
+
+
+def pick_nearer(run: Run, count: int) -> Finding:
+    """A pick that does not tell several answers apart."""
+    fit = "One solution fits, but it is far from the pick" if count == 1 else f"{count} solutions fit"
+    text = f"{fit}: set the pick nearer to the end of segment {run.elements[0].number}, or pick one on SOLUTION."
+    return Finding("PICK_SOLUTION", Severity.ERROR, text, segment=run.elements[0].number, field="choice")
 
 
 def pick_solution(run: Run, count: int, *, picked: bool) -> Finding:

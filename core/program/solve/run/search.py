@@ -95,7 +95,9 @@ def choice_of(branch: Branch) -> int:
 
 def _same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
     return all(
-        dist(a, b) <= SAME for one, two in zip(first, second, strict=True) for a, b in zip(_points(one), _points(two), strict=True)
+        dist(a, b) <= SAME
+        for one, two in zip(first, second, strict=True)
+        for a, b in zip(_points(one), _points(two), strict=True)
     )
 
 

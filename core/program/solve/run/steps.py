@@ -188,4 +188,3 @@ def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float
 
 
 STEPS: Final[tuple[Step, ...]] = (_parallel, _single_circle, _heading, _joint, _circle, _point_side, _offset_side)
-
