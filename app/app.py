@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
 from typing import ClassVar
 
 from textual import on, work
 from textual.app import App
 from textual.binding import Binding, BindingType
+from textual.command import Provider
 from textual.reactive import var
 from textual.screen import Screen
 
@@ -14,7 +18,16 @@ from app import theme
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Answer, Question
+from app.screens.draw import DrawScreen
+from app.screens.help import HelpScreen
+from app.screens.home import HomeScreen
+from app.screens.lookahead import LookaheadScreen
+from app.screens.palette import Actions, Palette
+from app.screens.parameters import ParametersScreen, PartSetupScreen
+from app.screens.post import PostScreen
 from app.screens.program import ProgramScreen
+from app.screens.tools import ToolsScreen
+from app.session.block_findings import Entry
 from app.session.derivation import Request, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
@@ -35,27 +48,33 @@ class CutcompApp(App[int]):
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
     COMMAND_PALETTE_BINDING = "ctrl+k"
+    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions}
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
         Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
         Binding("ctrl+q", "quit", "Quit", show=False, priority=True),
+        Binding("ctrl+g", "help", "Help", show=False),
+        Binding("ctrl+o", "home", "Open", show=False, priority=True),
     ]
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
     shown: var[Session] = var(lambda: Session.of(Program()), init=False)
+    characters: var[str] = var("braille", init=False)
+    """The set of characters that drawings and signs are made of."""
 
     def __init__(
         self,
         session: Session,
         *,
         surroundings: Surroundings | None = None,
-        characters: str = "braille",
         few_colors: bool = False,
         light: bool = False,
+        character_sets: tuple[str, ...] = ("braille", "block", "ascii"),
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
-        self.characters = characters
+        self.character_sets = character_sets
+        self.set_reactive(CutcompApp.characters, character_sets[0])
         self._wanted: Request | None = None
         self._deriving = False
         self._table_wanted: DerivedBlock | None = None
@@ -198,6 +217,16 @@ class CutcompApp(App[int]):
         for _ in self.screen_stack[depths[-1] + 1 :]:
             self.pop_screen()
 
+    def action_command_palette(self) -> None:
+        """The palette of all actions."""
+        if isinstance(self.screen, BaseScreen):
+            self.push_screen(Palette(id="--command-palette"))
+
+    def action_segment(self, number: int) -> None:
+        """MILL CONTOUR with the cursor on a segment."""
+        self.action_contour()
+        self.move(FormPlace(self.session.place.block, number))
+
     def action_contour(self) -> None:
         """MILL CONTOUR, the form of the block with the cursor."""
         self.bring(ContourScreen)
@@ -205,6 +234,63 @@ class CutcompApp(App[int]):
     def action_program(self) -> None:
         """PROGRAM, the list of blocks."""
         self.bring(ProgramScreen)
+
+    def action_home(self) -> None:
+        """HOME, the files of a folder."""
+        file = self.session.file
+        self.push_screen(HomeScreen(Path.cwd() if file is None else file.parent))
+
+    def action_parameters(self) -> None:
+        """PROGRAM PARAMETERS."""
+        self.bring(ParametersScreen)
+
+    def action_part_setup(self) -> None:
+        """PART SETUP."""
+        self.bring(PartSetupScreen)
+
+    def action_tools(self) -> None:
+        """TOOL SETUP."""
+        self.bring(ToolsScreen)
+
+    def action_lookahead(self) -> None:
+        """LOOKAHEAD TABLE."""
+        self.bring(LookaheadScreen)
+
+    def action_draw(self) -> None:
+        """DRAW."""
+        self.bring(DrawScreen)
+
+    def action_post(self) -> None:
+        """POST NC, with the program's name."""
+        file = self.session.file
+        self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
+
+    def action_help(self) -> None:
+        """HELP for what has the cursor."""
+        if isinstance(self.screen, HelpScreen) or not isinstance(self.screen, BaseScreen):
+            return
+        self.push_screen(HelpScreen(self.screen.current_field, self.screen.help_lines()))
+
+    def action_next_characters(self) -> None:
+        """Draw with the next set of characters that the terminal has."""
+        here = self.character_sets.index(self.characters)
+        self.characters = self.character_sets[(here + 1) % len(self.character_sets)]
+        self.say(f"Drawn with {self.characters} characters.")
+
+    def action_light_or_dark(self) -> None:
+        """The other of the two themes; sixteen colors have none."""
+        if self.theme != theme.SIXTEEN:
+            self.theme = theme.LIGHT if self.theme == theme.DARK else theme.DARK
+
+    def go_to(self, entry: Entry) -> None:
+        """MILL CONTOUR with the cursor on the place of a finding."""
+        segment = entry.segment or 0
+        self.action_contour()
+        self.move(FormPlace(self.session.place.block, segment), entry.field or SEGMENT)
+
+    def now(self) -> datetime:
+        """The time of day, in its zone."""
+        return datetime.now().astimezone()
 
     async def action_quit(self) -> None:
         """Leave; asks where something is not saved."""

@@ -35,7 +35,7 @@ def run(path: Path | None, *, example: str | None = None, characters: str = "", 
     if monochrome(os.environ):
         os.environ["NO_COLOR"] = "1"
     name, modes = driver.characters(character_set.own(os.environ), characters)
-    app = CutcompApp(session, characters=modes[0], few_colors=driver.few_colors(os.environ), light=light)
+    app = CutcompApp(session, character_sets=modes, few_colors=driver.few_colors(os.environ), light=light)
     app.driver_class = WidgetDriver
     character_set.settle(sys.__stderr__, name)
     safety = Safety(lambda status: app.exit(status, return_code=status), lambda: None)

@@ -15,6 +15,8 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 
 from __future__ import annotations
 
+from datetime import datetime
+from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
 
 from textual import on
@@ -25,14 +27,18 @@ from textual.events import DescendantFocus, Resize
 from textual.reactive import Reactive, var
 from textual.screen import Screen
 from textual.widget import Widget
+from textual.widgets import Input
 
+from app.session.block_findings import Entry as FindingEntry
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
 from app.widgets.prompt import Prompt
 from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
 from app.widgets.status import Status, Surroundings
 from core.program.edit import Edited, FormPlace
+from core.program.fields import Field
 from core.program.model import Program
+from core.units import Kind
 
 COMMON_KEYS = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
 """The keys under the softkeys."""
@@ -66,6 +72,15 @@ class Host(Protocol):
     def try_out(self, program: Program | None) -> None:
         """Show what a half-typed number would do; None for nothing half-typed."""
 
+    def now(self) -> datetime:
+        """The time of day, in its zone."""
+
+    def open_file(self, path: Path) -> None:
+        """Work on a file; what is not saved is asked about."""
+
+    def go_to(self, entry: FindingEntry) -> None:
+        """MILL CONTOUR with the cursor on the place of a finding."""
+
     def action_contour(self) -> None:
         """MILL CONTOUR, the form of the block with the cursor."""
 
@@ -86,6 +101,7 @@ class BaseScreen(Screen[None]):
     ]
     VERTICAL_BREAKPOINTS = [(0, "-short"), (28, "-tall")]  # noqa: RUF012  # Textual declares it so
     BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("question_mark", "question_mark", "Help", show=False, priority=True),
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
@@ -124,6 +140,27 @@ class BaseScreen(Screen[None]):
 
     def show_session(self, session: Session) -> None:
         """Show what has changed in the session."""
+
+    @property
+    def current_field(self) -> Field | None:
+        """What the table of fields says of the field with the cursor; None where that is none."""
+        return None
+
+    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
+        """Name, action and hint of what can be done on this screen besides its softkeys, for the palette."""
+        return ()
+
+    def action_question_mark(self) -> None:
+        """HELP; where a text is being typed the character itself."""
+        field, widget = self.current_field, self.focused
+        if isinstance(widget, Input) and field is not None and field.kind is Kind.TEXT:
+            widget.insert_text_at_cursor("?")
+        else:
+            self.app.call_later(self.app.run_action, "app.help")
+
+    def help_lines(self) -> tuple[str, ...]:
+        """Sentences about this screen, for HELP."""
+        return ()
 
     def prompt_text(self) -> Sentence:
         """What the widget with the cursor takes."""

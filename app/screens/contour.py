@@ -195,11 +195,9 @@ class ContourScreen(FormScreen):
 
     def _show_titles(self, session: Session) -> None:
         last, segment = len(session.block.segments), session.place.segment
-        name = f"{session.title} (example)" if session.title and session.file is None else ""
-        file = name or (session.file.stem if session.file else "NO NAME")
         texts = {
             "block-number": str(session.place.block),
-            "file": f"{file}{' *' if session.unsaved else ''}",
+            "file": session.file_label,
             "segment-kind": str(form_at(session)),
             "segment-count": f"of {last}" if last else "",
         }

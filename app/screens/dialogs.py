@@ -11,7 +11,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.screen import ModalScreen
-from textual.widgets import OptionList, Static
+from textual.widgets import Input, OptionList, Static
 from textual.widgets.option_list import Option
 
 GO_BACK = "GO BACK"
@@ -73,3 +73,32 @@ class Question(ModalScreen[str]):
 def _line(answer: Answer) -> str:
     key = "Esc" if answer.word == GO_BACK else answer.word[0]
     return f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"
+
+
+class Phrase(ModalScreen[str]):
+    """A question that is answered by typing a phrase; Esc and F8 give an empty one."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "answer", "Go back", show=False)]
+
+    def __init__(self, title: str, lines: Sequence[str]) -> None:
+        super().__init__()
+        self.question, self.lines = title, tuple(lines)
+
+    def compose(self) -> ComposeResult:
+        """A framed box: what is asked, then the line to type in."""
+        with Vertical(id="question"):
+            yield Static("\n".join(self.lines), id="loss", markup=False)
+            yield Input(id="phrase", compact=True)
+
+    def on_mount(self) -> None:
+        """The title."""
+        self.query_exactly_one("#question").border_title = self.question
+
+    @on(Input.Submitted)
+    def _submitted(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.dismiss(event.value)
+
+    def action_answer(self) -> None:
+        """Go back."""
+        self.dismiss("")

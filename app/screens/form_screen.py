@@ -154,10 +154,23 @@ class FormScreen(BaseScreen):
     def _picked(self, event: Select.Changed) -> None:
         event.stop()
         field = self._field(event.select.name or "")
-        if field is None or not isinstance(event.value, str) or event.value == self.form().rows[field.name].cell.text:
+        if field is None or not isinstance(event.value, str) or event.value == self.picked_text(field):
             return
         self.quiet()
-        self.host.apply(self.edited(field, event.value), self.label(field))
+        self.pick(field, event.value)
+
+    def picked_text(self, field: Field) -> str:
+        """The choice that the program holds."""
+        return self.form().rows[field.name].cell.text
+
+    def pick(self, field: Field, text: str) -> None:
+        """Take a choice."""
+        self.host.apply(self.edited(field, text), self.label(field))
+
+    @property
+    def half_typed(self) -> bool:
+        """Something has been typed into the field with the cursor that has not been taken."""
+        return isinstance(self.current, NumberField) and self.current.edited
 
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:

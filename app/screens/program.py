@@ -1,50 +1,61 @@
-"""PROGRAM: the blocks of a program."""
+"""PROGRAM: the blocks of a program; the one with the cursor is drawn."""
 
 from __future__ import annotations
 
 from typing import ClassVar
 
-from rich.text import Text
 from textual import on
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
+from textual.content import Content
 from textual.widgets import DataTable, Label
 
+from app.documents.survey import outcome_of
 from app.screens.base import BaseScreen
 from app.session.messages import Sentence
 from app.session.session import Session
+from app.widgets.drawing import Drawing
 from app.widgets.softkeys import Softkey
-from core.finding import Severity
+from app.widgets.verdict import MARKS, Marks, verdict_word
 from core.pipeline.derived import DerivedBlock
-from core.program.edit import FormPlace, delete_block, insert_block
+from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
 from core.program.model import Number
 
-COLUMNS = (("BLOCK", 5), ("KIND", 13), ("CUTTER COMP.", 14), ("TOOL", 4), ("SEG", 4), ("VERDICT", 10))
+COLUMNS = (("BLOCK", 5), ("KIND", 13), ("CUTTER COMP.", 14), ("TOOL", 4), ("SEG", 4), ("VERDICT", 11))
 
 
 class ProgramScreen(BaseScreen):
     """The list of blocks; Enter edits the one with the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#blocks"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("ctrl+up", "move_block(-1)", "Move block up", show=False),
+        Binding("ctrl+down", "move_block(1)", "Move block down", show=False),
+        Binding("c", "copy_block", "Copy block", show=False),
+        Binding("escape", "app.home", "Back to files", show=False),
+    ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("DELETE BLOCK", "delete_block", "DELETE"),
         Softkey("INSERT BLOCK AFTER", "insert_block", "INSERT"),
-        None,
+        Softkey("POST NC", "app.post", "POST"),
         Softkey("PROGRAM PARAMETERS", "app.parameters", "PARAMS"),
         Softkey("PART SETUP", "app.part_setup", "SETUP"),
         Softkey("TOOL SETUP", "app.tools", "TOOLS"),
         Softkey("DRAW", "app.draw", "DRAW"),
-        Softkey("QUIT", "app.quit", "QUIT"),
+        Softkey("BACK to files", "app.home", "BACK"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("?", "KEYS, HELP"),)
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 
     def compose_body(self) -> ComposeResult:
-        """A title and the table of blocks."""
+        """A title, the table of blocks, the drawing."""
         with Vertical(id="program", classes="panel"):
             with Horizontal(classes="head"):
                 yield Label("PROGRAM", classes="head-label")
                 yield Label(id="block-count", classes="head-kind")
+                yield Label(id="program-file", classes="head-note")
             yield DataTable(id="blocks", cursor_type="row")
+        yield Drawing(id="block-drawing")
 
     def on_mount(self) -> None:
         """The columns."""
@@ -55,35 +66,65 @@ class ProgramScreen(BaseScreen):
 
     def show_session(self, session: Session) -> None:
         """One row a block."""
-        table = self.query_exactly_one("#blocks", DataTable)
+        table, marks = self.query_exactly_one("#blocks", DataTable), MARKS[self.host.characters]
         table.clear()
         for block in session.derived.blocks:
-            table.add_row(*_row(block))
+            table.add_row(*_row(block, marks))
         table.move_cursor(row=session.place.block - 1)
         count = len(session.program.blocks)
         self.query_exactly_one("#block-count", Label).update(f"{count} block{'s' if count != 1 else ''}")
+        self.query_exactly_one("#program-file", Label).update(session.file_label)
+        self._draw()
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""
-        return Sentence("Enter edits the block, up and down go from block to block.")
+        return Sentence("Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it.")
+
+    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
+        """Copy and move."""
+        return (
+            ("COPY BLOCK", "screen.copy_block", "C"),
+            ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up"),
+            ("MOVE BLOCK DOWN", "screen.move_block(1)", "Ctrl+Down"),
+        )
 
     @property
     def chosen(self) -> int:
         """The number of the block with the cursor."""
         return self.query_exactly_one("#blocks", DataTable).cursor_row + 1
 
+    @on(DataTable.RowHighlighted)
+    def _highlighted(self) -> None:
+        number = self.chosen
+        if number != self.current_session.place.block and number <= len(self.current_session.program.blocks):
+            self.host.move(FormPlace(number))
+        self._draw()
+
+    def _draw(self) -> None:
+        # numpy and shapely are not needed by the first paint
+        from core.pipeline.plot import Subject
+
+        session, drawing = self.current_session, self.query_exactly_one("#block-drawing", Drawing)
+        if self.chosen > len(session.derived.blocks):
+            return
+        block = session.derived.block(self.chosen)
+        drawing.heading, drawing.characters = f"BLOCK {block.number}", self.host.characters
+        drawing.subject = Subject(block, session.program.unit)
+
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:
         event.stop()
-        self.host.move(FormPlace(event.cursor_row + 1))
-        self.host.action_contour()
+        self._edit(event.cursor_row + 1)
+
+    def _edit(self, number: int) -> None:
+        self.host.move(FormPlace(number))
+        self.app.call_later(self.app.run_action, "app.contour")
 
     def action_insert_block(self) -> None:
         """A new block after the one with the cursor, and its form."""
         at = self.chosen + 1
         if self.host.apply(insert_block(self.current_session.program, at), f"INSERT BLOCK {at}"):
-            self.host.move(FormPlace(at))
-            self.host.action_contour()
+            self._edit(at)
 
     def action_delete_block(self) -> None:
         """Delete the block with the cursor."""
@@ -91,21 +132,25 @@ class ProgramScreen(BaseScreen):
         if self.host.apply(delete_block(self.current_session.program, at), f"DELETE BLOCK {at}"):
             self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)
 
+    def action_copy_block(self) -> None:
+        """A copy of the block with the cursor, after it."""
+        at = self.chosen
+        if self.host.apply(copy_block(self.current_session.program, at), f"COPY BLOCK {at}"):
+            self.host.move(FormPlace(at + 1))
 
-def _row(block: DerivedBlock) -> tuple[Text, ...]:
+    def action_move_block(self, by: int) -> None:
+        """The block with the cursor before the one above it, or after the one below it."""
+        at, to = self.chosen, self.chosen + by
+        if not 1 <= to <= len(self.current_session.program.blocks):
+            self.say(f"Block {at} is the {'first' if by < 0 else 'last'} one.")
+        elif self.host.apply(
+            move_block(self.current_session.program, at, to), f"MOVE BLOCK {at} {'UP' if by < 0 else 'DOWN'}"
+        ):
+            self.host.move(FormPlace(to))
+
+
+def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
     tool = f"{block.block.tool.value:g}" if isinstance(block.block.tool, Number) else "?"
     texts = (str(block.number), "MILL CONTOUR", str(block.block.cutter_comp), tool, str(len(block.block.segments)))
-    return (*(Text(text) for text in texts), Text(verdict_word(block)))
-
-
-def verdict_word(block: DerivedBlock) -> str:
-    """The verdict on a block in one word."""
-    if not block.known:
-        return "..."
-    if block.errors:
-        gouges = any(finding.code.endswith(("GOUGE", "GOUGES")) for finding in block.errors)
-        return "✖ gouge" if gouges else "? not ready"
-    if any(finding.severity is Severity.WARNING for finding in block.findings):
-        return "▲ warning"
-    uncut = block.paths is not None and block.paths.verdict is not None and block.paths.verdict.uncut
-    return "▲ uncut" if uncut else "✓ clean"
+    verdict = verdict_word(outcome_of(block), marks) if block.known else Content("...")
+    return (*(Content(text) for text in texts), verdict)

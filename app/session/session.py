@@ -70,6 +70,12 @@ class Session:
         return self.program is not self.saved and self.program != self.saved
 
     @property
+    def file_label(self) -> str:
+        """The program's name as screens show it; a star where something is not saved."""
+        name = self.file.stem if self.file else f"{self.title} (example)" if self.title else "NO NAME"
+        return f"{name}{' *' if self.unsaved else ''}"
+
+    @property
     def place(self) -> FormPlace:
         """The block and the segment with the cursor."""
         return self.cursor.place

@@ -7,7 +7,7 @@ nothing of the part.  The picture is made in a worker: a key never waits for it.
 from __future__ import annotations
 
 from itertools import groupby
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, work
@@ -18,8 +18,17 @@ from textual.strip import Strip
 from textual.widget import Widget
 
 if TYPE_CHECKING:
+    from core.draw.characters import Mode
     from core.geometry.piece import Point
-    from core.pipeline.plot import Drawn, Subject
+    from core.pipeline.plot import Drawn
+
+
+class Drawable(Protocol):
+    """What can be drawn: a block of a program, or the scene of an NC program."""
+
+    def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
+        """The picture in columns x rows cells; None where there is nothing to be seen."""
+
 
 ROLES: Final = (
     "background",
@@ -48,7 +57,7 @@ class Drawing(Widget):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"drawing--{role}" for role in ROLES}
 
-    subject: reactive[Subject | None] = reactive(None, repaint=False)
+    subject: reactive[Drawable | None] = reactive(None, repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
     heading: reactive[str] = reactive("", repaint=False)
 
@@ -119,12 +128,11 @@ class Drawing(Widget):
         return self.is_attached and shown and bool(self.size)
 
     @work(thread=True, exclusive=True, group="drawing")
-    def _make(self, subject: Subject, columns: int, rows: int, characters: str) -> None:
+    def _make(self, subject: Drawable, columns: int, rows: int, characters: str) -> None:
         # numpy and shapely are not needed by the first paint
         from core.draw.characters import Mode
-        from core.pipeline.plot import drawn
 
-        picture = drawn(subject, columns, rows, Mode(characters))
+        picture = subject.drawn(columns, rows, Mode(characters))
         self.app.call_from_thread(self._finished, (subject, characters), picture)
 
     def _finished(self, wanted: tuple[object, ...], picture: Drawn | None) -> None:

@@ -68,6 +68,10 @@ class NumberField(Input):
         """Something has been typed that the program does not hold."""
         return self.value.strip() not in (self.resting, self.full)
 
+    def check_consume_key(self, key: str, character: str | None) -> bool:
+        """Every printable key is typed, but ? asks for help."""
+        return key != "question_mark" and super().check_consume_key(key, character)
+
     def show(self, text: str, full: str = "") -> None:
         """Show what the program holds; a half-typed text stays."""
         edited = self.edited

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
@@ -16,7 +16,11 @@ from app.widgets.verdict import MARKS
 from core.program.fields import form_of
 
 if TYPE_CHECKING:
+    from core.draw.scene import Mark
     from core.geometry.piece import Point
+
+MAX_NUMBERED: Final = 9
+"""Findings that have a number in PART: a number is one character."""
 
 
 class Picture(Horizontal):
@@ -43,7 +47,7 @@ class Picture(Horizontal):
         block, unit, segment = session.derived_block, session.program.unit, session.place.segment
         near, title, kind = _loupe(session, entries, in_hand, characters)
         subjects = {
-            "outline": Subject(block, unit, segment, outline=True),
+            "outline": Subject(block, unit, segment, outline=True, trouble=_numbers(entries)),
             "whole": Subject(block, unit, segment),
             "loupe": Subject(block, unit, segment, near=near),
         }
@@ -55,6 +59,17 @@ class Picture(Horizontal):
         loupe.heading = title
         loupe.set_class(kind is Kind.GOUGE, "-gouge")
         loupe.set_class(kind is Kind.UNCUT, "-uncut")
+
+
+def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
+    """The number of each finding at its place."""
+    from core.draw.scene import Mark, Style, Symbol
+
+    return tuple(
+        Mark(entry.at, Style.GOUGE if entry.kind is Kind.GOUGE else Style.UNCUT, Symbol.NUMBER, text=str(number))
+        for number, entry in enumerate(entries[:MAX_NUMBERED], 1)
+        if entry.at is not None
+    )
 
 
 def _loupe(

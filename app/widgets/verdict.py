@@ -18,6 +18,7 @@ from textual.content import Content
 from textual.reactive import reactive
 from textual.widgets import Static
 
+from app.documents.survey import Outcome
 from app.session.words import length, segment_numbers
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit
@@ -31,6 +32,18 @@ HIGHEST: Final = 20
 """The largest look-ahead value."""
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
+
+
+OUTCOME_ROLES: Final = {
+    Outcome.GOUGE: "$c-gouge",
+    Outcome.NOT_READY: "$c-warn",
+    Outcome.UNREADABLE: "$c-err",
+    Outcome.WARNING: "$c-warn",
+    Outcome.UNCUT: "$c-uncut",
+    Outcome.CLEAN: "$c-good",
+    Outcome.EMPTY: "$c-label",
+}
+"""The color of each outcome."""
 
 
 class Marks(NamedTuple):
@@ -246,3 +259,10 @@ def first_step(block: DerivedBlock) -> str:
     if any(finding.code == "MISSING" for finding in block.errors):
         return "Type START, then right arrow for segment 1."
     return "START is complete: right arrow on SEGMENT for segment 1."
+
+
+def verdict_word(outcome: Outcome, marks: Marks) -> Content:
+    """An outcome with its sign, in its color."""
+    sign = {Outcome.GOUGE: marks.gouge, Outcome.CLEAN: marks.good, Outcome.UNCUT: marks.warning}.get(outcome, "?")
+    sign = marks.warning if outcome is Outcome.WARNING else sign
+    return Content.styled(f"{sign} {outcome}", OUTCOME_ROLES[outcome])

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.scene import Scene, Style, Symbol
+from core.draw.scene import Mark, Scene, Style, Symbol
 from core.draw.view import TALL, View
 from core.geometry.piece import Point
 from core.units import Unit, from_mm
@@ -49,12 +49,18 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
             _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
     _write_labels(sheet, scene, view)
     positions = view.cells([mark.at for mark in scene.marks], columns, rows)
-    for (column, row), (_, style, symbol, direction) in zip(positions, scene.marks, strict=True):
+    for (column, row), mark in zip(positions, scene.marks, strict=True):
         # what is not a number is in no cell
         if 0 <= column < columns and 0 <= row < rows:
-            here, arrowed = int(row) * columns + int(column), symbol is Symbol.ARROW
-            sheet.characters[here] = arrow(direction, look.arrows) if arrowed else look.symbols[symbol]
-            sheet.styles[here] = style
+            here = int(row) * columns + int(column)
+            sheet.characters[here] = _sign(mark, look)
+            sheet.styles[here] = mark.style
+
+
+def _sign(mark: Mark, look: Cells) -> str:
+    if mark.symbol is Symbol.ARROW:
+        return arrow(mark.direction, look.arrows)
+    return mark.text if mark.symbol is Symbol.NUMBER else look.symbols[mark.symbol]
 
 
 def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:

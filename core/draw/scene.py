@@ -58,6 +58,7 @@ class Symbol(Enum):
     GOUGE = auto()
     DELETED = auto()
     CENTER = auto()
+    NUMBER = auto()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,12 +88,13 @@ class Circle:
 
 
 class Mark(NamedTuple):
-    """One character at a point; an ARROW points along `direction`."""
+    """One character at a point; an ARROW points along `direction`, a NUMBER is the digit `text`."""
 
     at: Point
     style: Style
     symbol: Symbol
     direction: Point = (1.0, 0.0)
+    text: str = ""
 
 
 class Area(NamedTuple):

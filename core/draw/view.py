@@ -60,6 +60,12 @@ class View:
         )
         return View((x, y), self.scale)
 
+    def touches(self, bounds: Box, times: float) -> bool:
+        """Whether the middle of the window is no farther from the middle of `bounds` than so many times its sizes."""
+        (x, y), (x0, y0, x1, y1) = self.center, bounds
+        far = times * max(x1 - x0, y1 - y0, FINEST)
+        return abs(x - (x0 + x1) / 2) <= far and abs(y - (y0 + y1) / 2) <= far
+
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
         x, y = self.center

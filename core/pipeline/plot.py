@@ -111,17 +111,42 @@ class Subject:
     outline: bool = False
     trouble: tuple[Mark, ...] = ()
 
+    def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
+        """The picture in columns x rows cells; None where there is nothing to be seen."""
+        return _block_drawn(self, columns, rows, mode)
+
 
 class Drawn(NamedTuple):
-    """A picture of a block, the view it shows, and a scale bar in program units to stand in its frame."""
+    """A picture of a block, the view it shows, and a scale bar in program units to stand in its frame.
+
+    `bounds` is the box (mm) around all that is drawn.
+    """
 
     picture: Picture
     view: View
     scale_bar: str
+    bounds: Box
 
 
-def drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn | None:
-    """The picture of a subject in columns x rows cells; None where there is nothing to be seen."""
+@dataclass(frozen=True, eq=False, slots=True)
+class SceneSubject:
+    """A scene that is drawn as it is; `view` is what somebody zoomed to, None shows all of it."""
+
+    scene: Scene
+    unit: Unit
+    view: View | None = None
+
+    def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
+        """The picture in columns x rows cells; None where there is nothing to be seen."""
+        bounds = self.scene.extent(without=DRAWN_AGAIN)
+        if bounds is None or columns < 1 or rows < 1:
+            return None
+        view = self.view or View.fit(bounds, columns, rows)
+        picture = draw(replace(self.scene, unit=None), view, columns, rows, mode)
+        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, cells(mode).bar), bounds)
+
+
+def _block_drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn | None:
     scene = replace(block_scene(subject.block, subject.segment, subject.unit, subject.row), unit=None)
     scene = _outlined(scene, subject) if subject.outline else replace(scene, axes=subject.near is None)
     bounds = scene.extent(without=DRAWN_AGAIN)
@@ -136,7 +161,7 @@ def drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn | None
         labels = _segment_labels(subject.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
         scene = replace(scene, areas=_areas(subject, dot), labels=labels)
     picture = draw(scene, view, columns, rows, mode)
-    return Drawn(picture, view, scale_bar(view.scale, columns, subject.unit, look.bar))
+    return Drawn(picture, view, scale_bar(view.scale, columns, subject.unit, look.bar), bounds)
 
 
 def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:

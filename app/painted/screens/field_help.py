@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from app.painted.screens.topics import topic_of
+from app.screens.topics import topic_of
 from core.program.fields import Field, range_of
 from core.units import Kind, Unit
 

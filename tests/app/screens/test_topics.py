@@ -27,8 +27,8 @@ from app.painted.screens.setup import SetupPage
 from app.painted.screens.sheet import SheetPage
 from app.painted.screens.start import StartPage
 from app.painted.screens.tools import ToolsPage
-from app.painted.screens.topics import TOPICS, topic_of
 from app.painted.session import Session
+from app.screens.topics import TOPICS, topic_of
 from core.program.fields import TABLES, Form, field_of
 from tests.app.operator import Operator
 

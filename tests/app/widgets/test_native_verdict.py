@@ -15,11 +15,8 @@ from core.pipeline.derived import DerivedBlock
 from core.units import Unit
 
 
-def case_of(name: str, lookahead: int | None = None) -> Case:
+def case_of(name: str) -> Case:
     program = load(example(name))
-    if lookahead is not None:
-        block = replace(program.blocks[0], lookahead=lookahead)
-        program = replace(program, blocks=(block, *program.blocks[1:]))
     block = derive(program).block(1)
     return Case(block, look_ahead_table(block, program), program.unit)
 

@@ -66,7 +66,7 @@ _CORNER: Final = (
 )
 
 _FEED: Final = Topic(
-    "The feed holds for the segments behind it until another is typed. CAL shows the one in force: PLUNGE FEED where "
+    "The feed holds for the segments after it until another is typed. CAL shows the one in force: PLUNGE FEED where "
     "none is typed on segment 1."
 )
 _END_X: Final = Topic("Type what the drawing gives. What is blank is calculated, shown as CAL, and follows every edit.")
@@ -74,9 +74,6 @@ _END_Z: Final = Topic("Blank keeps the height. Another Z makes the tool ramp alo
 _CENTER: Final = Topic(
     "The point the arc turns about. End and center, or end and RADIUS, or center and SWEEP fix an arc."
 )
-_POINT: Final = Topic("A point that the drawing gives on this line or on the arc's circle, not one of its ends.")
-_TANGENT: Final = Topic("YES where it goes on from the segment before without a corner and without turning back.")
-
 
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
     {
@@ -108,7 +105,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         ),
         (Form.START, "lookahead"): Topic(
             "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
-            "control's own value; one that is too small gouges, one that is too large leaves corners. F4 shows all "
+            "control's own value; one that is too small gouges, one that is too large leaves corners. Space shows all "
             "values, F3 goes back to CAL.",
             _AHEAD,
         ),
@@ -123,7 +120,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         ),
         (Form.LINE, "feed"): _FEED,
         (Form.LINE, "choice"): Topic(
-            "The drawing shows both, dashed. F1 and F2 pick; nothing is posted until one is picked."
+            "The drawing shows both, dashed. Left and right step; nothing is posted until one is picked."
         ),
         (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
         (Form.ARC, "x_end"): _END_X,
@@ -137,15 +134,8 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
         (Form.ARC, "feed"): _FEED,
         (Form.ARC, "choice"): Topic(
-            "The drawing shows both, dashed. F1 and F2 pick; nothing is posted until one is picked."
+            "The drawing shows both, dashed. Left and right step; nothing is posted until one is picked."
         ),
-        **{(form, "point_x"): _POINT for form in (Form.LINE, Form.ARC)},
-        **{(form, "point_y"): _POINT for form in (Form.LINE, Form.ARC)},
-        **{(form, "tangent"): _TANGENT for form in (Form.LINE, Form.ARC)},
-        (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
-        (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
-        (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
-        (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
         (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
         (Form.BLEND, "feed"): _FEED,
         (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),

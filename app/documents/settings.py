@@ -1,0 +1,123 @@
+"""Settings: what stays from one time to the next, in a TOML file in the platform's own folder.
+
+A file of settings that cannot be read or written never stops the program: one sentence says so, and the usual values
+hold.
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final
+
+from app.documents.files import LARGEST_FILE, write_text
+from core.program.file.read import StoreError
+from core.units import Unit
+
+MAX_RECENT_FILES: Final = 8
+CHARACTERS: Final = ("braille", "block", "ascii")
+"""The sets of characters that a drawing can be made of."""
+THEMES: Final = ("dark", "light")
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """`recent` are absolute paths, the last used first; `characters`, `theme` and `folder` are empty until chosen."""
+
+    recent: tuple[str, ...] = ()
+    characters: str = ""
+    theme: str = ""
+    unit: Unit = Unit.IN
+    folder: str = ""
+
+    def using(self, file: Path) -> Settings:
+        """After a file was opened or saved; a name that no settings file can hold is not remembered."""
+        here = file.absolute()
+        name = str(here)
+        if not name.isprintable():
+            return self
+        others = tuple(each for each in self.recent if each != name)
+        return replace(self, recent=(name, *others)[:MAX_RECENT_FILES], folder=str(here.parent))
+
+
+def settings_file() -> Path:
+    """The file of this person's settings."""
+    from platformdirs import user_config_path
+
+    return user_config_path("cutcomp", appauthor=False) / "settings.toml"
+
+
+def parsed(text: str) -> Settings:
+    """Settings from a file's text; what is of no use in it is passed over.  ValueError when it is no TOML."""
+    held = tomllib.loads(text)
+    recent, unit = held.get("recent"), held.get("unit")
+    # older files name the characters `mode`
+    characters = held.get("characters", held.get("mode"))
+    return Settings(
+        tuple(filter(_usable, recent))[:MAX_RECENT_FILES] if isinstance(recent, list) else (),
+        characters if characters in CHARACTERS else "",
+        held["theme"] if held.get("theme") in THEMES else "",
+        Unit(unit) if unit in tuple(Unit) else Unit.IN,
+        held["folder"] if _usable(held.get("folder")) else "",
+    )
+
+
+def _usable(name: object) -> bool:
+    """A path as `Settings.using` writes it."""
+    return isinstance(name, str) and name.isprintable() and Path(name).is_absolute()
+
+
+def written(settings: Settings) -> str:
+    """The text of a settings file."""
+    recent = "".join(f"  {_quoted(name)},\n" for name in settings.recent)
+    lines = (
+        "# cutcomp writes this file anew; what else is put into it is lost",
+        f"unit = {_quoted(settings.unit)}",
+        f"characters = {_quoted(settings.characters)}",
+        f"theme = {_quoted(settings.theme)}",
+        f"folder = {_quoted(settings.folder)}",
+        f"recent = [\n{recent}]",
+    )
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(str(text), ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def load_settings(path: Path) -> tuple[Settings, str]:
+    """The settings in a file, and the sentence that says why they are the usual ones, empty if they are not."""
+    try:
+        with path.open("rb") as file:
+            return parsed(file.read(LARGEST_FILE).decode()), ""
+    except FileNotFoundError:
+        return Settings(), ""
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else "it is no settings file"
+        return Settings(), f"Your settings in {path} cannot be read: {why}. The usual ones hold."
+
+
+@dataclass(slots=True)
+class SettingsFile:
+    """Writes settings when they change; `path` None keeps them for this time only."""
+
+    path: Path | None = None
+    held: Settings = field(default_factory=Settings)
+    failed: bool = False
+
+    def keep(self, settings: Settings) -> str:
+        """Put changed settings on the disk; the sentence that says why they are not kept, once."""
+        if settings == self.held:
+            return ""
+        self.held = settings
+        if self.path is None or self.failed:
+            return ""
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            write_text(self.path, written(settings))
+        except (OSError, StoreError) as error:
+            self.failed = True
+            return f"Settings are not kept: {error}"
+        return ""

@@ -1,0 +1,150 @@
+"""Survey: what the list of files tells of a program file: its date, blocks, tools and verdict."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from datetime import datetime
+from enum import StrEnum
+from pathlib import Path
+from typing import Final
+
+from app.documents.files import load
+from app.documents.patience import FILE, FOLDER, within
+from app.documents.programs import examples, is_program
+from core.finding import Severity
+from core.pipeline.derived import Derived, DerivedBlock
+from core.program.file.read import StoreError
+from core.program.model import Number, Program
+
+MAX_LISTED: Final = 500
+"""Files of a folder that are listed; more are reached by typing a path."""
+
+
+class Outcome(StrEnum):
+    """The verdict on a file in one word, the gravest first."""
+
+    GOUGE = "gouge"
+    NOT_READY = "not ready"
+    UNREADABLE = "unreadable"
+    WARNING = "warning"
+    UNCUT = "uncut"
+    CLEAN = "clean"
+    EMPTY = "empty"
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """One file.  `stamp` is its time and size: while it stays, so does what is known.  `trouble` is a sentence."""
+
+    path: Path
+    stamp: tuple[int, int] = (0, 0)
+    changed: datetime | None = None
+    blocks: str = ""
+    tools: str = ""
+    outcome: Outcome | None = None
+    trouble: str = ""
+
+
+def facts_of(path: Path, known: Facts | None = None) -> Facts:
+    """The facts of a file, from the disk; for a worker, since it derives the whole program."""
+    try:
+        facts, program = within(FILE, lambda: _read(path, known))
+    except TimeoutError as error:
+        return Facts(path, outcome=Outcome.UNREADABLE, trouble=f"{path.name}: {error}.")
+    return facts if program is None else _judged(facts, program)
+
+
+def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
+    """What the disk tells, and the program where it has to be judged."""
+    try:
+        status = path.stat()
+    except (OSError, ValueError):
+        text = "This file is not there any more, or its folder cannot be read."
+        return Facts(path, outcome=Outcome.UNREADABLE, trouble=text), None
+    stamp = (status.st_mtime_ns, status.st_size)
+    if known is not None and known.stamp == stamp:
+        return known, None
+    facts = Facts(path, stamp, datetime.fromtimestamp(status.st_mtime).astimezone())
+    try:
+        return facts, load(path)
+    except StoreError as error:
+        return replace(facts, outcome=Outcome.UNREADABLE, trouble=str(error)), None
+
+
+def _judged(facts: Facts, program: Program) -> Facts:
+    # numpy and shapely are not needed by the first paint
+    from core.pipeline.derive import derive
+
+    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest(derive(program)))
+
+
+def gravest(derived: Derived) -> Outcome:
+    """The gravest outcome of a program's blocks."""
+    order = list(Outcome)
+    return min((outcome_of(block) for block in derived.blocks), key=order.index, default=Outcome.EMPTY)
+
+
+def outcome_of(block: DerivedBlock) -> Outcome:
+    """The verdict on a block in one word."""
+    if block.errors:
+        gouges = any(finding.code.endswith(("GOUGE", "GOUGES", "WRONG_SIDE")) for finding in block.errors)
+        return Outcome.GOUGE if gouges else Outcome.NOT_READY
+    if any(finding.severity is Severity.WARNING for finding in block.findings):
+        return Outcome.WARNING
+    verdict = None if block.paths is None else block.paths.verdict
+    return Outcome.UNCUT if verdict is not None and verdict.uncut else Outcome.CLEAN
+
+
+def _tools(program: Program) -> str:
+    """The tools the blocks call, in order."""
+    typed = [value for block in program.blocks for value in (block.tool, block.finish_tool)]
+    called = {value.value for value in typed if isinstance(value, Number) and value.value > 0.0}
+    return " ".join(f"{number:g}" for number in sorted(called))
+
+
+def day_of(changed: datetime, now: datetime) -> str:
+    """A file's time in a few cells: the hour of today, the weekday of this week, else the date."""
+    age = (now.date() - changed.date()).days
+    if age <= 0:
+        return f"{changed:%H:%M} today"
+    day = f"{changed.day} {changed:%b}"
+    if age < 7:
+        return f"{changed:%a} {day}"
+    return day if changed.year == now.year else f"{day} {changed.year}"
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A line of the list of files: a program, a folder to go to, or an example."""
+
+    path: Path
+    name: str
+    folder: bool = False
+    example: bool = False
+
+
+def programs_of(folder: Path) -> tuple[Listed, ...]:
+    """The programs of a folder, the examples, the folders; OSError when it cannot be read."""
+    inside = within(FOLDER, lambda: tuple(_inside(folder)))
+    programs = (each for each in inside if not each.folder)
+    return (*programs, *example_programs(), *(each for each in inside if each.folder))
+
+
+def example_programs() -> Iterator[Listed]:
+    """The example parts."""
+    for path in sorted(examples().glob("*.toml")):
+        yield Listed(path, path.stem, example=True)
+
+
+def _inside(folder: Path) -> Iterator[Listed]:
+    with os.scandir(folder) as found:
+        inside = sorted(found, key=lambda each: each.name.lower())
+    programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
+    folders = [each for each in inside if not each.name.startswith(".") and each.is_dir()]
+    for each in programs[:MAX_LISTED]:
+        if is_program(Path(each.path)):
+            yield Listed(Path(each.path), each.name.removesuffix(".toml"))
+    for each in folders[:MAX_LISTED]:
+        yield Listed(Path(each.path), f"{each.name}/", folder=True)

@@ -1,0 +1,74 @@
+"""EntryScreen: a screen on which one name is typed, such as that of a file, and Enter does something with it."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.widgets import Input, Label
+
+from app.screens.base import BaseScreen
+from app.session.messages import Tone
+
+
+class EntryScreen(BaseScreen):
+    """A title, one line to type in, and below it what belongs to it.
+
+    The name is selected on entry: a character replaces it.
+    """
+
+    AUTO_FOCUS: ClassVar[str | None] = "#entry"
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
+    TITLE: ClassVar[str] = ""
+    LABEL: ClassVar[str] = "FILE"
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__()
+        self._text = text
+
+    def compose_body(self) -> ComposeResult:
+        """Title, entry, the rest."""
+        with Vertical(id="entry-form", classes="panel"):
+            with Horizontal(classes="head"):
+                yield Label(self.TITLE, classes="head-title")
+            with Horizontal(id="entry-line", classes="field"):
+                yield Label(self.LABEL, classes="label")
+                yield Input(self._text, id="entry", compact=True, select_on_focus=True)
+            yield from self.compose_rest()
+
+    def compose_rest(self) -> ComposeResult:
+        """What stands below the line."""
+        yield from ()
+
+    @property
+    def text(self) -> str:
+        """The name as it is typed."""
+        return self.query_exactly_one("#entry", Input).value.strip()
+
+    @text.setter
+    def text(self, text: str) -> None:
+        self.query_exactly_one("#entry", Input).value = text
+
+    def entered(self, text: str) -> None:
+        """Do something with the name."""
+        raise NotImplementedError
+
+    @on(Input.Changed, "#entry")
+    def _typing(self) -> None:
+        self.quiet()
+
+    @on(Input.Submitted, "#entry")
+    def _submitted(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.action_enter()
+
+    def action_enter(self) -> None:
+        """Take the name."""
+        if not self.text:
+            self.say("Type a name.", Tone.ERROR)
+            return
+        self.quiet()
+        self.entered(self.text)

@@ -1,0 +1,219 @@
+"""HOME: the programs of a folder and the example parts, each with its verdict; a new program, a path, the guide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar, Final
+
+from textual import events, on, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical
+from textual.content import Content
+from textual.message import Message
+from textual.widgets import DataTable, Static
+from textual.worker import get_current_worker
+
+from app.documents.files import load
+from app.documents.survey import Facts, Listed, day_of, example_programs, facts_of, programs_of
+from app.screens.base import BaseScreen
+from app.session.messages import Sentence, Tone
+from app.session.session import Session
+from app.session.words import length
+from app.widgets.drawing import Drawing
+from app.widgets.softkeys import Softkey
+from app.widgets.verdict import MARKS, verdict_word
+from core.program.file.read import StoreError
+
+COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
+PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
+
+
+@dataclass
+class Surveyed(Message):
+    """A worker has looked at a file."""
+
+    facts: Facts
+
+
+class HomeScreen(BaseScreen):
+    """The list of files; the program with the cursor is drawn."""
+
+    AUTO_FOCUS: ClassVar[str | None] = "#programs"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("left,backspace", "folder_above", "Folder above", show=False),
+        Binding("escape", "app.back", "Back", show=False),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("OPEN", "open", "OPEN", lambda screen: screen.chosen is not None, "The list is empty."),
+        Softkey("NEW INCH", "app.new('IN')", "INCH"),
+        Softkey("NEW MM", "app.new('MM')", "MM"),
+        Softkey("OPEN A PATH", "app.open_path", "PATH"),
+        Softkey("FOLDER ABOVE", "folder_above", "ABOVE"),
+        Softkey("NC PROOF", "app.nc_proof", "PROOF"),
+        Softkey("GUIDED FIRST PART", "app.guide", "GUIDE"),
+        Softkey("QUIT", "app.quit", "QUIT"),
+    )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("?", "KEYS, HELP"),)
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__()
+        self.folder = folder
+        self.listed: tuple[Listed, ...] = ()
+        self.facts: dict[Path, Facts] = {}
+        self.trouble = ""
+
+    def compose_body(self) -> ComposeResult:
+        """The folder, its programs, the drawing of the one with the cursor."""
+        with Vertical(id="files", classes="panel"):
+            yield Static(id="folder", classes="head")
+            yield DataTable(id="programs", cursor_type="row")
+        yield Drawing(id="preview")
+
+    def on_mount(self) -> None:
+        """The columns and the files."""
+        table = self.query_exactly_one("#programs", DataTable)
+        for label, width in COLUMNS:
+            table.add_column(label, width=width, key=label)
+        super().on_mount()
+        self.show_folder(self.folder)
+
+    def on_screen_resume(self) -> None:
+        """Files may have changed while another screen was in front."""
+        super().on_screen_resume()
+        if self.is_mounted and self.listed:
+            self._survey(tuple(each.path for each in self.listed if not each.folder), dict(self.facts))
+
+    def show_session(self, session: Session) -> None:
+        """Nothing of the session stands here."""
+
+    # ---- the list
+
+    def show_folder(self, folder: Path, *, at: Path | None = None) -> None:
+        """The programs of a folder, the cursor on the file or folder `at`; trouble is told and the examples stay."""
+        try:
+            self.listed, self.trouble = programs_of(folder), ""
+        except OSError as error:
+            self.trouble = f"{folder} cannot be shown: {error.strerror or error}."
+            self.listed = tuple(example_programs())
+        self.folder = folder
+        count = sum(not (each.folder or each.example) for each in self.listed)
+        words = f"{count} program{'s' if count != 1 else ''}"
+        self.query_exactly_one("#folder", Static).update(
+            Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {words}")
+        )
+        table = self.query_exactly_one("#programs", DataTable)
+        table.clear()
+        for each in self.listed:
+            table.add_row(*self._cells(each), key=str(each.path))
+        rows = [row for row, each in enumerate(self.listed) if each.path == at]
+        table.move_cursor(row=rows[0] if rows else 0)
+        self._survey(tuple(each.path for each in self.listed if not each.folder), dict(self.facts))
+        self.refresh_frame()
+
+    def _cells(self, each: Listed) -> Sequence[Content]:
+        name = Content.styled(each.name, "" if each.example else "bold")
+        if each.folder:
+            return name, *(Content(""),) * 4
+        facts = self.facts.get(each.path, Facts(each.path))
+        day = "example" if each.example else "" if facts.changed is None else day_of(facts.changed, self.host.now())
+        verdict = Content("...") if facts.outcome is None else verdict_word(facts.outcome, MARKS[self.host.characters])
+        return name, Content(day), Content(f"{facts.blocks:>3}"), Content(facts.tools), verdict
+
+    @work(thread=True, exclusive=True, group="survey")
+    def _survey(self, paths: tuple[Path, ...], known: dict[Path, Facts]) -> None:
+        """Look at the files one after the other."""
+        worker = get_current_worker()
+        for path in paths:
+            if worker.is_cancelled:
+                return
+            self.post_message(Surveyed(facts_of(path, known.get(path))))
+
+    @on(Surveyed)
+    def _surveyed(self, event: Surveyed) -> None:
+        event.stop()
+        if self.facts.get(event.facts.path) == event.facts:
+            return
+        self.facts[event.facts.path] = event.facts
+        table = self.query_exactly_one("#programs", DataTable)
+        each = next((each for each in self.listed if each.path == event.facts.path), None)
+        if each is not None:
+            for (label, _), cell in zip(COLUMNS, self._cells(each), strict=True):
+                table.update_cell(str(each.path), label, cell)
+            self.refresh_frame()
+
+    @property
+    def chosen(self) -> Listed | None:
+        """The line with the cursor."""
+        row = self.query_exactly_one("#programs", DataTable).cursor_row
+        return self.listed[row] if row < len(self.listed) else None
+
+    @on(DataTable.RowHighlighted)
+    def _highlighted(self) -> None:
+        each = self.chosen
+        if each is not None and not each.folder:
+            self._preview(each.path, each.name)
+        self.refresh_frame()
+
+    @work(thread=True, exclusive=True, group="preview")
+    def _preview(self, path: Path, name: str) -> None:
+        """Draw the first block of the program with the cursor."""
+        # numpy and shapely are not needed by the first paint
+        from core.pipeline.derive import derive
+        from core.pipeline.plot import Subject
+
+        try:
+            derived = derive(load(path))
+        except StoreError:
+            self.app.call_from_thread(self._show_preview, name, None)
+            return
+        block, unit = derived.block(1), derived.program.unit
+        tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
+        heading = f"{name}  {len(block.block.segments)} segments{tool}"
+        self.app.call_from_thread(self._show_preview, heading, Subject(block, unit))
+
+    def _show_preview(self, heading: str, subject: object) -> None:
+        drawing = self.query_exactly_one("#preview", Drawing)
+        drawing.heading, drawing.subject = heading, subject  # type: ignore[assignment]  # Subject is imported late
+
+    # ---- keys
+
+    @on(DataTable.RowSelected)
+    def _selected(self, event: DataTable.RowSelected) -> None:
+        event.stop()
+        self.action_open()
+
+    def action_open(self) -> None:
+        """Open the program with the cursor, or go into the folder."""
+        each = self.chosen
+        if each is None:
+            return
+        if each.folder:
+            self.show_folder(each.path)
+        else:
+            self.host.open_file(each.path)
+
+    def action_folder_above(self) -> None:
+        """The folder that holds this one, with the cursor on it."""
+        self.show_folder(self.folder.parent, at=self.folder)
+
+    def on_key(self, event: events.Key) -> None:
+        """A letter goes to the next name that begins with it."""
+        letter = (event.character or "").lower()
+        if not letter.isalnum() or not self.listed:
+            return
+        table = self.query_exactly_one("#programs", DataTable)
+        order = [(table.cursor_row + 1 + step) % len(self.listed) for step in range(len(self.listed))]
+        row = next((row for row in order if self.listed[row].name.lower().startswith(letter)), None)
+        if row is not None:
+            event.stop()
+            table.move_cursor(row=row)
+
+    def prompt_text(self) -> Sentence:
+        """What is wrong with the file under the cursor, else what the keys do."""
+        each = self.chosen
+        facts = None if each is None else self.facts.get(each.path)
+        trouble = self.trouble or ("" if facts is None else facts.trouble)
+        return Sentence(trouble, Tone.WARNING) if trouble else Sentence(PROMPT)

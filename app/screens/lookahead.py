@@ -1,0 +1,156 @@
+"""LOOKAHEAD TABLE: what every value from 1 to 20 does to the path; one of them is drawn, one can be taken."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical
+from textual.content import Content
+from textual.widgets import DataTable, Static
+
+from app.screens.base import BaseScreen
+from app.session.messages import Sentence
+from app.session.session import Session
+from app.session.words import length, segment_numbers
+from app.widgets.drawing import Drawing
+from app.widgets.softkeys import Softkey
+from app.widgets.verdict import MARKS, Marks
+from core.program.edit import FormPlace, recalculate_lookahead, type_field
+from core.program.model import Number
+
+if TYPE_CHECKING:
+    from core.advice.lookahead_table import Row, Table
+
+COLUMNS = (("VALUE", 6), ("GOUGE", 10), ("UNCUT", 10), ("DELETES", 12), ("", 13))
+WAITING = "The table is being calculated."
+NO_TABLE = "There is no path to compare yet: type START and the first segments."
+
+
+class LookaheadScreen(BaseScreen):
+    """The table; the row with the cursor is drawn."""
+
+    AUTO_FOCUS: ClassVar[str | None] = "#values"
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("TAKE AS USR", "take", "TAKE", lambda screen: screen.row is not None, NO_TABLE),
+        None,
+        Softkey("RECALCULATE LOOKAHEAD", "recalculate", "RECALC"),
+        None,
+        None,
+        None,
+        Softkey("DRAW", "app.draw", "DRAW"),
+        Softkey("BACK to START", "app.back", "BACK"),
+    )
+
+    def compose_body(self) -> ComposeResult:
+        """A title, the table, the drawing of the chosen value."""
+        with Vertical(id="lookahead", classes="panel"):
+            yield Static(id="lookahead-title", classes="head")
+            yield DataTable(id="values", cursor_type="row")
+        yield Drawing(id="value-path")
+
+    def on_mount(self) -> None:
+        """The columns."""
+        values = self.query_exactly_one("#values", DataTable)
+        for label, width in COLUMNS:
+            values.add_column(label, width=width)
+        super().on_mount()
+
+    def show_session(self, session: Session) -> None:
+        """A row a value; the cursor begins on the value that is advised, else on the one in force."""
+        table, values = session.lookahead_table, self.query_exactly_one("#values", DataTable)
+        block = session.derived_block
+        title = f"BLOCK {block.number}  LOOKAHEAD TABLE   {block.lookahead.tag} {block.lookahead.value} in force"
+        self.query_exactly_one("#lookahead-title", Static).update(title, layout=False)
+        at = values.cursor_row if values.row_count else None
+        values.clear()
+        if table is None:
+            self._draw(None)
+            return
+        marks = MARKS[self.host.characters]
+        for row in table.rows:
+            values.add_row(*_cells(row, table, session, marks))
+        if at is None:
+            at = (table.recommended or block.lookahead.value) - 1
+        values.move_cursor(row=at)
+        self._draw(table.rows[at])
+
+    @property
+    def row(self) -> Row | None:
+        """The value with the cursor and what it does."""
+        table = self.current_session.lookahead_table
+        return None if table is None else table.rows[self.query_exactly_one("#values", DataTable).cursor_row]
+
+    @on(DataTable.RowHighlighted)
+    def _highlighted(self) -> None:
+        self._draw(self.row)
+        self.refresh_frame()
+
+    def _draw(self, row: Row | None) -> None:
+        # shapely and numpy are not needed by the first paint
+        from core.pipeline.plot import Subject
+
+        drawing, session = self.query_exactly_one(Drawing), self.current_session
+        if row is None:
+            drawing.subject = None
+            return
+        drawing.heading = f"LOOK-AHEAD {row.value}"
+        near = None if self.has_class("-tall") else _trouble(row)
+        drawing.subject = Subject(session.derived_block, session.program.unit, row=row, near=near)
+
+    @on(DataTable.RowSelected)
+    def _selected(self) -> None:
+        self.action_take()
+
+    def action_take(self) -> None:
+        """The value with the cursor becomes CUTCOMP LOOKAHEAD, typed."""
+        row, session = self.row, self.current_session
+        if row is None:
+            self.say(WAITING if session.derived_block.paths is not None else NO_TABLE)
+            return
+        place = FormPlace(session.place.block, 0)
+        edited = type_field(session.program, place, "lookahead", Number(float(row.value)))
+        if self.host.apply(edited, f"CUTCOMP LOOKAHEAD {row.value}, block {place.block}"):
+            self.host.move(place, "lookahead")
+            self.app.call_later(self.app.run_action, "app.back")
+
+    def action_recalculate(self) -> None:
+        """The calculated look-ahead comes back."""
+        number = self.current_session.place.block
+        edited = recalculate_lookahead(self.current_session.program, number)
+        self.host.apply(edited, f"RECALCULATE LOOKAHEAD, block {number}")
+
+    def prompt_text(self) -> Sentence:
+        """What the keys do."""
+        if self.current_session.lookahead_table is None:
+            return Sentence(WAITING if self.current_session.derived_block.paths is not None else NO_TABLE)
+        return Sentence("Up and down show what a value does. Enter takes it as USR.")
+
+
+def _cells(row: Row, table: Table, session: Session, marks: Marks) -> tuple[Content, ...]:
+    unit, lookahead = session.program.unit, session.derived_block.lookahead
+    gouge = Content.styled(f"{marks.good} none", "$c-good")
+    if not row.clean:
+        depth = length(row.gouge, unit) if row.gouge else "wrong side"
+        gouge = Content.styled(f"{marks.gouge} {depth}", "bold $c-gouge")
+    notes = []
+    if row.value == table.recommended:
+        notes.append("best")
+    if row.value == lookahead.calculated:
+        notes.append("CAL")
+    if row.value == lookahead.value:
+        notes.append("in force")
+    deleted = Content.styled(segment_numbers(row.deleted), "$c-deleted")
+    left = length(row.uncut, unit) if row.verdict.uncut else "none"
+    return Content(f"{row.value:>5}"), gouge, Content(f"{left:>9}"), deleted, Content(" ".join(notes))
+
+
+def _trouble(row: Row) -> tuple[float, float] | None:
+    """The place of a value's deepest gouge, else of the thickest stock that it leaves."""
+    if row.verdict.gouges:
+        return row.verdict.gouges[0].surface_at
+    left = list(row.verdict.uncut)
+    return max(left, key=lambda stretch: stretch.thickness).thickest if left else None

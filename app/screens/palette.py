@@ -1,0 +1,100 @@
+"""Palette: every action by its name; a digit as the first key presses that softkey."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, ClassVar, Final
+
+from textual import on
+from textual.binding import Binding, BindingType
+from textual.command import CommandPalette, DiscoveryHit, Hit, Hits, Provider
+from textual.widgets import Input
+
+from app.screens.base import BaseScreen
+
+ACTIONS: Final = (
+    ("SAVE", "app.save", "Ctrl+S"),
+    ("SAVE AS", "app.save_as", "under another name"),
+    ("OPEN", "app.home", "Ctrl+O: the programs of a folder, the examples"),
+    ("OPEN A PATH", "app.open_path", "type the name of a file"),
+    ("NEW INCH", "app.new('IN')", "a new program in inches"),
+    ("NEW MM", "app.new('MM')", "a new program in millimeters"),
+    ("POST", "app.post", "write the NC file"),
+    ("SETUP SHEET", "app.sheet", "the sheet that goes to the machine"),
+    ("DRAW", "app.draw", "F7: the drawing, finding by finding"),
+    ("LOOKAHEAD TABLE", "app.lookahead", "what every value from 1 to 20 does"),
+    ("MILL CONTOUR", "app.contour", "the form of the block"),
+    ("PROGRAM", "app.program", "the list of blocks"),
+    ("PROGRAM PARAMETERS", "app.parameters", "blends, allowances, clearances, units"),
+    ("PART SETUP", "app.part_setup", "part name, work offset, safe height"),
+    ("TOOL SETUP", "app.tools", "the tool table"),
+    ("IMPORT TOOL TABLE", "app.import_tools", "tools from a LinuxCNC tool table"),
+    ("NC PROOF", "app.nc_proof", "what a control does with an NC program"),
+    ("GUIDED FIRST PART", "app.guide", "a first part, step by step"),
+    ("UNDO", "app.undo", "Ctrl+Z"),
+    ("REDO", "app.redo", "Ctrl+Y"),
+    ("CHARACTERS", "app.next_characters", "braille, half blocks or ASCII"),
+    ("LIGHT / DARK", "app.light_or_dark", "the other colors"),
+    ("KEYS, HELP", "app.help", "? or Ctrl+G"),
+    ("QUIT", "app.quit", "Ctrl+Q"),
+)
+"""Name, action and hint of what can be done on every screen; an action that does not exist is not listed."""
+GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
+
+
+class Actions(Provider):
+    """The softkeys of the screen, its own actions, and what can be done everywhere."""
+
+    def _actions(self) -> Iterator[tuple[str, str, str]]:
+        screen = self.screen
+        if isinstance(screen, BaseScreen):
+            for number, key in enumerate(screen.SOFTKEYS, 1):
+                if key is not None and screen.key_acts(key):
+                    yield key.label, f"screen.softkey({number})", f"F{number}"
+            yield from screen.palette_actions()
+        for name, action, hint in ACTIONS:
+            if hasattr(self.app, f"action_{action.removeprefix('app.').partition('(')[0]}"):
+                yield name, action, hint
+
+    def _unique(self) -> list[tuple[str, str, str]]:
+        named: dict[str, tuple[str, str, str]] = {}
+        for action in self._actions():
+            named.setdefault(action[0], action)
+        return list(named.values())
+
+    async def discover(self) -> Hits:
+        """All of them, before anything is typed."""
+        for name, action, hint in self._unique():
+            yield DiscoveryHit(name, partial(self.screen.run_action, action), help=hint)
+
+    async def search(self, query: str) -> Hits:
+        """Those that match; a number goes to that segment."""
+        matcher = self.matcher(query)
+        for name, action, hint in self._unique():
+            if (score := matcher.match(name)) > 0:
+                yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
+        number = GO_TO_SEGMENT.fullmatch(query)
+        if number is not None:
+            run = partial(self.app.run_action, f"app.segment({number[1]})")
+            yield Hit(1.0, f"GO TO SEGMENT {number[1]}", run)
+
+
+class Palette(CommandPalette):
+    """The command palette; a digit from 1 to 8 as the first key presses the softkey of the screen below."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+k,f8", "app.back", "Close", show=False)]
+
+    def on_mount(self) -> None:
+        """Listen to the first key of the line."""
+        self.query_one(Input).select_on_focus = False
+
+    @on(Input.Changed)
+    async def _first_digit(self, event: Input.Changed) -> None:
+        """A digit alone presses a softkey."""
+        if event.value in tuple("12345678"):
+            event.stop()
+            app: Any = self.app
+            app.pop_screen()
+            await app.run_action(f"screen.softkey({event.value})")

@@ -1,0 +1,162 @@
+"""PROGRAM PARAMETERS: unit, blends, finish allowances, PROFILE passes, clearances, and the path that is posted."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Final
+
+from textual import work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.widgets import Label
+
+from app.screens.dialogs import Answer, Question
+from app.screens.form_screen import FormScreen
+from app.screens.values import cell_of
+from app.session.messages import Sentence
+from app.session.session import Session
+from app.widgets.field import Cell, ChoiceField
+from app.widgets.form import Form
+from app.widgets.softkeys import Softkey
+from core.program.edit import Edited, set_parameter, set_path_choice, set_setup, set_unit
+from core.program.fields import PARAMETERS, SETUP, Field, default_value, read_typed
+from core.program.model import PathChoice
+from core.program.solve.solved import Origin, Solved, Value
+from core.units import Kind, Unit, show
+
+UNITS: Final = Field(
+    "unit",
+    "UNITS",
+    Kind.CHOICE,
+    "Unit of the program. Another one converts every typed length and feed.",
+    choices=tuple(unit.value for unit in Unit),
+)
+ROWS: Final = 5
+"""Fields in a column."""
+
+
+class SettingsForm(FormScreen):
+    """A screen with one form of fields that belong to the whole program; a blank shows the usual value, tagged DEF."""
+
+    NAME: ClassVar[str] = ""
+    FIELDS: ClassVar[tuple[Field, ...]] = ()
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "leave", "Back", show=False)]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        *(None,) * 6,
+        Softkey("DRAW", "app.draw", "DRAW"),
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def compose_body(self) -> ComposeResult:
+        """A title and the form."""
+        with Vertical(id="settings", classes="panel"):
+            with Horizontal(classes="head"):
+                yield Label(self.NAME, classes="head-title")
+            yield Form(self._cells(self.host.session), id="settings-form", classes="fields")
+
+    def on_mount(self) -> None:
+        """The cursor on the first field."""
+        super().on_mount()
+        self.focus_field(self.FIELDS[0].name)
+
+    def form(self) -> Form:
+        """The form."""
+        return self.query_exactly_one("#settings-form", Form)
+
+    def fields(self) -> tuple[Field, ...]:
+        """The fields."""
+        return self.FIELDS
+
+    def _cells(self, session: Session) -> tuple[Cell, ...]:
+        return tuple(self._cell(field, number // ROWS, session) for number, field in enumerate(self.FIELDS))
+
+    def _cell(self, field: Field, column: int, session: Session) -> Cell:
+        held, unit = self.held(session, field.name), session.program.unit
+        usual = default_value(field.name, unit)
+        value = Solved(usual, Origin.USUAL) if held is None and usual is not None else held
+        return cell_of(field, value, unit, column)
+
+    def held(self, session: Session, name: str) -> Value | str:
+        """What the program holds in a field."""
+        raise NotImplementedError
+
+    def value(self, name: str) -> Value | str:
+        """What the program holds in a field."""
+        return self.held(self.current_session, name)
+
+    def show_session(self, session: Session) -> None:
+        """The values as they are now."""
+        self.form().show(self._cells(session))
+
+    def prompt_text(self) -> Sentence:
+        """The prompt, with the usual value of a blank."""
+        sentence, field = super().prompt_text(), self.current_field
+        unit = self.current_session.program.unit
+        usual = None if field is None else default_value(field.name, unit)
+        if field is None or usual is None or sentence.text != field.prompt:
+            return sentence
+        return Sentence(f"{sentence.text} Blank: {show(usual, field.kind, unit)}.")
+
+    def action_leave(self) -> None:
+        """The old value back; at rest the screen before."""
+        if self.half_typed:
+            self.action_restore()
+        else:
+            self.app.call_later(self.app.run_action, "app.back")
+
+
+class ParametersScreen(SettingsForm):
+    """The parameters of the program; another unit is asked about first."""
+
+    NAME: ClassVar[str] = "PROGRAM PARAMETERS"
+    FIELDS: ClassVar[tuple[Field, ...]] = (UNITS, *PARAMETERS)
+
+    def held(self, session: Session, name: str) -> Value | str:
+        """The unit, the path, or a number."""
+        if name == "unit":
+            return str(session.program.unit)
+        value: Value = getattr(session.program.parameters, name)
+        return str(value) if name == "path" else value
+
+    def edited(self, field: Field, text: str) -> Edited:
+        """The program with this parameter."""
+        program = self.current_session.program
+        if field.name == "path":
+            return set_path_choice(program, PathChoice(text))
+        return set_parameter(program, field.name, read_typed(text, field, program.unit))
+
+    def pick(self, field: Field, text: str) -> None:
+        """PATH is taken at once; another unit converts the whole program and is asked about."""
+        if field is UNITS:
+            self._convert(Unit(text))
+        else:
+            super().pick(field, text)
+
+    @work(exclusive=True, group="question")
+    async def _convert(self, unit: Unit) -> None:
+        session = self.current_session
+        lines = [f"Convert every typed length and feed from {session.program.unit} to {unit}?"]
+        answer = await self.app.push_screen_wait(Question("UNITS", lines, [Answer("CONVERT")], "GO BACK"))
+        if answer == "CONVERT":
+            self.host.apply(set_unit(session.program, unit), f"UNITS {unit}")
+        elif isinstance(widget := self.widget(UNITS.name), ChoiceField):
+            widget.show(str(session.program.unit))
+
+
+class PartSetupScreen(SettingsForm):
+    """The part's name, the work offset and the safe height."""
+
+    NAME: ClassVar[str] = "PART SETUP"
+    FIELDS: ClassVar[tuple[Field, ...]] = SETUP
+
+    def held(self, session: Session, name: str) -> Value | str:
+        """A text or a number."""
+        value: Value | str = getattr(session.program.setup, name)
+        return value
+
+    def edited(self, field: Field, text: str) -> Edited:
+        """The program with this text or number."""
+        program = self.current_session.program
+        return set_setup(
+            program, field.name, text.strip() if field.kind is Kind.TEXT else read_typed(text, field, program.unit)
+        )

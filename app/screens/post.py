@@ -1,0 +1,197 @@
+"""POST NC: the name of the NC file, who compensates, what stands against posting, and the text's first lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, Final
+
+from textual import on, work
+from textual.app import ComposeResult
+from textual.containers import Horizontal
+from textual.content import Content
+from textual.message import Message
+from textual.widgets import OptionList, Static
+from textual.widgets.option_list import Option
+
+from app.documents.naming import typed, with_suffix
+from app.screens.dialogs import Answer, Phrase, Question
+from app.screens.entry_screen import EntryScreen
+from app.session.messages import Sentence, Tone
+from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
+from app.session.session import Session
+from app.widgets.softkeys import Softkey
+from app.widgets.verdict import MARKS
+from core.program.file.read import StoreError
+
+if TYPE_CHECKING:
+    from core.program.model import Program
+
+PREVIEW_LINES: Final = 40
+"""Lines of the NC text that are shown."""
+
+
+@dataclass
+class NcMade(Message):
+    """A worker has made the NC text of a program, for a choice of control, or found what stands against it."""
+
+    program: Program
+    choice: str
+    made: NcText
+
+
+class PostScreen(EntryScreen):
+    """The name, the list of controls, the findings and the head of the NC file."""
+
+    TITLE: ClassVar[str] = "POST NC"
+    LABEL: ClassVar[str] = "NC FILE"
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("POST", "enter", "POST"),
+        Softkey("CHOOSE CONTROL", "controls", "CONTROL"),
+        None,
+        None,
+        None,
+        None,
+        None,
+        Softkey("BACK to program", "app.back", "BACK"),
+    )
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
+        self.choice = CENTER_PATH
+        self.made: NcText | None = None
+
+    def compose_rest(self) -> ComposeResult:
+        """The controls, what stands against posting, the text."""
+        yield OptionList(
+            *(Option(Content.assemble(f"{name:<24}", (words, "$c-label")), id=name) for name, words in choices()),
+            id="post-controls",
+            compact=True,
+        )
+        with Horizontal(id="post-answer"):
+            yield Static(id="post-findings")
+            yield Static(id="post-preview")
+
+    def on_mount(self) -> None:
+        """The path of the tool's center is chosen."""
+        controls = self.query_exactly_one("#post-controls", OptionList)
+        controls.border_title = "CONTROL"
+        controls.highlighted = 0
+        self.query_exactly_one("#post-preview").border_title = "NC FILE"
+        super().on_mount()
+
+    def show_session(self, session: Session) -> None:
+        """The program has changed, or more of it is known: make the text anew."""
+        self._make(session.program)
+
+    @on(OptionList.OptionHighlighted, "#post-controls")
+    def _control_chosen(self, event: OptionList.OptionHighlighted) -> None:
+        event.stop()
+        if event.option_id is not None and event.option_id != self.choice:
+            self.choice = event.option_id
+            self._make(self.current_session.program)
+
+    @on(OptionList.OptionSelected, "#post-controls")
+    def _control_taken(self, event: OptionList.OptionSelected) -> None:
+        event.stop()
+        self.query_exactly_one("#entry").focus()
+
+    def action_controls(self) -> None:
+        """The cursor to the list of controls."""
+        self.query_exactly_one("#post-controls").focus()
+
+    def _make(self, program: Program) -> None:
+        self.made = None
+        self._show()
+        self._make_in_thread(program, self.choice)
+
+    @work(thread=True, exclusive=True, group="post")
+    def _make_in_thread(self, program: Program, choice: str) -> None:
+        self.post_message(NcMade(program, choice, nc_text(program, Path(self._text or "part").stem, choice)))
+
+    @on(NcMade)
+    def _nc_made(self, event: NcMade) -> None:
+        event.stop()
+        if event.program is self.current_session.program and event.choice == self.choice:
+            self.made = event.made
+            self._show()
+
+    def _show(self) -> None:
+        lines, preview = self._findings(), ""
+        if self.made is not None:
+            preview = "\n".join(self.made.text.splitlines()[:PREVIEW_LINES])
+        self.query_exactly_one("#post-findings", Static).update(Content("\n").join(lines))
+        self.query_exactly_one("#post-preview", Static).update(Content(preview))
+        self.refresh_frame()
+
+    def _findings(self) -> list[Content]:
+        """What stands against posting, else that it is ready and what is to be known with it."""
+        marks, session = MARKS[self.host.characters], self.current_session
+        if self.made is None:
+            return [Content.styled(" The NC text is being made.", "$c-label")]
+        against = [Content.styled(f" {marks.gouge} {text}", "$c-err") for text in self.made.against]
+        notes = [Content.styled(f" {marks.warning} {text}", "$c-warn") for text in self.made.notes]
+        ready = [] if against else [Content.styled(f" {marks.good} Ready to post.", "$c-good")]
+        left = [Content.styled(f" {marks.warning} {line}", "$c-uncut") for line in objections(session.derived)]
+        unsaved = [Content.styled(" The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
+        return [*against, *ready, *left, *notes, *unsaved]
+
+    def prompt_text(self) -> Sentence:
+        """What Enter does."""
+        if self.made is None or not self.made.against:
+            return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
+        count = len(self.made.against)
+        what = f"{count} finding{'s' if count > 1 else ''} must be mended" if not self.made.overridable else "a gouge"
+        how = "." if not self.made.overridable else " must be mended or overridden."
+        return Sentence(f"NC file name. {what.capitalize()}{how}", Tone.WARNING)
+
+    def entered(self, text: str) -> None:
+        """Write the NC file; asks before a file is replaced, and for the phrase that overrides a gouge."""
+        self._post(text)
+
+    @work(exclusive=True, group="posting")
+    async def _post(self, text: str) -> None:
+        if self.made is None:
+            self.say("The NC text is still being made: press Enter again.", Tone.WARNING)
+            return
+        path, override = with_suffix(typed(text), ".nc"), None
+        if self.made.against:
+            if not self.made.overridable:
+                self.say(f"NOT POSTED: {self.made.against[0]}", Tone.ERROR)
+                return
+            said = await self.app.push_screen_wait(
+                Phrase("NOT POSTED", [self.made.against[0], "Type POST ANYWAY to write it; the file says so."])
+            )
+            if said.strip().upper() not in OVERRIDE_PHRASES:
+                self.say("NOT POSTED.", Tone.WARNING)
+                return
+            override = said
+        await self._write(path, override)
+
+    async def _write(self, path: Path, override: str | None) -> None:
+        from app.documents.files import write_output
+        from app.documents.folders import chosen, outside, written_at
+
+        session = self.current_session
+        path = with_suffix(chosen(path, session.file), ".nc")
+        if outside(path, session.file):
+            asked = Question("WRITE OUTSIDE THE FOLDER?", [f"{path}"], [Answer("WRITE")], "GO BACK")
+            if await self.app.push_screen_wait(asked) != "WRITE":
+                return
+        elif path.exists():
+            asked = Question("REPLACE THE FILE?", [f"{path} exists."], [Answer("REPLACE")], "GO BACK")
+            if await self.app.push_screen_wait(asked) != "REPLACE":
+                return
+        # made again under the name that was typed; nothing stale is written
+        made = nc_text(session.program, path.stem, self.choice, override)
+        if made.against and override is None:
+            self.say(f"NOT POSTED: {made.against[0]}", Tone.ERROR)
+            return
+        try:
+            write_output(path, made.text)
+        except StoreError as error:
+            self.say(str(error), Tone.ERROR)
+            return
+        lines = made.text.count("\n")
+        self.notify(f"Posted: {written_at(path)}, {lines} lines.", timeout=5)
+        self.app.call_later(self.app.run_action, "app.back")

@@ -1,0 +1,292 @@
+"""TOOL SETUP: the tool table, a row a tool, and the blocks that use the tool with the cursor."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, ClassVar, Final
+
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.widgets import Label, Static
+
+from app.screens.form_screen import FormScreen
+from app.screens.values import cell_of
+from app.session.messages import Sentence, Tone
+from app.session.session import Session
+from app.widgets.field import Cell, ChoiceField, NumberField, State
+from app.widgets.softkeys import Softkey
+from core.program.edit import Edited, Refused, delete_tool, set_tool
+from core.program.fields import TOOL, Field, read_typed
+from core.program.model import Number, Program, Tool, Unread
+from core.program.solve.solved import Value
+from core.units import Kind
+
+AT: Final = "@"
+"""Between a field's name and the row of its tool in the name of a widget."""
+EMPTY: Final = "The tool table is empty. F2 adds a tool."
+
+
+class ToolRow(Horizontal):
+    """The fields of one tool."""
+
+    def __init__(self, cells: Sequence[Cell]) -> None:
+        super().__init__(classes="tool field")
+        self.cells = tuple(cells)
+
+    def compose(self) -> ComposeResult:
+        """A widget a field."""
+        for cell in self.cells:
+            widget = (
+                ChoiceField(cell.name, cell.choices, cell.text)
+                if cell.choices
+                else NumberField(cell.name, cell.text, cell.full)
+            )
+            widget.add_class(f"tool-{cell.name.partition(AT)[0]}", cell.state)
+            yield widget
+
+    def field(self, name: str) -> NumberField | ChoiceField | None:
+        """The widget of this name."""
+        return next((each for each in self.query(NumberField) if each.name == name), None) or next(
+            (each for each in self.query(ChoiceField) if each.name == name), None
+        )
+
+    def show(self, cells: Sequence[Cell]) -> None:
+        """Show these values."""
+        for before, cell in zip(self.cells, cells, strict=True):
+            widget = self.field(cell.name)
+            if widget is None or cell == before:
+                continue
+            if cell.state is not before.state:
+                widget.remove_class(before.state)
+                widget.add_class(cell.state)
+            if isinstance(widget, NumberField):
+                widget.show(cell.text, cell.full)
+            else:
+                widget.show(cell.text)
+        self.cells = tuple(cells)
+
+
+class ToolsScreen(FormScreen):
+    """The table; up and down go from tool to tool, Tab and Enter from field to field."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("up", "row(-1)", "Tool before", show=False),
+        Binding("down", "row(1)", "Next tool", show=False),
+        Binding("escape", "leave", "Back", show=False),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("DELETE TOOL", "delete_tool", "DELETE", lambda screen: screen.tool is not None, EMPTY),
+        Softkey("ADD TOOL", "add_tool", "ADD"),
+        Softkey("IMPORT TABLE", "app.import_tools", "IMPORT"),
+        None,
+        None,
+        None,
+        Softkey("DRAW", "app.draw", "DRAW"),
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def compose_body(self) -> ComposeResult:
+        """A title, the headings, the rows, and where the tool is used."""
+        with Vertical(id="tools", classes="panel"):
+            with Horizontal(classes="head"):
+                yield Label("TOOL SETUP", classes="head-title")
+            with Horizontal(id="tool-headings"):
+                for field in TOOL:
+                    yield Label(field.label.removeprefix("TOOL ") or field.label, classes=f"tool-{field.name}")
+            with VerticalScroll(id="tool-rows", can_focus=False):
+                yield from self._rows(self.host.session)
+                yield Static(EMPTY, id="no-tools")
+        yield Static(id="tool-use")
+
+    def _rows(self, session: Session) -> list[ToolRow]:
+        return [ToolRow(_cells(tool, row, session)) for row, tool in enumerate(session.program.tools)]
+
+    def on_mount(self) -> None:
+        """The cursor on the first tool."""
+        super().on_mount()
+        self._focus_row(0)
+
+    # ---- the table as a form
+
+    def fields(self) -> tuple[Field, ...]:
+        """The fields of every tool, each named after its row."""
+        rows = range(len(self.current_session.program.tools))
+        return tuple(replace(field, name=f"{field.name}{AT}{row}") for row in rows for field in TOOL)
+
+    def widget(self, name: str) -> NumberField | ChoiceField | None:
+        """The widget of a name."""
+        rows = self.query(ToolRow)
+        row = _row(name)
+        return rows[row].field(name) if row < len(rows) else None
+
+    def value(self, name: str) -> Value | str:
+        """What a tool has in a field."""
+        tools, row = self.current_session.program.tools, _row(name)
+        return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
+
+    def edited(self, field: Field, text: str) -> Edited:
+        """The program with this text in its tool table."""
+        program = self.current_session.program
+        return _typed(program, program.tools[_row(field.name)], field, text)
+
+    def label(self, field: Field) -> str:
+        """FIELD of a tool."""
+        return f"{field.label} of tool {self.current_session.program.tools[_row(field.name)].number}"
+
+    def show_session(self, session: Session) -> None:
+        """The rows as they are now; the cursor stays on its tool where another number has moved that."""
+        rows = list(self.query(ToolRow))
+        if len(rows) != len(session.program.tools):
+            self.call_next(self._rebuild)
+        else:
+            for row, (shown, tool) in enumerate(zip(rows, session.program.tools, strict=True)):
+                shown.show(_cells(tool, row, session))
+        self.query_exactly_one("#no-tools").display = not session.program.tools
+        self._show_use()
+
+    async def _rebuild(self) -> None:
+        """More tools, or fewer."""
+        row = self.row
+        table = self.query_exactly_one("#tool-rows")
+        await self.query(ToolRow).remove()
+        await table.mount_all(self._rows(self.current_session), before=0)
+        self._focus_row(min(row, len(self.current_session.program.tools) - 1))
+
+    # ---- the cursor
+
+    @property
+    def row(self) -> int:
+        """The row with the cursor."""
+        widget = self.current
+        return 0 if widget is None else _row(widget.name or "")
+
+    @property
+    def tool(self) -> Tool | None:
+        """The tool with the cursor."""
+        tools = self.current_session.program.tools
+        return tools[min(self.row, len(tools) - 1)] if tools else None
+
+    def _focus_row(self, row: int, name: str = TOOL[0].name) -> None:
+        if row >= 0:
+            self.focus_field(f"{name}{AT}{row}")
+        self._show_use()
+
+    def action_row(self, by: int) -> None:
+        """The same field of the tool before or after, round."""
+        self.quiet()
+        count = len(self.current_session.program.tools)
+        if not count or not self.take():
+            return
+        name = (self.current.name or "").partition(AT)[0] if self.current is not None else TOOL[0].name
+        self._focus_row((self.row + by) % count, name)
+
+    def action_accept(self) -> None:
+        """Take the field and go on; after the last one the cursor stays."""
+        if self.current is not None and self.current.name == self.names()[-1]:
+            self.quiet()
+            self.take()
+        else:
+            super().action_accept()
+
+    def refresh_frame(self) -> None:
+        """The blocks that use the tool with the cursor."""
+        super().refresh_frame()
+        self._show_use()
+
+    def _show_use(self) -> None:
+        tool, program = self.tool, self.current_session.program
+        text = "" if tool is None else _use(program, tool.number)
+        panel = self.query_exactly_one("#tool-use", Static)
+        if str(panel.content) != text:
+            panel.update(text, layout=False)
+
+    # ---- softkeys
+
+    def action_add_tool(self) -> None:
+        """A tool with the next free number, the cursor on its diameter."""
+        program = self.current_session.program
+        tool = _next(program)
+        if self.host.apply(set_tool(program, tool), f"ADD TOOL {tool.number}"):
+            row = [each.number for each in self.current_session.program.tools].index(tool.number)
+            self.call_later(self._focus_row, row, "diameter")
+
+    def action_delete_tool(self) -> None:
+        """Delete the tool with the cursor."""
+        tool = self.tool
+        if tool is not None and self.host.apply(
+            delete_tool(self.current_session.program, tool.number), f"DELETE TOOL {tool.number}"
+        ):
+            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
+
+    def action_leave(self) -> None:
+        """The old value back; at rest the screen before."""
+        if self.half_typed:
+            self.action_restore()
+        else:
+            self.app.call_later(self.app.run_action, "app.back")
+
+    def prompt_text(self) -> Sentence:
+        """What the field takes; of an empty table how to begin."""
+        return super().prompt_text() if self.current_session.program.tools else Sentence(EMPTY, Tone.WARNING)
+
+
+def _row(name: str) -> int:
+    return int(name.partition(AT)[2] or 0)
+
+
+def _cells(tool: Tool, row: int, session: Session) -> tuple[Cell, ...]:
+    cells = (cell_of(field, _value(tool, field.name), session.program.unit, 0) for field in TOOL)
+    return tuple(replace(cell, name=f"{cell.name}{AT}{row}", state=_calm(cell.state)) for cell in cells)
+
+
+def _calm(state: State) -> State:
+    """A tool's fields are typed or cannot be read; nothing is calculated here."""
+    return state if state is State.UNREAD else State.TYPED
+
+
+def _value(tool: Tool, name: str) -> Value | str:
+    if name == "number":
+        return Number(float(tool.number))
+    value: Value | str = getattr(tool, name)
+    return value
+
+
+def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
+    name = field.name.partition(AT)[0]
+    if name == "number":
+        return _renumbered(program, tool, read_typed(text, field, program.unit))
+    plain = field.kind in (Kind.TEXT, Kind.CHOICE)
+    value: Any = text.strip() if plain else read_typed(text, field, program.unit)
+    return set_tool(program, replace(tool, **{name: value}))
+
+
+def _renumbered(program: Program, tool: Tool, typed: Number | Unread | None) -> Edited:
+    ways = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
+    if not isinstance(typed, Number) or typed.value != int(typed.value):
+        return Refused(f"A tool needs a whole number from 1 to 9999. {ways}")
+    if any(other.number == typed.value for other in program.tools if other is not tool):
+        return Refused(f"Tool {typed.value:g} exists already. {ways}")
+    outcome = set_tool(program, replace(tool, number=int(typed.value)))
+    return outcome if isinstance(outcome, Refused) else delete_tool(outcome, tool.number)
+
+
+def _next(program: Program) -> Tool:
+    taken = {tool.number for tool in program.tools}
+    return Tool(next(number for number in range(1, len(taken) + 2) if number not in taken))
+
+
+def _use(program: Program, number: int) -> str:
+    """Which blocks call a tool."""
+
+    def called(value: object) -> bool:
+        return isinstance(value, Number) and value.value == number
+
+    roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
+    finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
+    lines = [f" TOOL {number}"]
+    lines.append(f" TOOL of block {', '.join(roughing)}" if roughing else " No block calls it.")
+    if finishing:
+        lines.append(f" FINISH TOOL of block {', '.join(finishing)}")
+    return "\n".join(lines)

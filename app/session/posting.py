@@ -1,0 +1,95 @@
+"""Posting: a program's NC text for a choice of control, with what stands against it in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+from app.session.words import length, segment_name, segment_numbers
+from core.finding import Finding
+from core.pipeline.derived import Derived, DerivedBlock
+from core.program.model import Program
+from core.units import Unit, sentence
+
+CENTER_PATH: Final = "center path"
+"""The choice without a control: the path of the tool's center, which no control has to compensate."""
+OVERRIDE_PHRASES: Final = ("POST ANYWAY", "POST WITH GOUGE")
+"""What the operator types to post a path that gouges."""
+
+
+@dataclass(frozen=True, slots=True)
+class NcText:
+    """An NC text, or what stands against it; `overridable` where a phrase of the operator's is enough."""
+
+    text: str = ""
+    against: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    overridable: bool = False
+
+
+def choices() -> tuple[tuple[str, str], ...]:
+    """Name and description of each choice: the center path, and every control that posts."""
+    from core.controls.registry import names
+
+    own = ((name, "the contour as typed; this control compensates it") for name in names())
+    return ((CENTER_PATH, "the tool's center path, without G41 or G42: any control"), *own)
+
+
+def nc_text(program: Program, name: str, choice: str, override: str | None = None) -> NcText:
+    """The NC text of a program; everything is derived anew, so nothing stale is posted.
+
+    `name` is that of the file, `override` a phrase the operator typed to post a path that gouges.
+    """
+    from core.output.nc import Posted
+    from core.output.objections import OVERRIDABLE, OVERRIDE
+    from core.pipeline.derive import derive
+    from core.pipeline.post import post_center_path, post_control_program
+
+    derived, unit = derive(program), program.unit
+    if choice == CENTER_PATH:
+        result = post_center_path(derived, name=name, override=OVERRIDE if override else None)
+    else:
+        result = post_control_program(derived, name=name, control=choice)
+    if isinstance(result, Posted):
+        return NcText(result.text, notes=tuple(_told(note, unit) for note in result.notes))
+    where = {id(finding): block.number for block in derived.blocks for finding in block.findings}
+    against = tuple(_told(finding, unit, where.get(id(finding))) for finding in result.findings)
+    overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
+    return NcText(against=against, overridable=overridable)
+
+
+def _told(finding: Finding, unit: Unit, block: int | None = None) -> str:
+    """A finding's sentence after its block and segment."""
+    places = [] if block is None else [f"block {block}"]
+    if finding.segment:
+        places.append(segment_name(finding.segment))
+    where = ", ".join(places)
+    return f"{where[:1].upper()}{where[1:]}: {sentence(finding, unit)}" if where else sentence(finding, unit)
+
+
+def objections(derived: Derived) -> Iterator[str]:
+    """A line on what is left uncut, one on what the look-ahead deletes, each with its blocks."""
+    unit = derived.program.unit
+    left = [f"block {number} {length(uncut, unit)}" for number, uncut in _uncut_lengths(derived)]
+    deleted = [(block.number, numbers) for block in derived.blocks if (numbers := deleted_segments(block))]
+    if left:
+        yield f"UNCUT {', '.join(left)}"
+    if deleted:
+        yield f"DELETED {', '.join(f'block {number} segments {numbers}' for number, numbers in deleted)}"
+
+
+def _uncut_lengths(derived: Derived) -> Iterator[tuple[int, float]]:
+    """Number and length (mm) of each block that leaves something uncut."""
+    for block in derived.blocks:
+        verdict = None if block.paths is None else block.paths.verdict
+        if verdict is not None and verdict.uncut:
+            yield block.number, verdict.uncut_length
+
+
+def deleted_segments(block: DerivedBlock) -> str:
+    """The numbers of the segments that the control's path deletes, where that is the path that is posted."""
+    paths = block.paths
+    if paths is None or paths.compensated is None or paths.best is not None:
+        return ""
+    return segment_numbers(paths.compensated.deleted.segments.tolist())

@@ -1,1 +1,0 @@
-"""Runs: LINEs and ARCs whose ends their own fields do not give, calculated together from what precedes and follows."""

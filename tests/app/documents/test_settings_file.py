@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.documents.settings import MAX_RECENT_FILES, Settings, SettingsFile, load_settings, parsed, written
+from core.units import Unit
+
+
+def test_settings_come_back_as_they_were_written(tmp_path):
+    settings = Settings((str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path))
+    assert parsed(written(settings)) == settings
+
+
+def test_the_last_used_file_comes_first_and_old_ones_are_forgotten(tmp_path):
+    settings = Settings()
+    for number in range(MAX_RECENT_FILES + 3):
+        settings = settings.using(tmp_path / f"{number}.toml")
+    settings = settings.using(tmp_path / "5.toml")
+    assert settings.recent[:2] == (str(tmp_path / "5.toml"), str(tmp_path / f"{MAX_RECENT_FILES + 2}.toml"))
+    assert len(settings.recent) == len(set(settings.recent)) == MAX_RECENT_FILES
+    assert settings.folder == str(tmp_path)
+
+
+def test_a_file_of_an_earlier_version_is_read():
+    assert parsed('unit = "MM"\nmode = "ascii"\n') == Settings(characters="ascii", unit=Unit.MM)
+
+
+@pytest.mark.parametrize(
+    "text", ['unit = "FURLONG"\n', "recent = 3\n", 'recent = ["not/absolute"]\n', 'theme = "pink"\n']
+)
+def test_what_is_of_no_use_is_passed_over(text):
+    assert parsed(text) == Settings()
+
+
+def test_settings_that_cannot_be_read_are_the_usual_ones_and_say_so(tmp_path):
+    (tmp_path / "settings.toml").write_bytes(b"\xff\xfe = [")
+    settings, sentence = load_settings(tmp_path / "settings.toml")
+    assert settings == Settings()
+    assert "cannot be read" in sentence
+    assert load_settings(tmp_path / "none.toml") == (Settings(), "")
+
+
+def test_only_changes_are_written_and_a_failure_is_told_once(tmp_path):
+    keeper = SettingsFile(tmp_path / "folder" / "settings.toml", Settings())
+    assert keeper.keep(Settings()) == ""
+    assert not (tmp_path / "folder").exists()
+    changed = replace(Settings(), unit=Unit.MM)
+    assert keeper.keep(changed) == ""
+    assert load_settings(tmp_path / "folder" / "settings.toml")[0] == changed
+    blocked = SettingsFile(Path("/proc/nowhere/settings.toml"), Settings())
+    assert "Settings are not kept" in blocked.keep(changed)
+    assert blocked.keep(Settings()) == ""

@@ -1,0 +1,186 @@
+"""The screens beside MILL CONTOUR: keys in, session and files out."""
+
+from __future__ import annotations
+
+import pytest
+from textual.widgets import DataTable, Static
+
+from app.documents.files import load
+from app.documents.programs import example
+from app.screens.draw import DrawScreen
+from app.screens.help import HelpScreen
+from app.screens.lookahead import LookaheadScreen
+from app.screens.post import PostScreen
+from app.screens.program import ProgramScreen
+from app.screens.tools import ToolsScreen
+from app.session.posting import nc_text
+from app.widgets.drawing import Drawing
+from core.program.model import Number
+from core.units import Unit
+from tests.app.widget_pilot import Operator, operator
+
+
+async def run(one: Operator, action: str) -> None:
+    await one.app.run_action(action)
+    await everything(one)
+
+
+async def everything(one: Operator) -> None:
+    """Wait for every worker, also those that draw and post."""
+    for _ in range(3):
+        await one.app.workers.wait_for_complete()
+        await one.pilot.pause()
+
+
+async def test_the_look_ahead_table_draws_the_row_with_the_cursor_and_enter_takes_it():
+    async with operator() as one:
+        await run(one, "app.lookahead")
+        assert isinstance(one.app.screen, LookaheadScreen)
+        table = one.screen.query_one(DataTable)
+        assert (table.row_count, table.cursor_row) == (20, 1)
+        await one.press("up")
+        await everything(one)
+        assert one.screen.query_one(Drawing).heading == "LOOK-AHEAD 1"
+        await one.press("enter")
+        assert one.session.block.lookahead == Number(1.0)
+        assert (one.value("lookahead"), one.tag("lookahead")) == ("1", "USR")
+
+
+async def test_draw_goes_from_finding_to_finding_and_back_to_the_form():
+    async with operator() as one:
+        await run(one, "app.draw")
+        screen = one.app.screen
+        assert isinstance(screen, DrawScreen)
+        whole = screen.drawing.drawn.view
+        await one.press("n")
+        await everything(one)
+        assert screen.drawing.drawn.view.scale < whole.scale
+        assert "1/3" in screen.drawing.heading
+        assert screen.entries[0].text == one.prompt
+        await one.press("n", "p")
+        assert "1/3" in screen.drawing.heading
+        await one.press("0")
+        await everything(one)
+        assert screen.drawing.drawn.view == whole
+        await one.press("f8")
+        assert one.at == "segment"
+
+
+async def test_another_unit_is_asked_about_and_converts_every_length():
+    async with operator() as one:
+        await run(one, "app.parameters")
+        await one.press("right", "c")
+        await everything(one)
+        assert one.session.program.unit is Unit.MM
+        assert one.session.block.x_start == Number(50.8)
+
+
+async def test_another_unit_that_is_not_wanted_changes_nothing():
+    async with operator() as one:
+        await run(one, "app.parameters")
+        await one.press("right", "escape")
+        await everything(one)
+        assert one.session.program.unit is Unit.IN
+        assert one.value("unit") == "IN"
+
+
+async def test_a_blank_parameter_shows_its_usual_value():
+    async with operator() as one:
+        await run(one, "app.parameters")
+        assert (one.value("pocket_overlap"), one.tag("pocket_overlap")) == ("50.0", "DEF")
+
+
+async def test_tools_are_added_typed_renumbered_and_deleted():
+    async with operator() as one:
+        await run(one, "app.tools")
+        assert isinstance(one.app.screen, ToolsScreen)
+        await one.press("f2")
+        await everything(one)
+        assert one.at == "diameter@1"
+        await one.press("'.25", "enter")
+        await everything(one)
+        assert [tool.number for tool in one.session.program.tools] == [1, 2]
+        assert one.session.program.tools[1].diameter == Number(0.25)
+        assert one.at == "diameter@1"
+        assert "No block calls it" in str(one.screen.query_one("#tool-use", Static).content)
+        await one.press("f1")
+        await everything(one)
+        assert [tool.number for tool in one.session.program.tools] == [1]
+
+
+async def test_a_number_that_another_tool_has_is_refused_and_stays_to_be_mended():
+    async with operator() as one:
+        await run(one, "app.tools")
+        await one.press("f2", "shift+tab", "shift+tab", "'1", "enter")
+        await everything(one)
+        assert "exists already" in one.prompt
+        assert [tool.number for tool in one.session.program.tools] == [1, 2]
+
+
+async def test_posting_writes_the_text_that_was_shown(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with operator() as one:
+        await run(one, "app.post")
+        screen = one.app.screen
+        assert isinstance(screen, PostScreen)
+        assert screen.made.against == ()
+        await one.press("enter")
+        await everything(one)
+        written = (tmp_path / "part.nc").read_text()
+        assert written == nc_text(one.session.program, "part", "center path").text
+        assert not isinstance(one.app.screen, PostScreen)
+
+
+async def test_a_gouge_is_posted_only_after_the_phrase_that_says_so(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with operator("notch") as one:
+        await run(one, "app.post")
+        await one.press("enter", "'post", "enter")
+        await everything(one)
+        assert not list(tmp_path.iterdir())
+        assert "NOT POSTED" in one.prompt
+        await one.press("enter", *"post", "space", *"anyway", "enter")
+        await everything(one)
+        assert "OVERRIDDEN" in (tmp_path / "part.nc").read_text()
+
+
+async def test_blocks_are_copied_moved_and_deleted_on_the_program_screen():
+    async with operator() as one:
+        await run(one, "app.program")
+        assert isinstance(one.app.screen, ProgramScreen)
+        await one.press("c")
+        assert len(one.session.program.blocks) == 2
+        assert one.session.place.block == 2
+        await one.press("ctrl+up")
+        assert one.session.place.block == 1
+        await one.press("f1", "ctrl+z")
+        assert len(one.session.program.blocks) == 2
+
+
+async def test_help_tells_of_the_field_with_the_cursor():
+    async with operator() as one:
+        await one.press("tab", "question_mark")
+        assert isinstance(one.app.screen, HelpScreen)
+        assert "TOOL" in str(one.app.screen.query_one("#help-text").query_one(Static).content)
+        await one.press("escape")
+        assert one.at == "tool"
+
+
+async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_name():
+    async with operator() as one:
+        await one.press("ctrl+k", "7")
+        assert isinstance(one.app.screen, DrawScreen)
+        await one.press("f8", "ctrl+k", *"lookahead", "space", *"table")
+        await everything(one)
+        await one.press("enter")
+        await everything(one)
+        assert isinstance(one.app.screen, LookaheadScreen)
+
+
+@pytest.mark.parametrize("size", [(60, 20), (80, 24), (100, 30), (132, 43), (200, 60)])
+@pytest.mark.parametrize("name", ["draw", "lookahead", "tools", "parameters", "part_setup", "post", "program"])
+async def test_every_screen_opens_at_every_size(name, size):
+    async with operator(size=size) as one:
+        await run(one, f"app.{name}")
+        assert load(example("pocket")) == one.session.program
+        assert one.screen.query("#softkeys")
