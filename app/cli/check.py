@@ -11,14 +11,23 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import active_children, get_context
 from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable
-from app.cli.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
+from app.cli.control_options import (
+    FolderLibrary,
+    Unusable,
+    add_options,
+    bytes_of,
+    control_of,
+    name_of,
+    tools_of,
+    unit_of,
+)
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import choices
 
@@ -101,6 +110,7 @@ def _one(path: Path, asked: Asked) -> _Checked:
         text = bytes_of(path)
     except Unusable as trouble:
         return _Checked(path, unusable=str(trouble))
+    asked = replace(asked, library=FolderLibrary(path.parent))
     found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
     return _Checked(path, found)
 

@@ -14,6 +14,8 @@ from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
+from core.controls.iso.execute import NO_LIBRARY
+from core.controls.iso.macro_flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run, judged_findings
 from core.controls.moves import Move, Moves
@@ -54,13 +56,15 @@ class State(StrEnum):
 class Asked:
     """What is asked of every program: a control's full name or `all`, the tools, the shop's rules or not.
 
-    `unit` counts where a program names none; None is what the control starts in.
+    `unit` counts where a program names none; None is what the control starts in.  `library` finds the programs that a
+    control calls from its memory.
     """
 
     control: str
     tools: ToolTable
     shop: bool
     unit: Unit | None
+    library: ProgramLibrary = NO_LIBRARY
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -132,7 +136,7 @@ class Answer:
 
 def answer(text: bytes, asked: Asked) -> Answer:
     """One control's answer."""
-    done = run(text, asked.control, asked.tools, asked.unit)
+    done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
     results = judge_run(done)
     return _with_option(_answer(done, results, _foreign(done.control, text), "", shop=asked.shop))
@@ -157,7 +161,7 @@ def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answ
 
 def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
     """Every control's answer, and where its path leaves that of the first one that runs the program."""
-    return tuple(_compared(row, asked) for row in compare(text, asked.tools, asked.unit))
+    return tuple(_compared(row, asked) for row in compare(text, asked.tools, asked.unit, asked.library))
 
 
 def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:

@@ -17,7 +17,7 @@ from types import MappingProxyType
 from typing import Any, Final, TypeVar, get_type_hints
 
 from app.documents.journal_file import Record
-from core.program.fields import Form, field_of, value_refusal
+from core.program.fields import MAX_CHOICE, Form, field_of, value_refusal
 from core.program.history import History, UndoStep, splice
 from core.program.model import (
     ArcSegment,
@@ -30,6 +30,7 @@ from core.program.model import (
     PartSetup,
     Program,
     ProgramParameters,
+    Relative,
     Segment,
     Tool,
     Typed,
@@ -274,11 +275,17 @@ def difference(old: Part, new: Part) -> dict[str, Any]:
     return {name: packed(getattr(new, name)) for name in names}
 
 
-def packed(value: Typed | str | int) -> float | list[str] | str | None:
+RELATIVE: Final = "inc"
+"""The key of a number that was typed relative."""
+
+
+def packed(value: Typed | str | int) -> float | list[str] | str | dict[str, float] | None:
     """One field's value."""
     match value:
         case Number(number):
             return number
+        case Relative(number):
+            return {RELATIVE: number}
         case Unread(text, reason):
             return [text, reason]
         case _:
@@ -296,7 +303,15 @@ def altered(part: Part, values: object) -> Part:
 def _reader(hint: object) -> Callable[[object], Any]:
     if isinstance(hint, type) and issubclass(hint, StrEnum):
         return partial(_word_of, hint)
+    if hint is bool:
+        return _truth
     return text_of if hint is str else _typed
+
+
+def _truth(value: object) -> bool:
+    if isinstance(value, bool):
+        return value
+    raise DamagedError
 
 
 def _word_of(words: type[Word], value: object) -> Word:
@@ -338,7 +353,7 @@ def _tool_number(value: object) -> int:
 
 
 def _choice(value: object) -> int | None:
-    if value is None or (value in (0, 1) and type(value) is int):
+    if value is None or (type(value) is int and 0 <= value <= MAX_CHOICE):
         return value
     raise DamagedError
 
@@ -359,8 +374,16 @@ def _typed(value: object) -> Typed:
             return Unread(_as_typed(text), text_of(reason))
         case int() | float() if not isinstance(value, bool) and abs(value) <= LARGEST and isfinite(value):
             return Number(float(value))
+        case {"inc": int() | float() as number, **rest} if not rest:
+            return _relative(_typed(number))
         case _:
             raise DamagedError
+
+
+def _relative(typed: Typed) -> Relative:
+    if isinstance(typed, Number):
+        return Relative(typed.value)
+    raise DamagedError
 
 
 _FIELD_READERS: Final[Mapping[str, Callable[[object], Any]]] = MappingProxyType(

@@ -34,6 +34,7 @@ from core.program.model import (
     Part,
     PathChoice,
     Program,
+    Relative,
     Segment,
     Tool,
     Typed,
@@ -45,6 +46,9 @@ from core.units import Unit
 
 FORMAT: Final = 1
 """The format of journals that is read and written."""
+
+RELATIVE: Final = "inc"
+"""The key of a number that was typed relative."""
 
 
 class Damaged(Exception):
@@ -62,11 +66,13 @@ EMPTY_TOOL: Final = Tool(1)
 _KINDS: Final = MappingProxyType({type(empty): kind for kind, empty in EMPTY.items()})
 
 
-def packed(value: Typed | str | int) -> float | list[str] | str | None:
+def packed(value: Typed | str | int) -> float | list[str] | str | dict[str, float] | None:
     """One field's value."""
     match value:
         case Number(number):
             return number
+        case Relative(number):
+            return {RELATIVE: number}
         case Unread(text, reason):
             return [text, reason]
         case _:
@@ -160,8 +166,20 @@ def _typed(value: object) -> Typed:
             return Unread(text, reason)
         case int() | float() if not isinstance(value, bool) and isfinite(value) and abs(value) <= LARGEST:
             return Number(float(value))
+        case {"inc": number, **rest} if not rest:
+            relative = _typed(number)
+            if isinstance(relative, Number):
+                return Relative(relative.value)
+            raise Damaged
         case _:
             raise Damaged
+
+
+def truth_of(value: object) -> bool:
+    """A truth value."""
+    if isinstance(value, bool):
+        return value
+    raise Damaged
 
 
 _READ: Final[Mapping[str, Callable[[object], Any]]] = MappingProxyType(
@@ -170,6 +188,7 @@ _READ: Final[Mapping[str, Callable[[object], Any]]] = MappingProxyType(
         "type": text_of,
         "name": text_of,
         "choice": lambda value: None if value is None else whole_of(value),
+        "tangent": truth_of,
         "cutter_comp": lambda value: word_of(CutterComp, value),
         "direction": lambda value: word_of(Direction, value),
         "path": lambda value: word_of(PathChoice, value),

@@ -74,6 +74,9 @@ _END_Z: Final = Topic("Blank keeps the height. Another Z makes the tool ramp alo
 _CENTER: Final = Topic(
     "The point the arc turns about. End and center, or end and RADIUS, or center and SWEEP fix an arc."
 )
+_POINT: Final = Topic("A point that the drawing gives on this line or on the arc's circle, not one of its ends.")
+_TANGENT: Final = Topic("YES where it goes on from the segment before without a corner and without turning back.")
+
 
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
     {
@@ -136,6 +139,13 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.ARC, "choice"): Topic(
             "The drawing shows both, dashed. Left and right step; nothing is posted until one is picked."
         ),
+        **{(form, "point_x"): _POINT for form in (Form.LINE, Form.ARC)},
+        **{(form, "point_y"): _POINT for form in (Form.LINE, Form.ARC)},
+        **{(form, "tangent"): _TANGENT for form in (Form.LINE, Form.ARC)},
+        (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
+        (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
+        (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
+        (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
         (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
         (Form.BLEND, "feed"): _FEED,
         (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.widgets.field import Cell, State
 from core.pipeline.derived import Tag
 from core.program.fields import TYPE_AGAIN, Field, text_refusal, unread_reason, unread_sentence, value_refusal
-from core.program.model import Number, Unread
+from core.program.model import Number, Relative, Unread
 from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, show
 
@@ -26,14 +26,16 @@ def cell_of(
     """A field's cell with the state that its value gives it; `overrides` where a typed value stands in for another."""
     state = _state(field, value, unit, needed=needed, overrides=overrides)
     tag = str(value.origin) if isinstance(value, Solved) else TAGS.get(state, "")
+    if isinstance(value, Relative) and not tag:
+        tag = "INC"
     text = "?" if state is State.NEEDED else shown_text(value, field, unit)
-    full = full_text(value, field, unit) if isinstance(value, Number) else ""
+    full = full_text(value, field, unit) if isinstance(value, Number | Relative) else ""
     return Cell(field.name, field.label, text, column, state, tag, full, field.choices, visible)
 
 
 def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, overrides: bool) -> State:
     match value:
-        case Unread() | Number() if unusable(value, field, unit) is not None:
+        case Unread() | Number() | Relative() if unusable(value, field, unit) is not None:
             return State.UNREAD
         case Solved():
             return State.USUAL if value.origin in (Origin.USUAL, Origin.TOOL) else State.CALCULATED
@@ -54,21 +56,24 @@ def shown_text(value: Value | str, field: Field, unit: Unit) -> str:
             return text
         case Unread(text, _):
             return text
+        case Relative(number):
+            return f"I{show(number, field.kind, unit)}"
         case Number(number) | Solved(number):
             return show(number, field.kind, unit)
 
 
-def full_text(entry: Number, field: Field, unit: Unit) -> str:
+def full_text(entry: Number | Relative, field: Field, unit: Unit) -> str:
     """A typed number, in full where the form's decimals would lose some of what was typed."""
     text = show(entry.value, field.kind, unit)
-    return text if float(text) == entry.value else f"{entry.value:.12g}"
+    number = text if float(text) == entry.value else f"{entry.value:.12g}"
+    return f"I{number}" if isinstance(entry, Relative) else number
 
 
 def unusable(value: Value | str, field: Field, unit: Unit) -> str | None:
     """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
     if isinstance(value, Unread):
         return unread_text(value, field, unit)
-    return value_refusal(field, value.value, unit) if isinstance(value, Number) else None
+    return value_refusal(field, value.value, unit) if isinstance(value, Number | Relative) else None
 
 
 def unread_text(unread: Unread, field: Field, unit: Unit) -> str:

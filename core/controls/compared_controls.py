@@ -11,6 +11,8 @@ from core.controls.compared_contours import APART, Parting, apart
 from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
+from core.controls.iso.execute import NO_LIBRARY
+from core.controls.iso.macro_flow import ProgramLibrary
 from core.controls.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
@@ -49,7 +51,9 @@ class OtherLanguage:
     why: str = ""
 
 
-def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Compared | OtherLanguage, ...]:
+def compare(
+    text: bytes, tools: ToolTable, unit: Unit | None = None, library: ProgramLibrary = NO_LIBRARY
+) -> tuple[Compared | OtherLanguage, ...]:
     """The program on every control, in the registry's order; `unit` where it names none, inches if none is given.
 
     A control of another language gets the contour as the first control that runs the program to its end reads it, or
@@ -61,7 +65,7 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
         if not reads(control, text):
             rows.append(OtherLanguage(control))
             continue
-        done = run(text, control, tools, unit or Unit.IN)
+        done = run(text, control, tools, unit or Unit.IN, library)
         if isinstance(done, UnknownControl):
             continue
         parts = None if first is None else parting(first.moves, done.moves)

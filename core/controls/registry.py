@@ -16,8 +16,9 @@ from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.execute import execute
+from core.controls.iso.execute import NO_LIBRARY, execute
 from core.controls.iso.flow import MakeControl
+from core.controls.iso.macro_flow import ProgramLibrary
 from core.controls.klartext import control as klartext
 from core.controls.klartext.path_functions import KLARTEXT_RADII
 from core.controls.klartext.reader import is_klartext_text
@@ -126,11 +127,16 @@ def resolve(control: str) -> str | UnknownControl:
 
 
 def run(
-    text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | None = None
+    text: bytes,
+    control: str,
+    tools: ToolTable = NO_TOOLS,
+    unit: Unit | None = None,
+    library: ProgramLibrary = NO_LIBRARY,
 ) -> ControlRun | UnknownControl:
     """A program's text on a control, by the control's full or short name; never raises for any text.
 
-    `unit` counts where the text names none, None for the one in which the control usually starts.
+    `unit` counts where the text names none, None for the one in which the control usually starts.  `library` finds
+    the programs that a control calls from its memory.
     """
     full = resolve(control)
     if isinstance(full, UnknownControl):
@@ -141,7 +147,7 @@ def run(
     if entry.dialect is None or make is None:
         made = klartext.run_klartext(text, tools)
     else:
-        made = execute(text, full, replace(entry.dialect, unit=unit or entry.dialect.unit), tools, make)
+        made = execute(text, full, replace(entry.dialect, unit=unit or entry.dialect.unit), tools, make, library)
     return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
 
 

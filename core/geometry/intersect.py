@@ -66,27 +66,27 @@ _Solved = tuple[NDArray[np.int8], _Points]
 """How each of k pairs meets, and the points where they do."""
 
 
-def meet(one: Path, a: Rows, other: Path, b: Rows) -> Meetings:
-    """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair; `meet_pieces` says by which rules."""
-    return meet_pieces(pieces_of(one), a, pieces_of(other), b)
+def meet(first: Path, a: Rows, second: Path, b: Rows) -> Meetings:
+    """How pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair; `meet_pieces` says by which rules."""
+    return meet_pieces(pieces_of(first), a, pieces_of(second), b)
 
 
-def meet_pieces(one: Pieces, a: Rows, other: Pieces, b: Rows) -> Meetings:
-    """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair.
+def meet_pieces(first: Pieces, a: Rows, second: Pieces, b: Rows) -> Meetings:
+    """How pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair.
 
     A point counts when it lies on both pieces within ON_PATH.  Lines are parallel when they part by no more
     than ON_PATH over the longer of them; arcs are concentric when their centers are within ON_PATH; circles
     and lines within ON_PATH of tangency touch.
     """
     kinds = np.zeros(len(a), np.int8)
-    arc_a, arc_b = one.turn[a].astype(np.bool_), other.turn[b].astype(np.bool_)
+    arc_a, arc_b = first.turn[a].astype(np.bool_), second.turn[b].astype(np.bool_)
     line_a, line_b = ~arc_a, ~arc_b
     which = (line_a & line_b, _lines), (arc_a & line_b, _arc_line), (line_a & arc_b, _line_arc), (arc_a & arc_b, _arcs)
     parts = []
     for these, solve in which:
         rows = these.nonzero()[0]
         if len(rows):
-            kinds[rows], meetings = solve(one.take(a[rows]), other.take(b[rows]))
+            kinds[rows], meetings = solve(first.take(a[rows]), second.take(b[rows]))
             parts.append(_Points(rows[meetings.pair], *meetings[1:]))
     meetings = _joined(parts)
     return Meetings(kinds, *meetings[:5], coordinates(meetings.point))

@@ -4,7 +4,7 @@ Boxes are (4, n) arrays: left, bottom, right, top.
 
 `near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so a superset for what
 is inside them: `core.geometry.distance` makes it exact, pair by pair.  They come in batches of some ten thousand pairs:
-whoever needs them all at once calls `gathered`, whoever looks at each pair once does not hold them.  With 100,000
+whoever needs them all at once calls `sorted_pairs`, whoever looks at each pair once does not hold them.  With 100,000
 chords inside one radius ask what is nearest (`nearest_pairs`, a superset), never what lies in boxes within reach: that
 is all pairs.  What has a coordinate that is no number is near everything, so that whoever measures it sees that.
 """
@@ -104,7 +104,7 @@ def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
     return i[once], j[once]
 
 
-def gathered(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
+def sorted_pairs(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
     """All pairs of these batches, sorted by i and then by j."""
     none = np.zeros(0, np.intp)
     columns = list(zip(*batches, strict=True)) or [(none,), (none,)]
@@ -140,7 +140,7 @@ def _apart(first: Floats, second: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Chords:
+class CoarseChords:
     """(n,) straight lines from `middle` - `half` to `middle` + `half` that stand for a piece or a run of pieces each.
 
     No place of the one is farther from the other than `slack`, and no place of the pieces is farther from the middle
@@ -154,11 +154,11 @@ class Chords:
     square: Floats
 
     @staticmethod
-    def between(start: Points, end: Points, slack: Floats) -> Chords:
+    def between(start: Points, end: Points, slack: Floats) -> CoarseChords:
         """The chords from starts to ends."""
         half = (end - start) / 2.0
         square = np.maximum((half * half.conj()).real, np.finfo(float).tiny)
-        return Chords((start + end) / 2.0, half, slack, np.abs(half) + slack, square)
+        return CoarseChords((start + end) / 2.0, half, slack, np.abs(half) + slack, square)
 
     def __len__(self) -> int:
         return len(self.middle)
@@ -176,11 +176,11 @@ class Chords:
         return off
 
 
-Runs = tuple[Chords, ...]
+ChordLevels = tuple[CoarseChords, ...]
 """Chords of the pieces, of runs of FAN pieces, of FAN such runs and so on: the finest level first."""
 
 
-def runs_of(chords: Chords) -> Runs:
+def chord_levels(chords: CoarseChords) -> ChordLevels:
     """Runs of consecutive chords, which are good for a search where what follows each other lies near each other."""
     levels = [chords]
     while len(levels[-1]) > MAX_COARSE_RUNS:
@@ -188,7 +188,7 @@ def runs_of(chords: Chords) -> Runs:
     return tuple(levels)
 
 
-def _grouped(members: Chords) -> Chords:
+def _grouped(members: CoarseChords) -> CoarseChords:
     """The chords from the start of every FAN members to their end.
 
     A way without gaps passes each place of its chord on the way from end to end, so that its slack is how far its
@@ -197,13 +197,13 @@ def _grouped(members: Chords) -> Chords:
     begins = np.arange(0, len(members), FAN)
     lasts = np.append(begins[1:], len(members)) - 1
     starts, ends = members.ends
-    chords = Chords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
+    chords = CoarseChords.between(starts[begins], ends[lasts], np.zeros(len(begins)))
     group = np.arange(len(members)) // FAN
     off = np.maximum(*(np.abs(chords.off(group, points)) for points in (starts, ends))) + members.slack
     gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
     gaps[begins] = 0.0
     slack = np.maximum.reduceat(off, begins) + np.maximum.reduceat(gaps, begins)
-    return Chords.between(starts[begins], ends[lasts], slack)
+    return CoarseChords.between(starts[begins], ends[lasts], slack)
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
@@ -224,7 +224,7 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
     return np.divmod(pairs[changes(pairs)], len(others))
 
 
-def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Rows]:
+def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChords, Rows]:
     """Chords of the pieces, those longer than `typical` in parts, but not of more than `most` parts in all; and the
     pieces that they are of."""
     length = max(typical, float(pieces.length.sum()) / most)
@@ -239,12 +239,12 @@ def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Row
         parted, count = pieces.take(rows[inner]), counts[rows[inner]]
         start[inner], end[inner] = at(parted, part[inner] / count), at(parted, (part[inner] + 1) / count)
     bow = pieces.radius[rows] * (1.0 - np.cos(pieces.angle[rows] / counts[rows] / 2.0))
-    return Chords.between(start, end, bow), rows
+    return CoarseChords.between(start, end, bow), rows
 
 
-def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Rows]]:
+def _searched(one: CoarseChords, other: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
     """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches."""
-    first, second = runs_of(one), runs_of(other)
+    first, second = chord_levels(one), chord_levels(other)
     within = _within(first, second)
     high, low = len(first) - 1, len(second) - 1
     i, j = np.divmod(np.arange(len(first[high]) * len(second[low])), len(second[low]))
@@ -267,7 +267,7 @@ def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Ro
             stack.append((high, low - 1, i, j))
 
 
-def _within(first: Runs, second: Runs) -> list[Floats]:
+def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
     """For each run of each level a length within which all of its places have something of the other path.
 
     A guess tells what: the nearest of the members of what was nearest to the run, and of those around them.
@@ -300,7 +300,9 @@ def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
     return closest
 
 
-def _contenders(one: Chords, i: Rows, other: Chords, j: Rows, within: Floats, tie: float) -> tuple[Rows, Rows]:
+def _contenders(
+    one: CoarseChords, i: Rows, other: CoarseChords, j: Rows, within: Floats, tie: float
+) -> tuple[Rows, Rows]:
     """Pairs, by rising i, of which j may be nearest to some place of i, where all of i has something `within` reach.
 
     Along a chord the distance from another one is convex.  So from j it is nowhere less than on the tangent at i's

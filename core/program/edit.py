@@ -11,11 +11,13 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
 
+from core.geometry.piece import Point
 from core.program.fields import (
+    MAX_CHOICE,
     PARAMETERS,
     SETUP,
     START,
-    TABLES,
+    STORED,
     TOOL,
     Field,
     Form,
@@ -38,13 +40,15 @@ from core.program.model import (
     Part,
     PathChoice,
     Program,
+    Relative,
     Segment,
     Tool,
     Typed,
     Unread,
     changed,
 )
-from core.units import Kind, Unit, convert, printable
+from core.program.solve.block import solve_block
+from core.units import Kind, Unit, convert, from_mm, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +77,12 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
     refusal = _misfit(_field(part, name), typed, program.unit)
     if isinstance(part, Block) and name == "lookahead":
         refusal = refusal or _lookahead_misfit(part, typed)
-    return refusal or _with_part(program, where, _typed_into(part, name, typed))
+    if refusal:
+        return refusal
+    edited = _with_part(program, where, _typed_into(part, name, typed))
+    if isinstance(part, Block) or name in UNSHAPED or type(typed) is type(getattr(part, name)):
+        return edited
+    return _picked_anew(program, edited, where)
 
 
 def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
@@ -84,14 +93,75 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
     field = _field(part, name)
     if value is None and name == "choice":
         return _with_part(program, where, changed(part, {name: None}))
+    if name == "choice":
+        if not (isinstance(value, int) and 0 <= value <= MAX_CHOICE):
+            return Refused("SOLUTION takes the number of a solution.")
+        return _with_part(program, where, changed(part, {name: value}))
     if str(value) not in field.choices:
         return _takes(field)
-    return _with_part(program, where, changed(part, {name: _PICKED[name](value)}))
+    if name == "tangent":
+        return _picked_anew(program, _with_part(program, where, _tangent(part, tangent=str(value) == "YES")), where)
+    chosen = _with_part(program, where, changed(part, {name: _PICKED[name](value)}))
+    return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
 
 
 _PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
-    {"cutter_comp": CutterComp, "direction": Direction, "choice": int}
+    {"cutter_comp": CutterComp, "direction": Direction}
 )
+
+UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
+"""What is typed of a segment and has no bearing on which solutions there are."""
+
+
+def pick_answer(program: Program, where: FormPlace, choice: int | None, pick: Point | None) -> Edited:
+    """Take a solution of the run that begins at a segment: by its `choice`, or by a pick in millimeters."""
+    if refusal := _absent(program, where):
+        return refusal
+    part = _part(program, where)
+    if not isinstance(part, LineSegment | ArcSegment):
+        return Refused("SOLUTION belongs to a LINE or an ARC.")
+    values: dict[str, Any] = {"choice": choice}
+    if pick is not None:
+        values |= {name: Number(from_mm(at, program.unit)) for name, at in zip(("pick_x", "pick_y"), pick, strict=True)}
+    return _with_part(program, where, changed(part, values))
+
+
+def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
+    """A segment with TANGENT YES or NO; YES takes the place of an angle to the segment before."""
+    if not tangent:
+        return changed(part, {"tangent": False})
+    name = "angle" if isinstance(part, LineSegment) else "start_angle"
+    relative = isinstance(getattr(part, name), Relative)
+    return changed(part, {"tangent": True, **({name: None} if relative else {})})
+
+
+def _picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
+    """The program without the solutions picked at a segment, and of the runs it was or is a part of."""
+    block = new.blocks[where.block - 1]
+    part = block.segments[where.segment - 1]
+    if not isinstance(part, CornerSegment) and part.choice is not None:
+        new = _with_part(new, where, replace(part, choice=None))
+    return _run_picked_anew(old, new, where)
+
+
+def _run_picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
+    """The program without the solution that was picked for the run of a segment, before or after an edit."""
+    for program in (old, new):
+        block = program.blocks[where.block - 1]
+        if not any(getattr(segment, "choice", None) is not None for segment in block.segments):
+            continue
+        for run in solve_block(block, program).runs:
+            if run.first <= where.segment <= run.last + 1:
+                new = _without_choice(new, where.block, run.first)
+    return new
+
+
+def _without_choice(program: Program, block: int, number: int) -> Program:
+    segments = program.blocks[block - 1].segments
+    part = segments[number - 1] if number <= len(segments) else None
+    if part is None or isinstance(part, CornerSegment) or part.choice is None:
+        return program
+    return _with_part(program, FormPlace(block, number), replace(part, choice=None))
 
 
 def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edited:
@@ -109,7 +179,9 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
             return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
         if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
             return Refused(f"A {form_of(segment)} cannot be next to {_another(form_of(segment), form_of(other))}.")
-    return _with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
+    after = tuple(_renumbered(following, where.segment, 1) for following in after)
+    whole = _with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
+    return _run_picked_anew(whole, whole, where)
 
 
 def _another(form: Form, other: Form) -> str:
@@ -123,8 +195,20 @@ def delete_segment(program: Program, where: FormPlace) -> Edited:
     if refusal := _absent(program, where):
         return refusal
     block = program.blocks[where.block - 1]
-    left = block.segments[: where.segment - 1] + block.segments[where.segment :]
-    return _with_part(program, FormPlace(where.block), replace(block, segments=left))
+    after = (_renumbered(segment, where.segment, -1) for segment in block.segments[where.segment :])
+    left = _run_picked_anew(program, program, where).blocks[where.block - 1].segments[: where.segment - 1]
+    whole = _with_part(program, FormPlace(where.block), replace(block, segments=(*left, *after)))
+    return _run_picked_anew(whole, whole, where)
+
+
+def _renumbered(segment: Segment, at: int, step: int) -> Segment:
+    """A segment whose PARALLEL TO follows where segment `at` is put in (step 1) or taken out (step -1)."""
+    held = segment.parallel if isinstance(segment, LineSegment) else None
+    if not isinstance(held, Number) or held.value < at:
+        return segment
+    if step < 0 and held.value == at:
+        return changed(segment, {"parallel": Unread(f"{held.value:.0f}", f"Segment {at} was deleted.")})
+    return changed(segment, {"parallel": Number(held.value + step)})
 
 
 def recalculate_lookahead(program: Program, block: int) -> Edited:
@@ -264,14 +348,18 @@ def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
 
 
 def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
-    segments = tuple(_converted(segment, TABLES[form_of(segment)], old, new) for segment in block.segments)
+    segments = tuple(_converted(segment, STORED[form_of(segment)], old, new) for segment in block.segments)
     return replace(_converted(block, START, old, new), segments=segments)
 
 
 def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
     """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
     typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
-    entries = {field.name: Number(convert(held.value, old, new)) for field, held in typed if isinstance(held, Number)}
+    entries = {
+        field.name: type(held)(convert(held.value, old, new))
+        for field, held in typed
+        if isinstance(held, Number | Relative)
+    }
     texts = {
         field.name: Unread(held.text, unread_reason(held.text, field, new))
         for field, held in typed
@@ -304,7 +392,9 @@ def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Why a field does not take what was typed."""
     if field.kind is Kind.CHOICE:
         return _takes(field)
-    text = value_refusal(field, typed.value, unit) if isinstance(typed, Number) else None
+    if isinstance(typed, Relative) and not field.relative:
+        return Refused(f"{field.label} takes no relative number: type it without I.")
+    text = value_refusal(field, typed.value, unit) if isinstance(typed, Number | Relative) else None
     return None if text is None else Refused(text)
 
 
@@ -313,7 +403,7 @@ def _takes(field: Field) -> Refused:
 
 
 def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
-    if isinstance(typed, Number) or typed == block.lookahead:
+    if isinstance(typed, Number | Relative) or typed == block.lookahead:
         return None
     field = field_of(Form.START, "lookahead")
     unreadable = typed is not None and text_refusal(typed.text, field, Unit.MM) is None
@@ -335,7 +425,9 @@ def _field(part: Block | Segment, name: str) -> Field:
 def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segment:
     """The part with the field typed; a solution picked among others than now is dropped."""
     edited = changed(part, {name: typed})
-    solutions_differ = name not in ("z_end", "feed") and (typed is None) is not (getattr(part, name) is None)
+    if name in ("angle", "start_angle") and isinstance(typed, Relative):
+        edited = changed(edited, {"tangent": False})
+    solutions_differ = name not in UNSHAPED and (typed is None) is not (getattr(part, name) is None)
     if solutions_differ and isinstance(edited, LineSegment | ArcSegment):
         return replace(edited, choice=None)
     return edited

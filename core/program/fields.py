@@ -22,6 +22,7 @@ from core.program.model import (
     LineSegment,
     Number,
     PathChoice,
+    Relative,
     Segment,
     Typed,
     Unread,
@@ -45,6 +46,8 @@ class Field:
     choices: tuple[str, ...] = ()
     above: float | None = None
     """A bound that itself is not allowed, such as 0 for a diameter."""
+    relative: bool = False
+    """Whether an I before or behind the number makes it relative."""
 
 
 class Form(StrEnum):
@@ -76,8 +79,12 @@ LOOKAHEAD_PROMPT: Final = (
 )
 
 
-def _place(name: str, label: str, prompt: str) -> Field:
-    return Field(name, label, Kind.LENGTH, prompt, -FARTHEST, FARTHEST)
+def _place(name: str, label: str, prompt: str, *, relative: bool = False) -> Field:
+    return Field(name, label, Kind.LENGTH, prompt, -FARTHEST, FARTHEST, relative=relative)
+
+
+def _heading(name: str, label: str, prompt: str) -> Field:
+    return Field(name, label, Kind.ANGLE, prompt, -360.0, 360.0, relative=True)
 
 
 def _size(name: str, label: str, prompt: str) -> Field:
@@ -101,9 +108,17 @@ _FEED: Final = _feed(
     "FEED",
     "Feed along this segment. Blank: as the segment before.",
 )
-_X_END: Final = _place("x_end", "X END", "X of the end of this segment.")
-_Y_END: Final = _place("y_end", "Y END", "Y of the end of this segment.")
+_X_END: Final = _place("x_end", "X END", "X of the end of this segment. I5: 5 from its start.", relative=True)
+_Y_END: Final = _place("y_end", "Y END", "Y of the end of this segment. I5: 5 from its start.", relative=True)
 _Z_END: Final = _place("z_end", "Z END", "Z at the end of this segment. Blank: as the segment before.")
+
+_TANGENT: Final = Field(
+    "tangent",
+    "TANGENT",
+    Kind.CHOICE,
+    "YES: it goes on smoothly from the segment before. Space switches.",
+    choices=("NO", "YES"),
+)
 
 START: Final = (
     _count("tool", "TOOL", "Tool number. Space lists the tools.", 1, 9999),
@@ -129,9 +144,15 @@ LINE: Final = (
     _X_END,
     _Y_END,
     _Z_END,
+    _place("point_x", "POINT X", "X of a point that the line passes, on it or at DISTANCE."),
+    _place("point_y", "POINT Y", "Y of a point that the line passes, on it or at DISTANCE."),
+    _allowance("point_dist", "DISTANCE", "Distance of the point from the line. Blank: the point is on the line."),
     _size("length", "XY LENGTH", "Length of the line in the XY plane."),
-    Field("angle", "XY ANGLE", Kind.ANGLE, "Angle from +X, counterclockwise, degrees.", -360.0, 360.0),
+    _heading("angle", "XY ANGLE", "Angle from +X, counterclockwise, degrees. I90: from the segment before, left."),
+    _count("parallel", "PARALLEL TO", "Number of an earlier LINE to which this one is parallel.", 1, 9999),
+    _allowance("offset", "OFFSET", "Distance from the line that PARALLEL TO names. Blank: any."),
     _FEED,
+    _TANGENT,
 )
 
 ARC: Final = (
@@ -145,8 +166,10 @@ ARC: Final = (
     _X_END,
     _Y_END,
     _Z_END,
-    _place("x_center", "X CENTER", "X of the center of the arc."),
-    _place("y_center", "Y CENTER", "Y of the center of the arc."),
+    _place("point_x", "POINT X", "X of a point on the arc's circle."),
+    _place("point_y", "POINT Y", "Y of a point on the arc's circle."),
+    _place("x_center", "X CENTER", "X of the center of the arc. I5: 5 from its start.", relative=True),
+    _place("y_center", "Y CENTER", "Y of the center of the arc. I5: 5 from its start.", relative=True),
     _size("radius", "RADIUS", "Radius of the arc."),
     Field(
         "sweep",
@@ -156,7 +179,9 @@ ARC: Final = (
         high=360.0,
         above=0.0,
     ),
+    _heading("start_angle", "START ANGLE", "Direction in which the arc starts, from +X. I90: from the segment before."),
     _FEED,
+    _TANGENT,
 )
 
 BLEND: Final = (
@@ -210,10 +235,18 @@ SOLUTION: Final = Field(
     "choice",
     "SOLUTION",
     Kind.CHOICE,
-    "Two solutions fit: pick the one on the drawing.",
-    choices=("0", "1"),
+    "More than one solution fits: pick the one on the drawing.",
 )
-"""Which of two solutions a LINE or an ARC takes; a screen shows it only where there are two."""
+"""Which solution a LINE, an ARC or a run of them takes; a screen shows it only where there is a choice."""
+
+MAX_CHOICE: Final = (1 << 24) - 1
+"""The largest number of a solution in a program file."""
+
+PICK: Final = (
+    _place("pick_x", "PICK X", "X of a point near the end of the run's first segment, as on the drawing."),
+    _place("pick_y", "PICK Y", "Y of a point near the end of the run's first segment, as on the drawing."),
+)
+"""Where the operator points to on the drawing, on the first segment of a run; no fields of its form."""
 
 TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
@@ -228,16 +261,21 @@ TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     }
 )
 
+STORED: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
+    {form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in TABLES.items()}
+)
+"""All that is typed of each screen: its fields, and the pick."""
+
 NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
         form: tuple(field for field in table if field.kind not in (Kind.CHOICE, Kind.TEXT))
-        for form, table in TABLES.items()
+        for form, table in STORED.items()
     }
 )
-"""The fields of each screen that take a number."""
+"""Whatever takes a number on each screen."""
 
 _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
-    {(form, field.name): field for form, table in TABLES.items() for field in table}
+    {(form, field.name): field for form, table in STORED.items() for field in table}
     | {(Form.LINE, "choice"): SOLUTION, (Form.ARC, "choice"): SOLUTION}
 )
 
@@ -323,23 +361,37 @@ def read_typed(text: str, field: Field, unit: Unit) -> Typed:
     """A blank, an entry, or a text that cannot be read or is a number the field does not take, which is kept."""
     if not text.strip():
         return None
-    value = parse(text, field.kind, unit)
+    number, relative = split_relative(text, field)
+    value = parse(number, field.kind, unit)
     if isinstance(value, Unreadable):
         return Unread(text, value.reason)
     refusal = text_refusal(text, field, unit)
-    return Number(value) if refusal is None else Unread(text, refusal)
+    if refusal is not None:
+        return Unread(text, refusal)
+    return Relative(value) if relative else Number(value)
+
+
+def split_relative(text: str, field: Field) -> tuple[str, bool]:
+    """A text without the I before or behind its number, and whether there is one that makes it relative."""
+    bare = text.strip()
+    if field.relative and len(bare) > 1:
+        if bare[0] in "Ii" and not bare[1].isalpha():
+            return bare[1:], True
+        if bare[-1] in "Ii" and not bare[-2].isalpha():
+            return bare[:-1], True
+    return text, False
 
 
 def text_refusal(text: str, field: Field, unit: Unit) -> str | None:
     """The sentence about a text that is a number, and none the field takes; None for any other text."""
-    value = parse(text, field.kind, unit)
+    value = parse(split_relative(text, field)[0], field.kind, unit)
     refusal = None if isinstance(value, Unreadable) else value_refusal(field, value, unit)
     return None if refusal is None else f"{refusal.removesuffix('.')}, not {printable(text)}."
 
 
 def unread_reason(text: str, field: Field, unit: Unit) -> str:
     """Why a text stays as it was typed; what the field would take by now waits to be typed again."""
-    value = parse(text, field.kind, unit)
+    value = parse(split_relative(text, field)[0], field.kind, unit)
     if isinstance(value, Unreadable):
         return value.reason
     return text_refusal(text, field, unit) or TYPE_AGAIN

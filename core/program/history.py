@@ -8,8 +8,8 @@ from enum import StrEnum
 from typing import Generic, TypeVar
 
 from core.program.edit import set_unit
-from core.program.fields import TABLES, Form, form_of
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Tool, Unread
+from core.program.fields import STORED, Form, form_of
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Tool, Unread
 from core.units import Kind, Unit, printable, show
 
 
@@ -114,7 +114,7 @@ def _differences(old: Program, new: Program) -> Iterator[str]:
 
 
 def _fields(where: str, form: Form, old: FormPart, new: FormPart, unit: Unit) -> Iterator[str]:
-    for field in TABLES[form]:
+    for field in STORED[form]:
         before, after = getattr(old, field.name), getattr(new, field.name)
         if before != after:
             yield f"{where}: {field.label} {_text(after, field.kind, unit)}, was {_text(before, field.kind, unit)}."
@@ -126,6 +126,10 @@ def _text(value: object, kind: Kind, unit: Unit) -> str:
     match value:
         case Number(number):
             return show(number, kind, unit)
+        case Relative(number):
+            return f"I{show(number, kind, unit)}"
+        case bool():
+            return "YES" if value else "NO"
         case Unread(text):
             return f"{printable(text)} (cannot be used)"
         case None | "":

@@ -22,6 +22,13 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
+class Relative:
+    """A number that was typed with an I: from the segment's start, or from the heading at the end of the one before."""
+
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
 class Unread:
     """Text that was typed and cannot be read; it never becomes a number, and blocks posting."""
 
@@ -29,7 +36,7 @@ class Unread:
     reason: str
 
 
-Typed = Number | Unread | None
+Typed = Number | Relative | Unread | None
 
 
 class CutterComp(StrEnum):
@@ -58,7 +65,10 @@ class PathChoice(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LineSegment:
-    """A LINE as typed; `choice` is the index of the picked solution in the documented order."""
+    """A LINE as typed; `choice` says which solution is picked, on the first segment of a run for the whole run.
+
+    `parallel` is the number of an earlier LINE, `pick_x` and `pick_y` a point near the end of the run's first segment.
+    """
 
     x_end: Typed = None
     y_end: Typed = None
@@ -67,11 +77,19 @@ class LineSegment:
     angle: Typed = None
     feed: Typed = None
     choice: int | None = None
+    point_x: Typed = None
+    point_y: Typed = None
+    point_dist: Typed = None
+    parallel: Typed = None
+    offset: Typed = None
+    tangent: bool = False
+    pick_x: Typed = None
+    pick_y: Typed = None
 
 
 @dataclass(frozen=True, slots=True)
 class ArcSegment:
-    """An ARC as typed; `choice` is the index of the picked solution in the documented order."""
+    """An ARC as typed; `choice` and the pick as of a LINE."""
 
     direction: Direction = Direction.CW
     x_end: Typed = None
@@ -83,6 +101,12 @@ class ArcSegment:
     sweep: Typed = None
     feed: Typed = None
     choice: int | None = None
+    start_angle: Typed = None
+    point_x: Typed = None
+    point_y: Typed = None
+    tangent: bool = False
+    pick_x: Typed = None
+    pick_y: Typed = None
 
 
 @dataclass(frozen=True, slots=True)

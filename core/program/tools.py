@@ -14,7 +14,7 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import TOOL, Form, field_of, text_refusal, value_refusal
-from core.program.model import Number, Program, Tool, Typed
+from core.program.model import Number, Program, Tool, Typed, Unread
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable, to_mm
 
@@ -60,7 +60,7 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
         return f"{missing}; it is blank."
     if isinstance(diameter, Number) and not (isfinite(diameter.value) and diameter.value > 0.0):
         return f"{missing}; it must be above 0, and it is {diameter.value:g}."
-    if isinstance(diameter, Number):
+    if not isinstance(diameter, Unread):
         refusal = value_refusal(field, diameter.value, unit)
     elif (refusal := text_refusal(diameter.text, field, unit)) is None:
         return f"{missing}; {printable(diameter.text)} cannot be read."

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.nearby import gathered, near_pairs, point_boxes
+from core.geometry.nearby import near_pairs, point_boxes, sorted_pairs
 from core.geometry.path import Flags, Floats, Path, Rows
 from core.geometry.piece import Point
 from core.geometry.piece_arrays import PieceArrays, at, blocks, direction, piece_arrays
@@ -112,10 +112,10 @@ def _behind_nearer_walls(pairs: Pairs, index: Rows, radius: float) -> Pairs:
     room = 2.0 * float(pairs.grant.max()) + ON_PATH
     i, j = [], []
     for share in (0.0, 1.0):
-        k, wall = gathered(near_pairs(_sideways(pieces, share, radius), walls.boxes, room))
+        k, wall = sorted_pairs(near_pairs(_sideways(pieces, share, radius), walls.boxes, room))
         i.append(k % len(pieces))
         j.append(wall)
-    wall, k = gathered(near_pairs(_sideways(walls, 0.5, radius), pieces.boxes, room))
+    wall, k = sorted_pairs(near_pairs(_sideways(walls, 0.5, radius), pieces.boxes, room))
     return paired(
         pairs.pieces, walls, index[np.concatenate((*i, k))], np.concatenate((*j, wall % len(walls))), rounding
     )

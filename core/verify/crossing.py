@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, distance, foot, nearest_places
-from core.geometry.nearby import gathered, near_pairs_within
+from core.geometry.nearby import near_pairs_within, sorted_pairs
 from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, direction
 from core.tolerance import JOINED
@@ -56,7 +56,7 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbors that come back."""
     bounds = surface.boxes
-    i, j = gathered(near_pairs_within(bounds, JOINED))
+    i, j = sorted_pairs(near_pairs_within(bounds, JOINED))
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
     again = again[_turned(surface, again, again + 1) > pi - TURN]
     apart = (j - i >= 2).nonzero()[0]

@@ -66,3 +66,17 @@ def test_a_file_that_cannot_be_read_has_the_same_shape(capsys: pytest.CaptureFix
     (result,) = json.loads(capsys.readouterr().out)["results"]
     assert set(result) == set(known)
     assert (result["state"], result["control"]) == ("unreadable", None)
+
+
+def test_a_program_in_the_folder_is_called_and_its_moves_count_for_the_call(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "O3001.nc").write_text("%\nO3001\nG1 X#1 F9.\nG1 Y#2 Z[1/0]\nM99\n%\n")
+    (result,) = results(capsys, tmp_path, "O1\nG21 G90\nG65 P3001 A5. B7.\nM30\n", "fanuc")
+    moves, findings = result["moves"], result["findings"]
+    assert isinstance(moves, list)
+    assert isinstance(findings, list)
+    assert [(move["line"], move["x"]) for move in moves] == [(0, 0.0), (3, 5.0)]
+    (alarm,) = (finding for finding in findings if finding["severity"] == "error")
+    assert (alarm["rule"], alarm["line"]) == ("PS0112", 3)
+    assert alarm["text"].startswith("O3001.nc line 4: ")

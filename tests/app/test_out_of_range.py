@@ -9,6 +9,7 @@ import pytest
 from app.documents.files import load
 from app.documents.programs import example
 from app.painted.journal import block_of, packed_block
+from app.painted.screens.contour_cells import PLACES
 from app.painted.screens.forms import FormPage
 from app.painted.screens.tools import ToolsPage
 from core.pipeline.outline import outline
@@ -34,7 +35,7 @@ FIELDS = [
     (form, one.name)
     for form in FORMS
     for one in TABLES[form]
-    if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in HELD
+    if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in HELD and one.name in PLACES.get(form, {one.name})
 ]
 
 

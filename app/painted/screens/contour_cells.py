@@ -80,7 +80,8 @@ def form_at(session: Session) -> Form:
 def fields_at(session: Session) -> tuple[Field, ...]:
     """The fields shown there, in the order in which the cursor goes through them."""
     form = form_at(session)
-    table = TABLES[form]
+    # the fields that tie segments to each other have no place on these screens
+    table = tuple(one for one in TABLES[form] if one.name in PLACES[form])
     if form is Form.START:
         return table if session.found.side is not None else tuple(one for one in table if one.name != "lookahead")
     return (*table, SOLUTION) if len(_solved(session).choices) > 1 else table

@@ -23,7 +23,7 @@ from core.program.fields import (
     unread_sentence,
     value_refusal,
 )
-from core.program.model import Number, Program, Unread
+from core.program.model import Number, Program, Relative, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
 
@@ -186,7 +186,7 @@ class FormPage(Page):
         if one is None or self.editing is None or one.kind is Kind.TEXT:
             return None
         typed, held = self.editing.text, self.text(session, one)
-        if typed.strip() == held or isinstance(read_typed(typed, one, session.program.unit), Number):
+        if typed.strip() == held or isinstance(read_typed(typed, one, session.program.unit), Number | Relative):
             return None
         told = f"{_short(typed)} does not count" if typed.strip() else "A blank does not count before Enter"
         return Said(f"{told}: path and verdict are still those of {held or 'before'}.")
@@ -226,7 +226,7 @@ def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
     """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
     if isinstance(held, Unread):
         return _unread_sentence(held, one, unit)
-    return value_refusal(one, held.value, unit) if isinstance(held, Number) else None
+    return value_refusal(one, held.value, unit) if isinstance(held, Number | Relative) else None
 
 
 def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
@@ -276,6 +276,8 @@ def shown_text(held: Value | str, one: Field, unit: Unit) -> str:
             return text
         case Unread(text, _):
             return text
+        case Relative(value):
+            return f"I{show(value, one.kind, unit)}"
         case Number(value) | Solved(value):
             return show(value, one.kind, unit)
 
@@ -285,7 +287,7 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
     text = shown_text(held, one, unit)
     choice = one.kind is Kind.CHOICE
     match held:
-        case Unread() | Number() if unusable(held, one, unit) is not None:
+        case Unread() | Number() | Relative() if unusable(held, one, unit) is not None:
             return Cell(one.name, one.label, text, column, line, State.UNREAD, "ERR", choice)
         case Solved():
             return Cell(one.name, one.label, text, column, line, State.CALCULATED, Tag.CAL, choice)

@@ -16,7 +16,7 @@ from app.painted.widgets.header import header
 from app.painted.widgets.rows import Look, Row, Span, padded, plain
 from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
-from core.program.model import Number, Program, Tool, Unread
+from core.program.model import Number, Program, Tool, Typed, Unread
 from core.program.solve.solved import Value
 from core.units import Unit
 
@@ -194,7 +194,7 @@ def _typed(program: Program, tool: Tool, one: Field, text: str) -> Edited:
             return _renumbered(program, tool, read_typed(text, one, program.unit))
 
 
-def _renumbered(program: Program, tool: Tool, typed: Number | Unread | None) -> Edited:
+def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
     ways = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
     if not isinstance(typed, Number) or typed.value != int(typed.value):
         return Refused(f"A tool needs a whole number from 1 to 9999. {ways}")

@@ -16,7 +16,7 @@ import numpy as np
 from core.comp.best_path.clearance import clear
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices
-from core.geometry.nearby import gathered, near_pairs, point_boxes
+from core.geometry.nearby import near_pairs, point_boxes, sorted_pairs
 from core.geometry.path import Flags, Floats, Path, Pieces, Rows, coordinates, lengths, next_in_ring
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
@@ -126,7 +126,7 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
     ends = ((following < 0) & ~cut.outer[cut.last]).nonzero()[0]
     begins = (_not_followed_onto(following) & ~cut.outer[cut.first]).nonzero()[0]
     end, begin = cut.points[cut.last[ends]], cut.points[cut.first[begins]]
-    i, j = gathered(near_pairs(point_boxes(end), point_boxes(begin), limit))
+    i, j = sorted_pairs(near_pairs(point_boxes(end), point_boxes(begin), limit))
     _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
 
 

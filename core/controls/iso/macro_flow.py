@@ -128,9 +128,10 @@ class MacroFlow(Flow):
                     self.numbered.setdefault(int(sequence[1]), []).append(row)
         return begin
 
-    def _first_row(self) -> int:
-        """The first row with anything but blanks and comments."""
-        return next((row for row, text in enumerate(self.lines) if without_comments(text).strip()), 0)
+    def _first_row(self, begin: int = 0) -> int:
+        """The first row from one on with anything but blanks and comments."""
+        rows = range(begin, len(self.lines))
+        return next((row for row in rows if without_comments(self.lines[row]).strip()), begin)
 
     def _range_of(self, row: int) -> tuple[int, int]:
         """The rows of the program a row belongs to."""
@@ -466,7 +467,7 @@ class MacroFlow(Flow):
         first = self.main_lines + sum(count for _, _, count in self.called_from) + 1
         line, _ = self.origin_of(self.numbers[row])
         self.called_from.append((line, name, len(lines)))
-        begin = self._append(lines, first)
+        begin = self._first_row(self._append(lines, first))
         if begin not in self.begins:
             self.begins.append(begin)
             self.begins.sort()

@@ -110,8 +110,8 @@ def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
     return x, y
 
 
-def _near(one: Point, other: Point) -> bool:
-    return abs(one[0] - other[0]) <= JOINED and abs(one[1] - other[1]) <= JOINED
+def _near(first: Point, second: Point) -> bool:
+    return abs(first[0] - second[0]) <= JOINED and abs(first[1] - second[1]) <= JOINED
 
 
 def _trimmed_away(element: Element, start: Point, begin: Point, end: Point) -> bool:

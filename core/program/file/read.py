@@ -14,9 +14,9 @@ from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
-from core.program.fields import NUMBER_FIELDS, TABLES, Field, Form, unread_reason, value_refusal
+from core.program.fields import MAX_CHOICE, NUMBER_FIELDS, STORED, TABLES, Field, Form, unread_reason, value_refusal
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
-from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, UNREAD
+from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, RELATIVE, UNREAD
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -30,6 +30,7 @@ from core.program.model import (
     PathChoice,
     Program,
     ProgramParameters,
+    Relative,
     Segment,
     Tool,
     Typed,
@@ -201,14 +202,28 @@ def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
     typed: dict[str, Typed] = {
         field.name: Number(table.number(field.name, field)) for field in fields if field.name in table.data
     }
+    typed |= _relative_numbers(table, fields)
     return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
+
+
+def _relative_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
+    """The relative numbers of a form by name."""
+    relative: dict[str, Typed] = {}
+    for field in fields:
+        key = field.name + RELATIVE
+        if not field.relative or key not in table.data:
+            continue
+        if field.name in table.data:
+            raise table.fault(key, f"{field.name} appears twice, as {field.name} and as {key}: remove one.")
+        relative[field.name] = Relative(table.number(key, field))
+    return relative
 
 
 def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
     unread = table.table(UNREAD)
     unread.only(tuple(field.name for field in fields))
     for key in unread.data:
-        if key in table.data:
+        if key in table.data or key + RELATIVE in table.data:
             raise unread.fault(key, f"{key} appears twice, as a number and as unread text: remove one.")
     return {field.name: _unread(unread, field) for field in fields if field.name in unread.data}
 
@@ -223,7 +238,8 @@ def _unread(table: _Table, field: Field) -> Unread:
 
 @cache
 def _keys(form: Form, *others: str) -> tuple[str, ...]:
-    return (*others, *(field.name for field in TABLES[form]), UNREAD)
+    relative = (field.name + RELATIVE for field in STORED[form] if field.relative)
+    return (*others, *(field.name for field in STORED[form]), *relative, UNREAD)
 
 
 def _parameters(table: _Table) -> ProgramParameters:
@@ -277,11 +293,12 @@ def _segment(table: _Table) -> Segment:
     match table.text("kind"):
         case "LINE":
             table.only(_keys(Form.LINE, "kind", "choice"))
-            return LineSegment(**_numbers(table, Form.LINE), choice=_choice(table))
+            return LineSegment(**_numbers(table, Form.LINE), choice=_choice(table), tangent=_tangent(table))
         case "ARC":
             table.only(_keys(Form.ARC, "kind", "choice"))
             direction = table.chosen("direction", Direction)
-            return ArcSegment(direction, **_numbers(table, Form.ARC), choice=_choice(table))
+            numbers = _numbers(table, Form.ARC)
+            return ArcSegment(direction, **numbers, choice=_choice(table), tangent=_tangent(table))
         case "BLEND ARC":
             table.only(_keys(Form.BLEND, "kind"))
             return BlendSegment(**_numbers(table, Form.BLEND))
@@ -295,6 +312,17 @@ def _segment(table: _Table) -> Segment:
 
 def _choice(table: _Table) -> int | None:
     value = table.data.get("choice")
-    if value is None or (value in (0, 1) and type(value) is int):
+    if value is None or (type(value) is int and 0 <= value <= MAX_CHOICE):
         return value
-    raise table.fault("choice", f"choice cannot be {_written(value)}: write 0 or 1.")
+    raise table.fault("choice", f"choice cannot be {_written(value)}: write the number of a solution, 0 to 7.")
+
+
+def _tangent(table: _Table) -> bool:
+    """TANGENT, which is NO where it is absent; the angle to the segment before is then not typed as well."""
+    value = table.data.get("tangent", False)
+    if not isinstance(value, bool):
+        raise table.fault("tangent", f"tangent cannot be {_written(value)}: write true or false.")
+    for key in ("angle_inc", "start_angle_inc"):
+        if value and key in table.data:
+            raise table.fault(key, f"tangent = true says what {key} says: remove one.")
+    return value

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import Final
 
-from core.program.fields import TABLES, Form, form_of
+from core.program.fields import STORED, Form, form_of
 from core.program.model import (
     Block,
     ChamferSegment,
@@ -14,6 +14,7 @@ from core.program.model import (
     PartSetup,
     Program,
     ProgramParameters,
+    Relative,
     Segment,
     Tool,
     Unread,
@@ -25,6 +26,14 @@ FORMAT: Final = 1
 
 NEWER_FORMAT: Final = 2
 """The format of files with anything that format 1 does not have."""
+
+NEWER_KEYS: Final = frozenset(
+    ("tangent", "start_angle", "point_x", "point_y", "point_dist", "parallel", "offset", "pick_x", "pick_y")
+)
+"""The keys that format 1 does not have, besides relative numbers and a `choice` above 1."""
+
+RELATIVE: Final = "_inc"
+"""The ending of the key of a number that is relative."""
 
 KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
@@ -60,7 +69,15 @@ def dumps(program: Program) -> str:
 def format_of(program: Program) -> int:
     """The format a program needs: 2 where it has anything that format 1 does not have."""
     segments = (segment for block in program.blocks for segment in block.segments)
-    return NEWER_FORMAT if any(isinstance(segment, ChamferSegment) for segment in segments) else FORMAT
+    return NEWER_FORMAT if any(map(_is_newer, segments)) else FORMAT
+
+
+def _is_newer(segment: Segment) -> bool:
+    if isinstance(segment, ChamferSegment):
+        return True
+    typed = {name: getattr(segment, name) for name in segment.__match_args__}
+    newer = any(value not in (None, False) for name, value in typed.items() if name in NEWER_KEYS)
+    return newer or (typed.get("choice") or 0) > 1 or any(isinstance(value, Relative) for value in typed.values())
 
 
 Typable = ProgramParameters | PartSetup | Tool | Block | Segment
@@ -78,10 +95,15 @@ def _table(header: str, name: str, form: Form, part: Typable, kind: str | None =
 
 
 def _keys(form: Form, part: Typable) -> Iterator[str]:
-    for field in TABLES[form]:
+    for field in STORED[form]:
         value = getattr(part, field.name)
         if isinstance(value, Number):
             yield f"{field.name} = {_number(value.value, field.kind)}"
+        elif isinstance(value, Relative):
+            yield f"{field.name}{RELATIVE} = {_number(value.value, field.kind)}"
+        elif isinstance(value, bool):
+            if value:
+                yield f"{field.name} = true"
         elif isinstance(value, int | str) and (field.name, value) != ("name", ""):
             yield f"{field.name} = {_quoted(value) if isinstance(value, str) else value}"
     choice = getattr(part, "choice", None)
@@ -90,7 +112,7 @@ def _keys(form: Form, part: Typable) -> Iterator[str]:
 
 
 def _unread(form: Form, part: Typable) -> Iterator[tuple[str, str]]:
-    for field in TABLES[form]:
+    for field in STORED[form]:
         value = getattr(part, field.name)
         if isinstance(value, Unread):
             yield field.name, value.text

@@ -1,10 +1,11 @@
 """A block solved: START read, and every blank of its segments calculated that the typed fields determine.
 
-A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as
-`Solved`; Z END and FEED carry over from the segment before, on the first from Z BOTTOM and PLUNGE FEED.  A LINE on
-which X END or Y END is all that is typed of its shape keeps the other coordinate; no other blank X END or Y END carries
-over: the line or arc then is not determined, and says what is missing.  Where two solutions fit, `line` and `arc`
-document their order, and the segment's `choice` picks.
+A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as `Solved`,
+together with those of the segments after it where they need each other (`stretch`).  Z END and FEED carry over from the
+segment before, on the first from Z BOTTOM and PLUNGE FEED.  A LINE on which X END or Y END is all that is typed of its
+shape keeps the other coordinate; no other blank X END or Y END carries over: the line or arc then is not determined,
+and says what is missing.  Where two solutions fit, `line` and `arc` document their order, and the segment's `choice`
+picks.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from core.program.model import Block, CornerSegment, CutterComp, Program
 from core.program.solve.corners import Corners, put_corners_in
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.segment import Carried, Draft, draft, typed_point
-from core.program.solve.solved import Origin, SolvedBlock, SolvedSegment, Value
+from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment, Value
+from core.program.solve.stretch import Contour, place_faults, stretch_at
 from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
 from core.units import Unit
@@ -37,7 +39,7 @@ ZERO_IF_BLANK: Final = ("finish_tool", "peck_depth")
 def solve_block(block: Block, program: Program) -> SolvedBlock:
     """The block with its blanks calculated; trouble is in its findings, never raised."""
     start = _start(block, program)
-    drafts = _drafts(block, program.unit, start)
+    drafts, runs = _drafts(block, program.unit, start)
     segments = _segments(block, drafts)
     determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
     known = start.known
@@ -56,6 +58,7 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
         peck_depth=known.get("peck_depth", 0.0),
         findings=start.findings,
         pieces=tuple((segment.number, segment.piece) for segment in determined if segment.piece is not None),
+        runs=runs,
     )
 
 
@@ -67,15 +70,32 @@ def _closed(segments: Sequence[SolvedSegment]) -> bool:
     return first is not None and last is not None and dist(first, last) <= CLOSED
 
 
-def _drafts(block: Block, unit: Unit, start: _Start) -> list[Draft]:
-    """Every segment solved by itself, each from where the one before it ends."""
+def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple[SolvedRun, ...]]:
+    """Every segment solved, by itself or together with others, each from where the one before it ends."""
     typed = typed_point(start.values, ("x_start", "y_start"))
     carried = Carried(start.point, typed, start.known.get("z_bottom"), start.known.get("plunge_feed"))
+    numbered = enumerate(block.segments, 1)
+    readings = [read_form(form_of(segment), segment, unit, number) for number, segment in numbered]
     drafts: list[Draft] = []
-    for number, segment in enumerate(block.segments, 1):
-        drafts.append(draft(segment, number, carried, unit))
+    runs: list[SolvedRun] = []
+    contour = Contour(block.segments, readings, drafts, unit)
+    while len(drafts) < len(readings):
+        index = len(drafts)
+        own = draft(block.segments[index], readings[index], carried, unit)
+        stretch = stretch_at(contour, index, own)
+        if stretch is None:
+            drafts.append(own)
+        else:
+            drafts += stretch.drafts
+            runs.append(stretch.run)
         carried = drafts[-1].after
-    return drafts
+    placed = [_with_faults(item, place_faults(contour, index)) for index, item in enumerate(drafts)]
+    return placed, tuple(runs)
+
+
+def _with_faults(item: Draft, faults: tuple[Finding, ...]) -> Draft:
+    """A draft with what is wrong with how its segment names others."""
+    return replace(item, shape=replace(item.shape, findings=(*faults, *item.shape.findings))) if faults else item
 
 
 def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:

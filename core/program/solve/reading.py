@@ -7,14 +7,17 @@ from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
 from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Unread
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Unread
 from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, to_mm, to_radians
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A form's typed fields: `values` by name with blanks as None, `known` in millimeters and radians."""
+    """A form's typed fields: `values` by name with blanks as None, `known` in millimeters and radians.
+
+    A relative number is known by its field's name with the ending `_inc`.
+    """
 
     values: dict[str, Value]
     known: dict[str, float]
@@ -39,17 +42,18 @@ def read_form(
             continue
         trouble = _trouble(field, typed, unit)
         if trouble is None:
-            assert isinstance(typed, Number)
-            known[field.name] = _internal(typed.value, field.kind, unit)
+            assert isinstance(typed, Number | Relative)
+            ending = "_inc" if isinstance(typed, Relative) else ""
+            known[field.name + ending] = _internal(typed.value, field.kind, unit)
         else:
             code, text = trouble
             findings.append(Finding(code, Severity.ERROR, text, number, field.name))
     return Reading(values, known, tuple(findings))
 
 
-def _trouble(field: Field, typed: Number | Unread, unit: Unit) -> tuple[str, str] | None:
+def _trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
     """Code and sentence about a field that cannot be used."""
-    if isinstance(typed, Number):
+    if isinstance(typed, Number | Relative):
         refusal = value_refusal(field, typed.value, unit)
     elif (refusal := text_refusal(typed.text, field, unit)) is None:
         return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"

@@ -1,8 +1,9 @@
-"""One segment solved by itself, before blending: its fields read, its piece of the surface, and what it hands on."""
+"""One segment solved by itself, before blending: its piece of the surface, and what it hands on."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import atan2, tau
 from typing import Final, assert_never
 
 from core.finding import Finding, Severity
@@ -11,7 +12,7 @@ from core.program.fields import FARTHEST, TABLES, form_of
 from core.program.model import ArcSegment, BlendSegment, ChamferSegment, CornerSegment, LineSegment, Number, Segment
 from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
 from core.program.solve.line import LINE_TASK, heading, kept_axis, line_sketch
-from core.program.solve.reading import Reading, read_form
+from core.program.solve.reading import Reading
 from core.program.solve.rules import Given, Outcome, Task, solve
 from core.program.solve.solved import Origin, Value
 from core.tolerance import JOINED, LARGEST
@@ -43,6 +44,8 @@ class Carried:
     """X and Y of the end as typed, in program units; None where they are calculated."""
     z: float | None
     feed: float | None
+    heading: float | None = None
+    """The direction in which the segment before ends, before any blending."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,36 +64,53 @@ def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float
     return x.value if isinstance(x, Number) else None, y.value if isinstance(y, Number) else None
 
 
-def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
-    """A segment that begins where the one before it ends, and takes over its Z and feed where its own are blank."""
-    reading = read_form(form_of(segment), segment, unit, number)
+def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Draft:
+    """A segment that begins where the one before it ends, solved from its own fields."""
+    _keep_coordinate(segment, reading, before, unit)
+    return drafted(segment, reading, before, _shape(segment, reading, before, unit), unit)
+
+
+def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, unit: Unit) -> Draft:
+    """A segment of a known shape, which takes over Z and feed where its own are blank, and what it hands on."""
     known = reading.known
-    z, feed = known.pop("z_end", before.z), known.pop("feed", before.feed)
-    kept = _keep_coordinate(segment, reading, before, unit)
-    shape = _shape(segment, reading, before, unit)
+    z, feed = known.get("z_end", before.z), known.get("feed", before.feed)
     reading.fill("feed", None if feed is None else from_mm(feed, unit))
-    if not isinstance(segment, CornerSegment):
-        reading.fill("z_end", None if z is None else from_mm(z, unit))
+    if isinstance(segment, CornerSegment):
+        return Draft(reading, shape, before, Carried(shape.end, before.typed, z, feed, before.heading))
+    reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
-    typed = before.typed if isinstance(segment, CornerSegment) else typed_point(reading.values, _ENDS)
+    typed = typed_point(reading.values, _ENDS)
+    kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
     if kept is not None:
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
-    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed))
+    heading = None if shape.piece is None else end_heading(shape.piece)
+    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed, heading))
 
 
-def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> int | None:
-    """Take the other coordinate of a LINE on which one end coordinate alone is typed from the segment before.
+def end_heading(piece: Piece) -> float:
+    """The direction in which a piece ends, in radians."""
+    x, y = piece.direction_at(piece.end)
+    return atan2(y, x)
 
-    Returns the axis on which the line stays (0 is X), None where nothing is assumed or nothing is known to take.
-    """
+
+def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
+    """What is typed of a segment's own shape; coordinates relative to its known start are put in absolutely."""
+    known = {name: value for name, value in reading.known.items() if name in task.shape}
+    for name, axis in (("x_end", 0), ("y_end", 1), ("x_center", 0), ("y_center", 1)):
+        if name + "_inc" in reading.known:
+            known[name] = start[axis] + reading.known[name + "_inc"]
+    return known
+
+
+def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> None:
+    """Take the other coordinate of a LINE on which one end coordinate alone is typed from the segment before."""
     axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
-    if axis is None or before.point is None or _ENDS[1 - axis] not in reading.known:
-        return None
-    reading.known[_ENDS[axis]] = before.point[axis]
-    reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
-    return axis
+    names = (_ENDS[1 - axis], _ENDS[1 - axis] + "_inc") if axis is not None else ()
+    if axis is not None and before.point is not None and any(name in reading.known for name in names):
+        reading.known[_ENDS[axis]] = before.point[axis]
+        reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
 
 
 def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:
@@ -100,10 +120,13 @@ def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> S
         case _ if before.point is None:
             return Shape()
         case LineSegment():
-            return _solved(LINE_TASK, reading, Given(before.point, reading.known), segment.choice, unit)
+            given = Given(before.point, own_data(LINE_TASK, reading, before.point))
+            return _solved(LINE_TASK, reading, given, segment.choice, unit)
         case ArcSegment():
-            given = Given(before.point, reading.known, _ends_at_start(reading, before.point, before.typed, unit))
-            return _solved(ARC_TASKS[segment.direction], reading, given, segment.choice, unit)
+            task = ARC_TASKS[segment.direction]
+            back = _ends_at_start(reading, before.point, before.typed, unit)
+            given = Given(before.point, own_data(task, reading, before.point), back)
+            return _solved(task, reading, given, segment.choice, unit)
         case _:
             assert_never(segment)
 
@@ -138,7 +161,7 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
     if _too_far(piece):
         text = "This segment's end or center is beyond any machine's travel. Check its numbers."
         return Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
-    _calculate(reading, piece, unit)
+    calculate(reading, piece, unit)
     if piece.length <= JOINED:
         text = "No length: skipped. Type its end, or F1 deletes it."
         return Shape(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
@@ -167,10 +190,11 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
     faulty = any(finding.field in task.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
     sketch = line_sketch if task is LINE_TASK else arc_sketch
-    return Shape(missing=outcome.missing, sketch=sketch(start, reading.known), findings=findings)
+    known = own_data(task, reading, start)
+    return Shape(missing=outcome.missing, sketch=sketch(start, known), findings=findings)
 
 
-def _calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
+def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
     """Fill the blanks of a determined line or arc."""
     reading.fill("x_end", from_mm(piece.end[0], unit))
     reading.fill("y_end", from_mm(piece.end[1], unit))
@@ -182,3 +206,5 @@ def _calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
         reading.fill("y_center", from_mm(piece.center[1], unit))
         reading.fill("radius", from_mm(piece.radius, unit))
         reading.fill("sweep", from_radians(abs(piece.sweep)))
+        x, y = piece.direction_at(piece.start)
+        reading.fill("start_angle", from_radians(atan2(y, x) % tau))

@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
-from core.program.model import Number, Unread
+from core.program.model import Number, Relative, Unread
 
 
 class Origin(StrEnum):
@@ -35,7 +35,7 @@ class Solved:
     origin: Origin = Origin.CALCULATED
 
 
-Value = Number | Solved | Unread | None
+Value = Number | Relative | Solved | Unread | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +66,37 @@ class SolvedSegment:
 
 
 @dataclass(frozen=True, slots=True)
+class RunAnswer:
+    """One solution of a run: its pieces with their segment numbers, before any blending, and their length together.
+
+    A program takes it with `choice` on the run's first segment or, where the run is calculated from a pick, with that
+    segment's PICK X and PICK Y at `pick` (millimeters).
+    """
+
+    pieces: tuple[tuple[int, Piece], ...]
+    length: float
+    choice: int | None = None
+    pick: Point | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedRun:
+    """Segments `first` to `last`, calculated together.
+
+    `answers` are all solutions, the shortest first, `taken` the index of the one in force.  While there is none, `code`
+    says why, `missing` counts the values that are needed at least, and `sketch` is what is known of the run's pieces.
+    """
+
+    first: int
+    last: int
+    answers: tuple[RunAnswer, ...] = ()
+    taken: int | None = None
+    code: str | None = None
+    missing: int = 0
+    sketch: tuple[Piece, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class SolvedBlock:
     """A whole block: START's values and its segments.  Lengths in millimeters, feeds in millimeters per minute.
 
@@ -87,6 +118,12 @@ class SolvedBlock:
     findings: tuple[Finding, ...]
     pieces: tuple[tuple[int, Piece], ...] = ()
     """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
+    runs: tuple[SolvedRun, ...] = ()
+    """The stretches whose segments are calculated together, in order."""
+
+    def run_of(self, number: int) -> SolvedRun | None:
+        """The run of which a segment is a part."""
+        return next((run for run in self.runs if run.first <= number <= run.last), None)
 
     @property
     def every_finding(self) -> tuple[Finding, ...]:

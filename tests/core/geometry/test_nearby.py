@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from core.geometry.distance import distance
 from core.geometry.nearby import (
-    gathered,
     near_pairs,
     near_pairs_within,
     nearest_pairs,
+    sorted_pairs,
 )
 from core.geometry.path import Path
 from core.geometry.piece_arrays import PieceArrays, at, piece_arrays
@@ -51,14 +51,14 @@ def pairs(found: tuple[Rows, ...]) -> set[tuple[int, int]]:
 def test_near_boxes_are_those_no_farther_apart_than_the_reach(n: int, m: int, reach: float) -> None:
     a, b = walk(1, n).boxes, walk(2, m).boxes
     batches = list(near_pairs(a, b, reach))
-    assert pairs(gathered(batches)) == pairs(np.nonzero(boxes_apart(a, b) <= reach))
+    assert pairs(sorted_pairs(batches)) == pairs(np.nonzero(boxes_apart(a, b) <= reach))
     assert np.all(np.diff(np.concatenate([i for i, _ in batches])) >= 0)
 
 
 @pytest.mark.parametrize("n", [1, 2, 40, 700])
 def test_near_boxes_of_one_set_come_once_each(n: int) -> None:
     a = walk(3, n).boxes
-    i, j = gathered(near_pairs_within(a, 0.2))
+    i, j = sorted_pairs(near_pairs_within(a, 0.2))
     assert len(i) == len(pairs((i, j)))
     assert pairs((i, j)) == pairs(np.nonzero(np.triu(boxes_apart(a, a) <= 0.2, 1)))
 
@@ -67,7 +67,7 @@ def test_no_boxes_are_near_none() -> None:
     none, some = np.zeros((4, 0)), walk(1, 5).boxes
     assert not list(near_pairs(none, some, 1.0))
     assert not list(near_pairs(some, none, 1.0))
-    assert len(gathered(near_pairs(none, none, 1.0))[0]) == 0
+    assert len(sorted_pairs(near_pairs(none, none, 1.0))[0]) == 0
 
 
 def test_boxes_on_top_of_each_other_come_in_batches() -> None:
@@ -82,7 +82,7 @@ def test_a_box_with_a_bound_that_is_no_number_is_near_all_and_hides_none(bound: 
     a, b = walk(1, 130).boxes, walk(2, 131).boxes
     wanted = pairs(np.nonzero(boxes_apart(a, b) <= 0.7))
     a[bound, ::7] = np.nan
-    for found in (gathered(near_pairs(a, b, 0.7)), gathered(near_pairs(b, a, 0.7))[::-1]):
+    for found in (sorted_pairs(near_pairs(a, b, 0.7)), sorted_pairs(near_pairs(b, a, 0.7))[::-1]):
         assert pairs(found) >= wanted
 
 

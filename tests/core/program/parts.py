@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from hypothesis import strategies as st
 
-from core.program.fields import TABLES, Field, Form
+from core.program.fields import PICK, TABLES, Field, Form
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -76,10 +76,14 @@ def program(
     return Program(unit=unit, tools=(Tool(1, "END MILL", Number(0.5)),), blocks=(block,))
 
 
+RELATIONS = (*(field.name for field in PICK), "point_x", "point_y", "point_dist", "parallel", "offset")
+"""Fields that stay blank where they are not typed."""
+
+
 def tags(segment: SolvedSegment | SolvedBlock) -> dict[str, str]:
     """Which fields were typed, which calculated, which are neither."""
     names = {Number: "typed", Solved: "CAL", Unread: "unread", type(None): "blank"}
-    return {name: names[type(value)] for name, value in segment.values.items()}
+    return {name: names[type(value)] for name, value in segment.values.items() if value or name not in RELATIONS}
 
 
 def number(segment: SolvedSegment, name: str) -> float:

@@ -121,7 +121,7 @@ def test_choose():
     [
         (FormPlace(1), "cutter_comp", "UP", "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
         (FormPlace(1), "cutter_comp", None, "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
-        (FormPlace(1, 1), "choice", 2, "SOLUTION takes 0, 1."),
+        (FormPlace(1, 1), "choice", -1, "SOLUTION takes the number of a solution."),
         (FormPlace(1, 9), "choice", 0, "Segment 9 does not exist; the last is 3."),
     ],
 )

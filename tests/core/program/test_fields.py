@@ -35,8 +35,8 @@ from core.units import Kind, Unit
 
 PARTS = {
     Form.START: (Block, {"segments"}),
-    Form.LINE: (LineSegment, {"choice"}),
-    Form.ARC: (ArcSegment, {"choice"}),
+    Form.LINE: (LineSegment, {"choice", "pick_x", "pick_y"}),
+    Form.ARC: (ArcSegment, {"choice", "pick_x", "pick_y"}),
     Form.BLEND: (BlendSegment, set()),
     Form.CHAMFER: (ChamferSegment, set()),
     Form.TOOL: (Tool, set()),
@@ -78,17 +78,34 @@ def test_start_reads_as_on_the_control():
 
 
 def test_segments_read_as_on_the_control():
-    assert [one.label for one in fields.LINE] == ["X END", "Y END", "Z END", "XY LENGTH", "XY ANGLE", "FEED"]
+    assert [one.label for one in fields.LINE] == [
+        "X END",
+        "Y END",
+        "Z END",
+        "POINT X",
+        "POINT Y",
+        "DISTANCE",
+        "XY LENGTH",
+        "XY ANGLE",
+        "PARALLEL TO",
+        "OFFSET",
+        "FEED",
+        "TANGENT",
+    ]
     assert [one.label for one in fields.ARC] == [
         "DIRECTION",
         "X END",
         "Y END",
         "Z END",
+        "POINT X",
+        "POINT Y",
         "X CENTER",
         "Y CENTER",
         "RADIUS",
         "SWEEP ANGLE",
+        "START ANGLE",
         "FEED",
+        "TANGENT",
     ]
     assert [one.label for one in fields.BLEND] == ["RADIUS", "FEED"]
 

@@ -69,7 +69,7 @@ def test_solves(typed):
 def test_what_was_typed_and_what_was_calculated():
     found = solved(arc("CCW", x_end=0.0, y_end=5.0, x_center=0.0, y_center=0.0), 5.0, 0.0)
     calculated = {name for name, tag in tags(found).items() if tag == "CAL"}
-    assert calculated == {"z_end", "radius", "sweep", "feed"}
+    assert calculated == {"z_end", "radius", "sweep", "start_angle", "feed"}
 
 
 def test_the_other_way_round_is_the_long_way():

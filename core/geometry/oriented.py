@@ -1,0 +1,162 @@
+"""Oriented lines and circles: what they have in common, every answer, in an order that stays.
+
+A contour is traveled, so each line and circle of it has a sense.  A line of heading t has the left normal
+n = (-sin t, cos t) and the points X with n.X = p.  A circle has a center c and a signed radius rho, positive
+counterclockwise; the point of it that is traveled in direction t is c - rho n.  A point is a circle of rho 0.
+Two of them touch without doubling back where n.c - p = rho (line and circle) or |c - c'| = |rho - rho'| (two
+circles): one equation for every case.  Millimeters and radians.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, atan2, cos, hypot, sin, sqrt, tau
+
+from core.geometry.piece import SLIVER, Point
+from core.tolerance import ARC_RADII, GRAZE
+
+
+@dataclass(frozen=True, slots=True)
+class OrientedLine:
+    """All points X with n.X = `offset`, traveled in direction `heading`."""
+
+    heading: float
+    offset: float
+
+    @property
+    def normal(self) -> Point:
+        """The unit vector to the left."""
+        return normal(self.heading)
+
+    def shifted(self, dx: float, dy: float) -> OrientedLine:
+        """The line moved by a vector."""
+        nx, ny = self.normal
+        return OrientedLine(self.heading, self.offset + nx * dx + ny * dy)
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """All points at `radius` (not negative) from `center`."""
+
+    center: Point
+    radius: float
+
+    def shifted(self, dx: float, dy: float) -> Circle:
+        """The circle moved by a vector."""
+        return Circle((self.center[0] + dx, self.center[1] + dy), self.radius)
+
+
+Locus = OrientedLine | Circle
+"""Where a point may lie."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """The points two loci share: none, one or two; `grazing` where two have become one.
+
+    `coincident`: both are the same; `apart` is by how much they miss each other, in millimeters.
+    """
+
+    points: tuple[Point, ...] = ()
+    grazing: bool = False
+    coincident: bool = False
+    apart: float = 0.0
+
+
+def direction(heading: float) -> Point:
+    """The unit vector of a heading."""
+    return cos(heading), sin(heading)
+
+
+def normal(heading: float) -> Point:
+    """The unit vector to the left of a heading."""
+    return -sin(heading), cos(heading)
+
+
+def line_through(point: Point, heading: float) -> OrientedLine:
+    """The line of a heading through a point."""
+    nx, ny = normal(heading)
+    return OrientedLine(heading, nx * point[0] + ny * point[1])
+
+
+def meeting(first: Locus, second: Locus) -> Meeting:
+    """What two loci share.
+
+    A line and a circle: first along the line's heading; two circles: left of the way from the first center to the
+    second."""
+    if isinstance(first, OrientedLine):
+        return _lines(first, second) if isinstance(second, OrientedLine) else _line_circle(first, second)
+    return _line_circle(second, first) if isinstance(second, OrientedLine) else _circles(first, second)
+
+
+def _lines(first: OrientedLine, second: OrientedLine) -> Meeting:
+    (ax, ay), (bx, by) = first.normal, second.normal
+    across = ax * by - ay * bx
+    if abs(across) < SLIVER:
+        apart = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
+        return Meeting(coincident=apart <= ARC_RADII, apart=apart)
+    x = (first.offset * by - second.offset * ay) / across
+    return Meeting(((x, (ax * second.offset - bx * first.offset) / across),))
+
+
+def _line_circle(line: OrientedLine, circle: Circle) -> Meeting:
+    (nx, ny), (tx, ty), (cx, cy) = line.normal, direction(line.heading), circle.center
+    height = nx * cx + ny * cy - line.offset
+    foot = (cx - height * nx, cy - height * ny)
+    gap = abs(height) - circle.radius
+    if gap > ARC_RADII:
+        return Meeting(apart=abs(height))
+    if gap >= -GRAZE:
+        return Meeting((foot,), grazing=True)
+    half = sqrt((circle.radius - height) * (circle.radius + height))
+    return Meeting(((foot[0] - half * tx, foot[1] - half * ty), (foot[0] + half * tx, foot[1] + half * ty)))
+
+
+def _circles(first: Circle, second: Circle) -> Meeting:
+    (ax, ay), (bx, by), r, s = first.center, second.center, first.radius, second.radius
+    between = hypot(bx - ax, by - ay)
+    if between <= ARC_RADII:
+        return Meeting(coincident=abs(r - s) <= ARC_RADII, apart=between)
+    ux, uy = (bx - ax) / between, (by - ay) / between
+    along = (between * between + r * r - s * s) / (2.0 * between)
+    gap = max(between - r - s, abs(r - s) - between)
+    if gap > ARC_RADII:
+        return Meeting(apart=between)
+    if gap >= -GRAZE:
+        reach = r if along > 0.0 else -r
+        return Meeting(((ax + reach * ux, ay + reach * uy),), grazing=True)
+    half = sqrt(max(0.0, (r - along) * (r + along)))
+    x, y = ax + along * ux, ay + along * uy
+    return Meeting(((x - half * uy, y + half * ux), (x + half * uy, y - half * ux)))
+
+
+def headings_at_distances(first: Point, r: float, second: Point, s: float) -> tuple[tuple[float, ...], bool]:
+    """The headings of lines with n.first - p = r and n.second - p = s, and whether two have become one.
+
+    n.(second - first) = s - r.  First the line that runs from the first point's foot to the second's, then the one
+    that runs the other way.  None where the points are nearer than the distances differ.
+    """
+    dx, dy = second[0] - first[0], second[1] - first[1]
+    between, rise = hypot(dx, dy), s - r
+    if between <= SLIVER or abs(rise) - between > ARC_RADII:
+        return (), False
+    toward = atan2(dy, dx)
+    # the normal of a heading t is t + a quarter turn: sin(toward - t) = rise / between
+    tilt = tau / 4.0 - acos(max(-1.0, min(1.0, rise / between)))
+    if between - abs(rise) <= GRAZE:
+        return (toward - (tau / 4.0 if rise > 0.0 else -tau / 4.0),), True
+    return (toward - tilt, toward - (tau / 2.0 - tilt)), False
+
+
+def touch_point(first: Point, rho: float, second: Point, sigma: float) -> tuple[Point, float] | None:
+    """Where a circle touches another traveled the same way, and the heading there; None for equal circles.
+
+    c - rho n = c' - sigma n, so that n = (c - c') / (rho - sigma).
+    """
+    dx, dy = first[0] - second[0], first[1] - second[1]
+    size = hypot(dx, dy)
+    if size <= ARC_RADII or rho == sigma:
+        return None
+    side = 1.0 if rho > sigma else -1.0
+    nx, ny = side * dx / size, side * dy / size
+    return (first[0] - rho * nx, first[1] - rho * ny), atan2(-nx, ny)

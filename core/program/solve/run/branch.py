@@ -1,0 +1,468 @@
+"""A branch of a run's solution: what is known so far of every element and joint, and what follows without a choice.
+
+Joint k lies before element k; joint 0 is the run's start.  Each value is None until it is known and then stays; that
+values which follow in two ways agree is proved at the end, by walking the chain (`proof`).
+
+An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, with t and n the direction and left
+normal in which the contour arrives at P (or departs from it).  The joint itself, once known, is an anchor with
+u = v = 0, the center of a known circle one with v = -rho; a LINE of known length, an ARC of known radius and sweep
+carry anchors on to their other end.  What follows from anchors holds for chains of any shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import atan2, cos, hypot, pi, sin, tau
+from typing import Final, NamedTuple
+
+from core.finding import Finding
+from core.geometry.oriented import Circle, Locus, OrientedLine, direction, line_through, meeting, normal, touch_point
+from core.geometry.piece import Point
+from core.program.solve.run.element import Run
+from core.tolerance import JOINED
+
+Numbers = list[float | None]
+
+FULL_TURN_DOUBT: Final = 1e-6
+"""Radians within which the turn between two headings may be nothing as well as a full turn: it says nothing."""
+
+
+class Anchor(NamedTuple):
+    """A known point to which a joint is tied, `along` and `left` of it in the frame of the joint's heading."""
+
+    at: Point
+    along: float
+    left: float
+
+    @property
+    def tied(self) -> float:
+        """The distance between the two."""
+        return hypot(self.along, self.left)
+
+    def turned(self, angle: float) -> Anchor:
+        """The same tie in a frame turned by `angle`, counterclockwise positive."""
+        c, s = cos(angle), sin(angle)
+        return Anchor(self.at, self.along * c + self.left * s, self.left * c - self.along * s)
+
+
+class DeadEnd(Exception):
+    """What is known cannot be; `finding` says why."""
+
+    def __init__(self, finding: Finding) -> None:
+        super().__init__(finding.code)
+        self.finding = finding
+
+
+class Branch:
+    """What is known of a run; `choices` are the roots taken so far, 0 or 1 each, `grazes` those that are double."""
+
+    def __init__(self, run: Run) -> None:
+        count = len(run.elements)
+        self.run = run
+        self.heading_in: Numbers = [None] * count
+        self.heading_out: Numbers = [None] * count
+        self.length: Numbers = [None] * count
+        self.rho: Numbers = [None] * count
+        self.sweep: Numbers = [None] * count
+        self.offset: Numbers = [None] * count
+        self.point_side: Numbers = [None] * count
+        self.center_x: Numbers = [None] * count
+        self.center_y: Numbers = [None] * count
+        self.x: Numbers = [None] * (count + 1)
+        self.y: Numbers = [None] * (count + 1)
+        self.choices: tuple[int, ...] = ()
+        self.grazes: tuple[bool, ...] = ()
+        self.changed = True
+        self._take_typed()
+
+    def copy(self) -> Branch:
+        """A branch of its own with the same knowledge."""
+        twin = Branch.__new__(Branch)
+        for name, value in vars(self).items():
+            setattr(twin, name, list(value) if isinstance(value, list) else value)
+        return twin
+
+    def chosen(self, root: int, *, grazing: bool = False) -> Branch:
+        """A copy that takes root 0 or 1 of a step."""
+        twin = self.copy()
+        twin.choices = (*self.choices, root)
+        twin.grazes = (*self.grazes, grazing)
+        return twin
+
+    def put(self, values: Numbers, index: int, value: float) -> None:
+        """Let a value be known; one that is known already stays."""
+        if values[index] is None:
+            values[index] = value
+            self.changed = True
+
+    def put_joint(self, index: int, at: Point) -> None:
+        """Let a joint be known, as far as it is not."""
+        self.put(self.x, index, at[0])
+        self.put(self.y, index, at[1])
+
+    def put_center(self, index: int, at: Point) -> None:
+        """Let a center be known, as far as it is not."""
+        self.put(self.center_x, index, at[0])
+        self.put(self.center_y, index, at[1])
+
+    def put_heading(self, index: int, heading: float) -> None:
+        """Let a LINE's heading be known."""
+        self.put(self.heading_in, index, heading)
+        self.put(self.heading_out, index, heading)
+
+    def joint(self, index: int) -> Point | None:
+        """A joint whose two coordinates are known."""
+        x, y = self.x[index], self.y[index]
+        return None if x is None or y is None else (x, y)
+
+    def center(self, index: int) -> Point | None:
+        """A center whose two coordinates are known."""
+        x, y = self.center_x[index], self.center_y[index]
+        return None if x is None or y is None else (x, y)
+
+    def link(self, index: int) -> float | None:
+        """The angle from the heading before joint `index` to the one after it, if it is typed."""
+        return self.run.elements[index].link if 0 < index < len(self.run.elements) else None
+
+    def line(self, index: int) -> OrientedLine | None:
+        """The line of an element, if it is known."""
+        heading, offset = self.heading_in[index], self.offset[index]
+        return None if heading is None or offset is None else OrientedLine(heading, offset)
+
+    @property
+    def complete(self) -> bool:
+        """Every joint and every circle is known."""
+        joints = all(self.joint(index) is not None for index in range(len(self.x)))
+        arcs = (index for index, element in enumerate(self.run.elements) if element.turn)
+        return joints and all(self.center(index) is not None for index in arcs)
+
+    def _take_typed(self) -> None:
+        run = self.run
+        self.put_joint(0, run.start)
+        for index, element in enumerate(run.elements):
+            known = element.known
+            typed: tuple[tuple[Numbers, int, str], ...] = (
+                (self.x, index + 1, "x_end"),
+                (self.y, index + 1, "y_end"),
+                (self.length, index, "length"),
+                (self.center_x, index, "x_center"),
+                (self.center_y, index, "y_center"),
+                (self.sweep, index, "sweep"),
+                (self.heading_in, index, "start_angle"),
+            )
+            for values, at, name in typed:
+                if name in known:
+                    values[at] = known[name]
+            if "radius" in known:
+                self.rho[index] = element.turn * known["radius"]
+            if "angle" in known:
+                self.put_heading(index, known["angle"])
+        first = run.elements[0]
+        if first.link is not None and run.heading is not None:
+            self.put(self.heading_in, 0, run.heading + first.link)
+            if not first.turn:
+                self.put(self.heading_out, 0, run.heading + first.link)
+
+    # what follows without a choice
+
+    def settle(self) -> None:
+        """Whatever follows without a choice, until nothing more does.
+
+        Lines and circles come before lengths: where both give a joint, the length is what is compared with it.
+        """
+        while self.changed:
+            while self.changed:
+                self.changed = False
+                for index, element in enumerate(self.run.elements):
+                    self._linked(index)
+                    self._relative(index)
+                    if element.turn:
+                        self._arc(index)
+                    else:
+                        self._line(index)
+                for index in range(1, len(self.x)):
+                    self._joint(index, carried=False)
+            for index in range(1, len(self.x)):
+                self._joint(index, carried=True)
+
+    def _linked(self, index: int) -> None:
+        """Headings on both sides of the joint before an element."""
+        link = self.link(index)
+        if link is None:
+            return
+        before, after = self.heading_out[index - 1], self.heading_in[index]
+        if before is not None:
+            self.put(self.heading_in, index, before + link)
+            if not self.run.elements[index].turn:
+                self.put(self.heading_out, index, before + link)
+        elif after is not None:
+            self.put(self.heading_out, index - 1, after - link)
+            if not self.run.elements[index - 1].turn:
+                self.put(self.heading_in, index - 1, after - link)
+        if link == 0.0 and self.joint(index) is None:
+            self._touching(index)
+
+    def _touching(self, index: int) -> None:
+        """The touch point of two known circles."""
+        first, second = self.center(index - 1), self.center(index)
+        rho, sigma = self.rho[index - 1], self.rho[index]
+        if first is None or second is None or rho is None or sigma is None:
+            return
+        touch = touch_point(first, rho, second, sigma)
+        if touch is not None:
+            self.put_joint(index, touch[0])
+
+    def _relative(self, index: int) -> None:
+        """Relative coordinates, from either end, and what both together say."""
+        known = self.run.elements[index].known
+        for values, other, at, name in (
+            (self.x, self.x, index + 1, "x_end_inc"),
+            (self.y, self.y, index + 1, "y_end_inc"),
+            (self.center_x, self.x, index, "x_center_inc"),
+            (self.center_y, self.y, index, "y_center_inc"),
+        ):
+            if name not in known:
+                continue
+            start, end = other[index], values[at]
+            if start is not None:
+                self.put(values, at, start + known[name])
+            elif end is not None:
+                self.put(other, index, end - known[name])
+        if "x_center_inc" in known and "y_center_inc" in known:
+            dx, dy, turn = known["x_center_inc"], known["y_center_inc"], self.run.elements[index].turn
+            self.put(self.rho, index, turn * hypot(dx, dy))
+            self.put(self.heading_in, index, atan2(-turn * dx, turn * dy))
+
+    def _line(self, index: int) -> None:
+        known = self.run.elements[index].known
+        start, end, heading = self.joint(index), self.joint(index + 1), self.heading_in[index]
+        if start is not None and end is not None:
+            way = (end[0] - start[0], end[1] - start[1])
+            if hypot(*way) > JOINED:
+                self.put_heading(index, atan2(way[1], way[0]))
+                self.put(self.length, index, hypot(*way))
+        if "x_end_inc" in known and "y_end_inc" in known:
+            self.put(self.length, index, hypot(known["x_end_inc"], known["y_end_inc"]))
+            self.put_heading(index, atan2(known["y_end_inc"], known["x_end_inc"]))
+        if heading is None or self.offset[index] is not None:
+            return
+        nx, ny = normal(heading)
+        for (x, y), distance, _ in self.line_ties(index):
+            self.put(self.offset, index, nx * x + ny * y - distance)
+            return
+
+    def _arc(self, index: int) -> None:
+        center, rho = self.center(index), self.rho[index]
+        element = self.run.elements[index]
+        if center is not None and rho is None:
+            for point in (self.joint(index), self.joint(index + 1), element.point):
+                if point is not None:
+                    radius = hypot(point[0] - center[0], point[1] - center[1])
+                    self.put(self.rho, index, element.turn * radius)
+                    break
+        self._turn(index)
+        if rho is None or center is not None:
+            return
+        for at, heading in ((index, self.heading_in[index]), (index + 1, self.heading_out[index])):
+            joint = self.joint(at)
+            if joint is not None and heading is not None:
+                nx, ny = normal(heading)
+                self.put_center(index, (joint[0] + rho * nx, joint[1] + rho * ny))
+                return
+
+    def _turn(self, index: int) -> None:
+        """An arc's two headings and its sweep: two of them give the third."""
+        turn = self.run.elements[index].turn
+        first, last, sweep = self.heading_in[index], self.heading_out[index], self.sweep[index]
+        if first is not None and last is not None:
+            turned = turn * (last - first) % tau
+            if FULL_TURN_DOUBT < turned < tau - FULL_TURN_DOUBT:
+                self.put(self.sweep, index, turned)
+        elif sweep is not None and first is not None:
+            self.put(self.heading_out, index, first + turn * sweep)
+        elif sweep is not None and last is not None:
+            self.put(self.heading_in, index, last - turn * sweep)
+
+    def _joint(self, index: int, *, carried: bool) -> None:
+        """A joint from a heading and an anchor, or a heading from the joint and an anchor; or from two lines.
+
+        Anchors that lengths have carried along are left out unless `carried`.
+        """
+        last = len(self.run.elements)
+        sides = [(self.heading_out, index - 1, self.arriving(index))]
+        if index < last:
+            sides.append((self.heading_in, index, self.departing(index)))
+        for headings, element, anchors in sides:
+            heading = headings[element]
+            for anchor in anchors:
+                if anchor.tied > JOINED and (carried or anchor.along == 0.0 or heading is None):
+                    self._tied(index, anchor, headings, element, heading)
+        if self.joint(index) is None:
+            self._between_lines(index)
+
+    def _tied(self, index: int, anchor: Anchor, headings: Numbers, element: int, heading: float | None) -> None:
+        joint, (x, y) = self.joint(index), anchor.at
+        if joint is None and heading is not None:
+            (tx, ty), (nx, ny) = direction(heading), normal(heading)
+            u, v = anchor.along, anchor.left
+            self.put_joint(index, (x + u * tx + v * nx, y + u * ty + v * ny))
+        elif joint is not None and heading is None and hypot(joint[0] - x, joint[1] - y) > JOINED:
+            found = atan2(joint[1] - y, joint[0] - x) - atan2(anchor.left, anchor.along)
+            self.put(headings, element, found)
+            if not self.run.elements[element].turn:
+                self.put_heading(element, found)
+
+    def _between_lines(self, index: int) -> None:
+        """A joint on two lines that are not parallel."""
+        lines = [locus for locus in self.loci(index) if isinstance(locus, OrientedLine)]
+        for line in lines[1:]:
+            met = meeting(lines[0], line)
+            if met.points:
+                self.put_joint(index, met.points[0])
+                return
+
+    # anchors, loci and ties
+
+    def arriving(self, index: int) -> Iterator[Anchor]:
+        """The anchors of a joint in the frame of the heading in which the contour arrives there."""
+        if index:
+            yield from self._circle_anchor(index - 1)
+            yield from self._carried_on(index - 1)
+        joint = self.joint(index)
+        if joint is not None:
+            yield Anchor(joint, 0.0, 0.0)
+
+    def departing(self, index: int) -> Iterator[Anchor]:
+        """The anchors of a joint in the frame of the heading in which the contour departs from there."""
+        if index < len(self.run.elements):
+            yield from self._circle_anchor(index)
+            yield from self._carried_back(index)
+        joint = self.joint(index)
+        if joint is not None:
+            yield Anchor(joint, 0.0, 0.0)
+
+    def _circle_anchor(self, element: int) -> Iterator[Anchor]:
+        center, rho = self.center(element), self.rho[element]
+        if center is not None and rho is not None:
+            yield Anchor(center, 0.0, -rho)
+
+    def _shape(self, element: int) -> bool:
+        """Whether an element's shape is known: a LINE's length, an ARC's radius and sweep."""
+        if self.run.elements[element].turn:
+            return self.rho[element] is not None and self.sweep[element] is not None
+        return self.length[element] is not None
+
+    def arriving_linked(self, index: int) -> Iterator[Anchor]:
+        """The anchors of the joint before element `index` in the frame of that element's heading there."""
+        joint, link = self.joint(index), self.link(index)
+        if joint is not None:
+            yield Anchor(joint, 0.0, 0.0)
+        elif link is not None:
+            yield from (anchor.turned(link) for anchor in self.arriving(index))
+
+    def departing_linked(self, index: int) -> Iterator[Anchor]:
+        """The anchors of joint `index` in the frame of the heading of the element before it, where that ends."""
+        joint, link = self.joint(index), self.link(index)
+        if joint is not None:
+            yield Anchor(joint, 0.0, 0.0)
+        elif link is not None:
+            yield from (anchor.turned(-link) for anchor in self.departing(index))
+
+    def _carried_on(self, element: int) -> Iterator[Anchor]:
+        """The anchors of an element's start carried to its end."""
+        if not self._shape(element):
+            return
+        rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
+        for anchor in self.arriving_linked(element):
+            if turn:
+                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(
+                    turn * (self.sweep[element] or 0.0)
+                )
+                yield Anchor(anchor.at, at_center.along, at_center.left - rho)
+            else:
+                yield Anchor(anchor.at, anchor.along + (self.length[element] or 0.0), anchor.left)
+
+    def _carried_back(self, element: int) -> Iterator[Anchor]:
+        """The anchors of an element's end carried back to its start."""
+        if not self._shape(element):
+            return
+        rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
+        for anchor in self.departing_linked(element + 1):
+            if turn:
+                back = -turn * (self.sweep[element] or 0.0)
+                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(back)
+                yield Anchor(anchor.at, at_center.along, at_center.left - rho)
+            else:
+                yield Anchor(anchor.at, anchor.along - (self.length[element] or 0.0), anchor.left)
+
+    def line_ties(self, index: int) -> Iterator[tuple[Point, float, str]]:
+        """Points A at known distances left of a LINE: (A, n.A - p, which end of the LINE its foot is, or nothing)."""
+        element = self.run.elements[index]
+        for anchor in self.arriving_linked(index):
+            yield anchor.at, -anchor.left, "" if anchor.along else "start"
+        for anchor in self.departing_linked(index + 1):
+            yield anchor.at, -anchor.left, "" if anchor.along else "end"
+        point, distance = element.point, element.known.get("point_dist", 0.0)
+        if point is not None and (distance == 0.0 or self.point_side[index] is not None):
+            yield point, distance * (self.point_side[index] or 1.0), ""
+
+    def vector(self, element: int) -> Point | None:
+        """The way from an element's start to its end, if it is known before both are."""
+        known = self.run.elements[element].known
+        if "x_end_inc" in known and "y_end_inc" in known:
+            return known["x_end_inc"], known["y_end_inc"]
+        heading = self.heading_in[element]
+        if heading is None or not self._shape(element):
+            return None
+        (tx, ty), (nx, ny) = direction(heading), normal(heading)
+        rho, turn = self.rho[element], self.run.elements[element].turn
+        if turn and rho is not None:
+            ox, oy = normal(heading + turn * (self.sweep[element] or 0.0))
+            return rho * (nx - ox), rho * (ny - oy)
+        size = self.length[element] or 0.0
+        return size * tx, size * ty
+
+    def loci(self, index: int) -> list[Locus]:
+        """Where a joint that is not known may lie, no two the same: by what holds at it and at joints tied to it."""
+        found: list[Locus] = []
+        for dx, dy, joint in self._tied_joints(index):
+            for locus in self._loci_at(joint):
+                moved = locus.shifted(-dx, -dy)
+                if not any(type(other) is type(moved) and meeting(other, moved).coincident for other in found):
+                    found.append(moved)
+        return found
+
+    def _tied_joints(self, index: int) -> Iterator[tuple[float, float, int]]:
+        """The joint, and those that lie a known way (dx, dy) from it."""
+        yield 0.0, 0.0, index
+        dx = dy = 0.0
+        for element in range(index, len(self.run.elements)):
+            way = self.vector(element)
+            if way is None:
+                break
+            dx, dy = dx + way[0], dy + way[1]
+            yield dx, dy, element + 1
+        dx = dy = 0.0
+        for element in range(index - 1, -1, -1):
+            way = self.vector(element)
+            if way is None:
+                break
+            dx, dy = dx - way[0], dy - way[1]
+            yield dx, dy, element
+
+    def _loci_at(self, index: int) -> Iterator[Locus]:
+        x, y = self.x[index], self.y[index]
+        if x is not None:
+            yield line_through((x, 0.0), -pi / 2.0)
+        if y is not None:
+            yield line_through((0.0, y), pi)
+        elements = [element for element in (index - 1, index) if 0 <= element < len(self.run.elements)]
+        for element in elements:
+            line = self.line(element)
+            if line is not None:
+                yield line
+        # the circles of elements come before those about a joint
+        anchors = [*self.arriving(index), *self.departing(index)] if elements else []
+        for anchor in sorted(anchors, key=lambda anchor: anchor.along != 0.0):
+            if anchor.tied > JOINED:
+                yield Circle(anchor.at, anchor.tied)

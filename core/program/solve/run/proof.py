@@ -1,0 +1,200 @@
+"""The proof of an answer: its chain is walked from the start, and every typed number is compared with what it comes to.
+
+A branch that does not agree is dropped, so that surplus data choose among several.  Typed lengths agree within
+0.00254 mm (0.0001 in), angles within 0.001 degree or where they move nothing by more than that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, dist, hypot, pi, sin, tau
+from typing import Final
+
+from core.finding import Finding
+from core.geometry import construct
+from core.geometry.oriented import direction
+from core.geometry.piece import Arc, Line, Piece, Point
+from core.program.fields import FARTHEST
+from core.program.solve.run import reasons
+from core.program.solve.run.branch import Branch
+from core.program.solve.run.element import Element, Run
+from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """A run's pieces, joined end to start; what is against it comes from `objections`."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def length(self) -> float:
+        """The length of all pieces together, in millimeters."""
+        return sum(piece.length for piece in self.pieces)
+
+
+ON_GRAZE: Final = 10.0 * ARC_RADII
+"""How far an end may move onto a circle that a line only grazes."""
+
+
+def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
+    """The chain of a complete branch and what is against it; no chain where an element has no length."""
+    run, pieces = branch.run, []
+    findings: list[Finding] = []
+    for index, element in enumerate(run.elements):
+        start, end = branch.joint(index), branch.joint(index + 1)
+        assert start is not None
+        assert end is not None
+        far = max(map(abs, end)) > FARTHEST
+        piece: Piece | None
+        if element.turn:
+            center = branch.center(index)
+            assert center is not None
+            piece, trouble = _arc(run, index, start, end, center, branch)
+            far = far or max(map(abs, center)) > LARGEST
+        else:
+            piece, trouble = _line(run, index, start, end, branch)
+        if far:
+            findings.append(reasons.out_of_range(branch, index))
+        findings += trouble
+        if piece is None:
+            return None, tuple(findings)
+        pieces.append(piece)
+    chain = Chain(tuple(pieces))
+    return chain, (*findings, *objections(run, chain))
+
+
+def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tuple[Line | None, list[Finding]]:
+    """A line, which must run the way its heading says."""
+    heading = branch.heading_in[index]
+    way = (end[0] - start[0], end[1] - start[1])
+    if hypot(*way) <= JOINED:
+        return None, [reasons.no_length(run, index)]
+    if heading is None:
+        return Line(start, end), []
+    tx, ty = direction(heading)
+    ahead = way[0] * tx + way[1] * ty
+    if ahead < 0.0:
+        return Line(start, end), [reasons.behind(run, index, -ahead, heading)]
+    return Line(start, end), []
+
+
+def _arc(
+    run: Run, index: int, start: Point, end: Point, center: Point, branch: Branch
+) -> tuple[Arc | None, list[Finding]]:
+    """An arc, which must be as far from its center at both ends, and turn by more than nothing."""
+    element = run.elements[index]
+    radius, out = dist(start, center), dist(end, center)
+    if dist(start, end) <= CLOSED and not _full(element, branch.sweep[index]):
+        return None, [reasons.no_length(run, index)]
+    if abs(radius - out) > ARC_RADII:
+        return None, [reasons.radii_differ(run, index, radius, out)]
+    arc = construct.even_arc(start, end, center, element.turn)
+    if arc.length <= JOINED:
+        return None, [reasons.no_length(run, index)]
+    return arc, []
+
+
+def _full(element: Element, sweep: float | None) -> bool:
+    """Whether a full turn is typed."""
+    return element.known.get("sweep", 0.0) >= tau - AGREES or (sweep is not None and sweep >= tau - AGREES)
+
+
+def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:
+    """Every typed number that the chain does not meet."""
+    findings: list[Finding] = []
+    before = run.heading
+    for index, (element, piece) in enumerate(zip(run.elements, chain.pieces, strict=True)):
+        findings += _own(run, index, element, piece)
+        leaving = _heading(piece, piece.start)
+        if element.link is not None and before is not None:
+            turned = leaving - before - element.link
+            if not _same_heading(turned, _reach(piece)):
+                findings.append(reasons.not_linked(run, index, element.link, leaving - before))
+        findings += _parallel(run, chain, index)
+        before = _heading(piece, piece.end)
+    return tuple(findings)
+
+
+def _own(run: Run, index: int, element: Element, piece: Piece) -> list[Finding]:
+    """What disagrees of an element's own fields."""
+    findings = []
+    for name, actual in measured(piece).items():
+        typed = element.known.get(name)
+        if typed is None:
+            continue
+        if name in ("angle", "start_angle", "sweep"):
+            off = abs(typed - actual) if name == "sweep" else typed - actual
+            if not _same_heading(off, _reach(piece)):
+                findings.append(reasons.angle_differs(run, index, name, typed, actual))
+        elif abs(typed - actual) > ARC_RADII:
+            findings.append(reasons.length_differs(run, index, name, typed, actual))
+    point = element.point
+    if point is not None:
+        distance, typed = _distance(piece, point), element.known.get("point_dist", 0.0)
+        if abs(distance - typed) > ARC_RADII:
+            findings.append(reasons.point_missed(run, index, point, typed, distance))
+    return findings
+
+
+def measured(piece: Piece) -> dict[str, float]:
+    """What a piece comes to, by field name, in millimeters and radians."""
+    (x, y), (x_end, y_end) = piece.start, piece.end
+    values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
+    if isinstance(piece, Line):
+        return values | {"length": piece.length, "angle": _heading(piece, piece.start)}
+    cx, cy = piece.center
+    return values | {
+        "x_center": cx,
+        "y_center": cy,
+        "x_center_inc": cx - x,
+        "y_center_inc": cy - y,
+        "radius": piece.radius,
+        "sweep": abs(piece.sweep),
+        "start_angle": _heading(piece, piece.start),
+    }
+
+
+def _heading(piece: Piece, at: Point) -> float:
+    x, y = piece.direction_at(at)
+    return atan2(y, x)
+
+
+def _distance(piece: Piece, point: Point) -> float:
+    """The distance of a point from a piece's endless line or whole circle."""
+    if isinstance(piece, Arc):
+        return abs(dist(point, piece.center) - piece.radius)
+    tx, ty = piece.direction_at(piece.start)
+    return abs(tx * (point[1] - piece.start[1]) - ty * (point[0] - piece.start[0]))
+
+
+def _reach(piece: Piece) -> float:
+    """How far a wrong angle moves a piece, per radian."""
+    return piece.length if isinstance(piece, Line) else piece.radius
+
+
+def _same_heading(off: float, reach: float) -> bool:
+    off = abs((off + pi) % tau - pi)
+    return off <= AGREES or off * reach <= ARC_RADII
+
+
+def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
+    """What disagrees of PARALLEL TO and OFFSET."""
+    element, piece = run.elements[index], chain.pieces[index]
+    parallel = element.parallel
+    if parallel is None or not isinstance(piece, Line):
+        return []
+    if parallel.line is not None:
+        heading, (nx, ny) = parallel.line.heading, parallel.line.normal
+        apart = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.line.offset)
+    else:
+        assert parallel.index is not None
+        target = chain.pieces[parallel.index]
+        heading, apart = _heading(target, target.start), _distance(target, piece.start)
+    off = _heading(piece, piece.start) - heading
+    if abs(sin(off)) > AGREES and abs(sin(off)) * piece.length > ARC_RADII:
+        return [reasons.not_parallel(run, index)]
+    typed = element.known.get("offset")
+    if typed is not None and abs(apart - typed) > ARC_RADII:
+        return [reasons.length_differs(run, index, "offset", typed, apart)]
+    return []

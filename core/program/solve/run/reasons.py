@@ -1,0 +1,319 @@
+"""Why a run has no answer: each code with its sentence and its numbers.
+
+The finding belongs to the segment named last in it or, where one number is at fault, to that field.
+"""
+
+from __future__ import annotations
+
+from math import degrees, dist, pi, tau
+
+from core.finding import Finding, Severity
+from core.geometry.oriented import Circle, Locus, OrientedLine
+from core.geometry.piece import Point, Turn
+from core.program.fields import Form, field_of
+from core.program.solve.line import shown_angle
+from core.program.solve.run.branch import Branch
+from core.program.solve.run.element import Element, Run
+from core.tolerance import ARC_RADII
+
+
+def _fault(code: str, text: str, element: Element, field: str | None, *lengths: float) -> Finding:
+    return Finding(code, Severity.ERROR, text, segment=element.number, field=field, lengths=lengths)
+
+
+def segments(elements: tuple[Element, ...]) -> str:
+    """`Segment 2`, `Segments 2 and 3`, `Segments 2 to 4`."""
+    first, last = elements[0].number, elements[-1].number
+    if first == last:
+        return f"Segment {first}"
+    return f"Segments {first} {'and' if len(elements) == 2 else 'to'} {last}"
+
+
+def label(element: Element, name: str) -> str:
+    """A field's label on the element's form."""
+    form = Form.ARC if element.turn else Form.LINE
+    return field_of(form, name.removesuffix("_inc")).label
+
+
+def _plain_angle(angle: float) -> str:
+    """An angle in degrees from 0 up to 360, without zeros at its end."""
+    return f"{degrees(angle) % 360.0:.3f}".rstrip("0").rstrip(".")
+
+
+def behind(run: Run, index: int, length: float, heading: float) -> Finding:
+    """A line would have to run against its heading."""
+    element = run.elements[index]
+    other = run.elements[index - 1 if index else min(1, len(run.elements) - 1)]
+    field = "angle" if "angle" in element.known else None
+    text = f"Segment {element.number} would have to run {{0}} backwards at XY ANGLE {_plain_angle(heading)}: "
+    text += f"enter {_plain_angle(heading + pi)}, or correct segment {other.number}."
+    return _fault("BEHIND", text, element, field, length)
+
+
+def no_length(run: Run, index: int) -> Finding:
+    """An element would have no length."""
+    element = run.elements[index]
+    text = f"Segment {element.number} would have no length: delete it, or correct the segments before and after it."
+    return _fault("NO_LENGTH_LEFT", text, element, None)
+
+
+def out_of_range(branch: Branch, index: int) -> Finding:
+    """An end or a center lies beyond any machine."""
+    elements = branch.run.elements
+    element = elements[index]
+    text = "This segment's end or center is beyond any machine's travel. Check its numbers."
+    if index + 1 < len(elements) and not element.turn and not elements[index + 1].turn:
+        first, second = branch.heading_in[index], branch.heading_in[index + 1]
+        if first is not None and second is not None:
+            off = abs((first - second + pi / 2.0) % pi - pi / 2.0)
+            if off < 0.01:
+                text += f" Segments {element.number} and {elements[index + 1].number} are parallel but for "
+                text += f"{degrees(off):.3f} degrees."
+    return _fault("OUT_OF_RANGE", text, element, None)
+
+
+def radii_differ(run: Run, index: int, radius: float, out: float) -> Finding:
+    """An arc's ends lie at two distances from its center."""
+    text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end, the center or RADIUS."
+    return _fault("CONTRADICTION", text, run.elements[index], "radius", radius, out)
+
+
+def _rest(run: Run, index: int) -> str:
+    others = [element for element in run.elements if element is not run.elements[index]]
+    if not others:
+        return "its other fields"
+    return f"{segments(run.elements).replace('S', 's', 1)}"
+
+
+def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
+    """A typed angle is another one than the rest gives."""
+    element = run.elements[index]
+    given, other = shown_angle(typed), shown_angle(actual if name == "sweep" else actual % tau)
+    if given == other:
+        given, other = f"{degrees(typed):.6f}", f"{degrees(actual) % 360.0:.6f}"
+    text = f"{label(element, name)} is {given}, but {other} by {_rest(run, index)}: correct or blank one of them."
+    return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"))
+
+
+def length_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
+    """A typed length or coordinate is another one than the rest gives."""
+    element = run.elements[index]
+    text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_rest(run, index)}: correct or blank one of them."
+    return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"), typed, actual)
+
+
+def point_missed(run: Run, index: int, point: Point, typed: float, actual: float) -> Finding:
+    """An element passes its point at another distance than typed."""
+    element = run.elements[index]
+    text = f"The point {{2}} {{3}} is {{1~0}} from segment {element.number}, not {{0~1}}: correct or blank it."
+    return _fault("CONTRADICTION", text, element, "point_x", typed, actual, *point)
+
+
+def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
+    """An element does not leave at the typed angle to the one before."""
+    element = run.elements[index]
+    turned = degrees((actual + pi) % tau - pi)
+    if link == 0.0:
+        text = f"Segment {element.number} is not tangent to the one before: the corner turns by {turned:.3f} degrees. "
+        return _fault("CONTRADICTION", f"{text}Blank TANGENT, or correct one of them.", element, "tangent")
+    name = "start_angle" if element.turn else "angle"
+    text = f"{label(element, name)} is I{degrees(link):g}, but I{turned:.3f} by {_rest(run, index)}: correct or blank "
+    return _fault("CONTRADICTION", f"{text}one of them.", element, name)
+
+
+def not_parallel(run: Run, index: int) -> Finding:
+    """A line is not parallel to its target."""
+    element = run.elements[index]
+    text = f"Segment {element.number} is not parallel to the segment that PARALLEL TO names: correct or blank it."
+    return _fault("CONTRADICTION", text, element, "parallel")
+
+
+def coincident(run: Run, index: int) -> Finding:
+    """Both lines at a joint are one line."""
+    first, second = run.elements[index - 1], run.elements[index]
+    shape = "circle" if first.turn and second.turn else "line"
+    text = (
+        f"Segments {first.number} and {second.number} run on one {shape}: their joint may be anywhere. Enter one end."
+    )
+    return _fault("UNDETERMINED", text, second, None)
+
+
+def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Finding:
+    """Two loci of a joint miss each other."""
+    elements = branch.run.elements
+    before = elements[joint - 1]
+    after = elements[joint] if joint < len(elements) else before
+    carriers = [_carrier(branch, joint, locus) for locus in (first, second)]
+    if isinstance(first, OrientedLine) and isinstance(second, OrientedLine):
+        return _parallel_lines(before, after, first, second)
+    if isinstance(first, Circle) and isinstance(second, Circle):
+        return _apart(before, after, first, second, carriers)
+    line, circle = (first, second) if isinstance(first, OrientedLine) else (second, first)
+    assert isinstance(line, OrientedLine)
+    assert isinstance(circle, Circle)
+    return _line_misses(before, after, line, circle, carriers[0] if circle is first else carriers[1])
+
+
+def _carrier(branch: Branch, joint: int, locus: Locus) -> Element | None:
+    """The arc whose circle a locus is."""
+    for index in (joint - 1, joint):
+        if isinstance(locus, Circle) and 0 <= index < len(branch.run.elements):
+            center = branch.center(index)
+            if center is not None and dist(center, locus.center) <= ARC_RADII:
+                return branch.run.elements[index]
+    return None
+
+
+def _parallel_lines(before: Element, after: Element, first: OrientedLine, second: OrientedLine) -> Finding:
+    (ax, ay), (bx, by) = first.normal, second.normal
+    apart = abs(first.offset - (second.offset if ax * bx + ay * by > 0.0 else -second.offset))
+    if before is after:
+        text = f"Segment {before.number} runs {{0}} beside the end that is typed: it never reaches it. Correct one."
+        return _fault("NO_MEETING", text, before, None, apart)
+    text = f"Segments {before.number} and {after.number} are parallel, {{0}} apart: they never meet."
+    return _fault("NO_MEETING", text, after, None, apart)
+
+
+def _line_misses(before: Element, after: Element, line: OrientedLine, circle: Circle, arc: Element | None) -> Finding:
+    nx, ny = line.normal
+    height = abs(nx * circle.center[0] + ny * circle.center[1] - line.offset)
+    if arc is not None:
+        other = before if arc is after else after
+        subject = f"Segment {other.number}" if other is not arc else "The end that is typed"
+        text = f"{subject} passes the circle of segment {arc.number} at {{0~1}}; its RADIUS is {{1~0}}."
+        return _fault("NO_MEETING", text, arc, "radius", height, circle.radius)
+    element = next((element for element in (after, before) if "length" in element.known), after)
+    name = label(element, "length" if not element.turn else "radius")
+    text = f"{name} {{0~1}} does not reach: it takes at least {{1~0}}."
+    field = "length" if not element.turn else "radius"
+    return _fault("TOO_SHORT", text, element, field, circle.radius, height)
+
+
+def _apart(before: Element, after: Element, first: Circle, second: Circle, carriers: list[Element | None]) -> Finding:
+    between = dist(first.center, second.center)
+    if carriers[0] is not None and carriers[1] is not None:
+        text = f"The circles of segments {before.number} and {after.number} never meet: their centers are {{2}} apart, "
+        text += "their RADIUS {0} and {1}."
+        return _fault("NO_MEETING", text, after, "radius", first.radius, second.radius, between)
+    names = [_size_label(element) for element in (before, after)]
+    both = names[0] if names[0] == names[1] else ""
+    text = (
+        f"{both or names[0]} {{0}} and {'' if both else f'{names[1]} '}{{1}} do not reach: the points are {{2}} apart."
+    )
+    field = "radius" if after.turn else "length"
+    return _fault("TOO_SHORT", text, after, field, first.radius, second.radius, between)
+
+
+def _size_label(element: Element) -> str:
+    return "The chord" if element.turn else label(element, "length")
+
+
+def no_tangent(
+    branch: Branch, index: int, first: tuple[Point, float, str], second: tuple[Point, float, str]
+) -> Finding:
+    """No line passes two points at their distances."""
+    element, elements = branch.run.elements[index], branch.run.elements
+    (a, r, _), (b, s, _) = first, second
+    if (r == 0.0) is not (s == 0.0):
+        point = a if r == 0.0 else b
+        arc = _touched(branch, index, b if r == 0.0 else a)
+        if arc is not None:
+            text = f"The point {{0}} {{1}} lies inside the circle of segment {arc.number}: no line from it is tangent."
+            return _fault("INSIDE", text, element, None, *point)
+        text = "The point {0} {1} is only {2} away: no line passes it at {3}."
+        return _fault("INSIDE", text, element, "point_dist", *point, dist(a, b), abs(s - r))
+    before = elements[index - 1].number if index else element.number
+    after = elements[index + 1].number if index + 1 < len(elements) else element.number
+    text = f"Segments {before} and {after} overlap: no line runs from one to the other with these DIRECTIONS."
+    return _fault("NO_TANGENT", text, element, None)
+
+
+def _touched(branch: Branch, index: int, center: Point) -> Element | None:
+    for neighbor in (index - 1, index + 1):
+        if 0 <= neighbor < len(branch.run.elements) and branch.run.elements[neighbor].turn:
+            known = branch.center(neighbor)
+            if known is not None and dist(known, center) <= ARC_RADII:
+                return branch.run.elements[neighbor]
+    return None
+
+
+def no_circle(branch: Branch, index: int) -> Finding:
+    """No circle meets the conditions; what RADIUS would is looked for by `limits`."""
+    element = branch.run.elements[index]
+    if "radius" in element.known:
+        text = f"RADIUS {{0}} fits nowhere between the segments before and after segment {element.number}."
+        return _fault("TOO_SMALL", text, element, "radius", element.known["radius"])
+    text = f"No circle of segment {element.number} touches or reaches its neighbors: correct one of them."
+    return _fault("NO_MEETING", text, element, None)
+
+
+def radius_limit(run: Run, index: int, limit: float, *, least: bool) -> Finding:
+    """RADIUS is too small or too large; `limit` is the first that fits."""
+    element = run.elements[index]
+    before, after = run.elements[index - 1].number if index else None, None
+    if index + 1 < len(run.elements):
+        after = run.elements[index + 1].number
+    radius = element.known["radius"]
+    if least:
+        touched = f"touch segment {before}" if before is not None else "leave its start"
+        reached = f"segment {after}" if after is not None else "the end"
+        text = f"RADIUS {{0~1}} cannot {touched} and reach {reached}: it takes at least {{1~0}}."
+        return _fault("TOO_SMALL", text, element, "radius", radius, limit)
+    numbers = [number for number in (before, after) if number is not None]
+    if len(numbers) == 2:
+        where = f"between segments {numbers[0]} and {numbers[1]}"
+    else:
+        where = f"beside segment {numbers[0]}" if numbers else "between its ends"
+    text = f"RADIUS {{0~1}} does not fit {where}: the largest is {{1~0}}."
+    return _fault("TOO_LARGE", text, element, "radius", radius, limit)
+
+
+def wrong_sense(branch: Branch, index: int) -> Finding:
+    """The circle that fits would be traveled the other way."""
+    element = branch.run.elements[index]
+    direction, other = ("CW", "CCW") if element.turn is Turn.CW else ("CCW", "CW")
+    text = f"DIRECTION {direction}: a tangent arc to this end turns {other}."
+    return _fault("WRONG_SENSE", text, element, "direction")
+
+
+def missing(run: Run, count: int) -> Finding:
+    """Too few data."""
+    values = f"{count} more value{'' if count == 1 else 's'}"
+    subject = segments(run.elements)
+    verb = "needs" if len(run.elements) == 1 else "need"
+    element, name = suggested(run)
+    text = f"{subject} {verb} {values}: {label(element, name)} of {element.number}, or an end."
+    return Finding("MISSING", Severity.ERROR, text, segment=element.number, field=name)
+
+
+def suggested(run: Run) -> tuple[Element, str]:
+    """A blank field that would help: an ARC's RADIUS before a LINE's XY ANGLE before its XY LENGTH before an end."""
+    for arcs, name in ((True, "radius"), (False, "angle"), (False, "length"), (True, "sweep"), (False, "x_end")):
+        for element in run.elements:
+            relative = element.link is not None if name == "angle" else f"{name}_inc" in element.known
+            if bool(element.turn) is arcs and name not in element.known and not relative:
+                return element, name
+    return run.elements[0], "x_end"
+
+
+def not_yet(run: Run, *, tried: bool) -> Finding:
+    """Enough data, and no method; nor does the pick lead anywhere, if there is one."""
+    text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, or a center."
+    if tried:
+        text += " The pick leads to no solution: set it nearer to the joint."
+    return Finding("NOT_YET", Severity.ERROR, text, segment=run.elements[0].number)
+
+
+def pick_nearer(run: Run, count: int) -> Finding:
+    """A pick that does not tell several answers apart."""
+    fit = "One solution fits, but it is far from the pick" if count == 1 else f"{count} solutions fit"
+    text = f"{fit}: set the pick nearer to the end of segment {run.elements[0].number}, or pick one on SOLUTION."
+    return Finding("PICK_SOLUTION", Severity.ERROR, text, segment=run.elements[0].number, field="choice")
+
+
+def pick_solution(run: Run, count: int, *, picked: bool) -> Finding:
+    """Several answers, and none is picked or the picked one is gone."""
+    gone = "The solution that was picked is no longer possible. " if picked else ""
+    number = {1: "One solution fits", 2: "Two solutions fit"}.get(count, f"{count} solutions fit")
+    text = f"{gone}{number}: pick {'it' if count == 1 else 'one'} on SOLUTION."
+    return Finding("PICK_SOLUTION", Severity.ERROR, text, segment=run.elements[0].number, field="choice")

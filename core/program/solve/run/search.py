@@ -1,0 +1,106 @@
+"""Every answer of a run: the branches of the steps, each proved by walking its chain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import dist
+from typing import Final
+
+from core.finding import Finding
+from core.geometry.piece import Piece, Point
+from core.program.solve.run.branch import Branch, DeadEnd
+from core.program.solve.run.element import Run
+from core.program.solve.run.proof import Chain, chain_of
+from core.program.solve.run.steps import next_branches
+
+SAME: Final = 1e-6
+"""Millimeters within which two answers are one."""
+
+MOST_BRANCHES: Final = 512
+"""The branches of one run that are followed; a run that has more is not solved."""
+
+GRAZE_SHIFT: Final = 12
+"""The bits of a choice that say which roots are taken; those above say which of them are double."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One way to run: its pieces, and the number by which a program file picks it.
+
+    Bit i of `choice` is the root taken at the i-th step that has two, so that it does not change when another answer
+    appears or vanishes; a root that has become double has a bit of its own.
+    """
+
+    choice: int
+    pieces: tuple[Piece, ...]
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """All answers of a run, the shortest first; `stuck` is a branch of which the steps know no more."""
+
+    answers: tuple[Answer, ...]
+    findings: tuple[Finding, ...]
+    """Why branches were dropped: of each branch what is against it first."""
+    stuck: Branch | None
+    known: Branch
+    """What is known without a choice."""
+
+
+@lru_cache(512)
+def search(run: Run) -> Search:
+    """Every answer that the steps give."""
+    first, dropped = Branch(run), []
+    answers: list[Answer] = []
+    stuck: Branch | None = None
+    waiting, count = [first], 0
+    while waiting and count < MOST_BRANCHES:
+        branch, count = waiting.pop(), count + 1
+        branch.settle()
+        try:
+            ways = None if branch.complete else next_branches(branch)
+        except DeadEnd as end:
+            dropped.append((2, 0, end.finding))
+            continue
+        if ways is not None:
+            waiting += reversed(ways)
+        elif not branch.complete:
+            stuck = stuck or branch
+        else:
+            chain, objections = chain_of(branch)
+            if chain is not None and not objections:
+                _add(answers, branch, chain)
+            else:
+                dropped.append((0 if chain is not None else 1, len(objections), objections[0]))
+    if waiting:
+        stuck, answers = stuck or first, []
+    answers.sort(key=lambda answer: (round(answer.length, 5), answer.choice))
+    dropped.sort(key=lambda drop: drop[:2])
+    return Search(tuple(answers), tuple(drop[2] for drop in dropped), stuck, first)
+
+
+def _add(answers: list[Answer], branch: Branch, chain: Chain) -> None:
+    """Put an answer among the others unless it is one of them."""
+    if not any(_same(chain.pieces, other.pieces) for other in answers):
+        answers.append(Answer(choice_of(branch), chain.pieces, chain.length))
+
+
+def choice_of(branch: Branch) -> int:
+    """The number of a branch."""
+    code = sum(root << place for place, root in enumerate(branch.choices))
+    return code + sum(1 << (GRAZE_SHIFT + place) for place, grazing in enumerate(branch.grazes) if grazing)
+
+
+def _same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
+    return all(
+        dist(a, b) <= SAME
+        for one, two in zip(first, second, strict=True)
+        for a, b in zip(_points(one), _points(two), strict=True)
+    )
+
+
+def _points(piece: Piece) -> tuple[Point, ...]:
+    center = getattr(piece, "center", piece.end)
+    return piece.start, piece.end, center

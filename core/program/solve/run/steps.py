@@ -1,0 +1,190 @@
+"""The steps that choose: each yields the one or two ways in which a branch goes on, in an order that stays.
+
+Tried in this order, the first that has something to do is taken: PARALLEL, a circle without a choice, a LINE's heading,
+a joint, a circle, the side of a POINT at DISTANCE, the side of an OFFSET.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import dist, pi
+from typing import Final
+
+from core.geometry.oriented import OrientedLine, headings_at_distances, meeting
+from core.program.solve.run import reasons
+from core.program.solve.run.branch import Branch, DeadEnd
+from core.program.solve.run.circle import Circles, circles
+from core.tolerance import JOINED
+
+Ways = list[Branch]
+Step = Callable[[Branch], Ways | None]
+"""The branches that follow, None where the step has nothing to do; DeadEnd where nothing fits."""
+
+
+def next_branches(branch: Branch) -> Ways | None:
+    """What the first step that has something to do makes of a branch; None where no step has."""
+    for step in STEPS:
+        ways = step(branch)
+        if ways is not None:
+            return ways
+    return None
+
+
+def _parallel(branch: Branch) -> Ways | None:
+    """The heading of a line PARALLEL TO a known one: the same first, then the opposite."""
+    for index, element in enumerate(branch.run.elements):
+        if element.parallel is None:
+            continue
+        target = element.parallel.index
+        line = element.parallel.line
+        theirs = line.heading if line is not None else None if target is None else branch.heading_in[target]
+        ours = branch.heading_in[index]
+        if theirs is not None and ours is None:
+            return [_headed(branch, root, index, theirs + root * pi) for root in (0, 1)]
+        if theirs is None and ours is not None and target is not None:
+            return [_headed(branch, root, target, ours + root * pi) for root in (0, 1)]
+    return None
+
+
+def _headed(branch: Branch, root: int, index: int, heading: float) -> Branch:
+    way = branch.chosen(root)
+    way.put_heading(index, heading)
+    return way
+
+
+def _joints(branch: Branch) -> Iterator[int]:
+    """The joints that are not known."""
+    return (index for index in range(1, len(branch.x)) if branch.joint(index) is None)
+
+
+def _joint(branch: Branch) -> Ways | None:
+    """A joint on two loci."""
+    for index in _joints(branch):
+        loci = branch.loci(index)
+        if len(loci) < 2:
+            continue
+        met = meeting(loci[0], loci[1])
+        if not met.points:
+            raise DeadEnd(reasons.no_meeting(branch, index, loci[0], loci[1]))
+        ways = [branch.chosen(root, grazing=met.grazing) for root in range(len(met.points))]
+        for way, point in zip(ways, met.points, strict=True):
+            way.put_joint(index, point)
+        return ways
+    return None
+
+
+def _arcs(branch: Branch) -> Iterator[tuple[int, Circles]]:
+    """The arcs whose circle is not known but follows."""
+    for index, element in enumerate(branch.run.elements):
+        if not element.turn or (branch.center(index) is not None and branch.rho[index] is not None):
+            continue
+        answer = circles(branch, index)
+        if answer is not None:
+            yield index, answer
+
+
+def _single_circle(branch: Branch) -> Ways | None:
+    """A circle that follows without a choice."""
+    for index, answer in _arcs(branch):
+        if len(answer.found) == 1 and not answer.grazing:
+            return _circle_ways(branch, index, answer)
+    return None
+
+
+def _circle(branch: Branch) -> Ways | None:
+    """One of two circles."""
+    for index, answer in _arcs(branch):
+        return _circle_ways(branch, index, answer)
+    return None
+
+
+def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
+    if not answer.found:
+        raise DeadEnd(reasons.no_circle(branch, index))
+    turn = branch.run.elements[index].turn
+    single = len(answer.found) == 1 and not answer.grazing
+    ways = []
+    for root, (center, rho) in enumerate(answer.found):
+        if rho * turn <= JOINED:
+            continue
+        way = branch.copy() if single else branch.chosen(root, grazing=answer.grazing)
+        way.put_center(index, center)
+        way.put(way.rho, index, rho)
+        way.changed = True
+        ways.append(way)
+    if not ways:
+        raise DeadEnd(reasons.wrong_sense(branch, index))
+    return ways
+
+
+def _heading(branch: Branch) -> Ways | None:
+    """A LINE's heading from two points that it passes at known distances."""
+    for index, element in enumerate(branch.run.elements):
+        if element.turn or branch.heading_in[index] is not None:
+            continue
+        ties = list(branch.line_ties(index))
+        pairs = ((a, b) for at, a in enumerate(ties) for b in ties[at + 1 :] if dist(a[0], b[0]) > JOINED)
+        pair = next(pairs, None)
+        if pair is None:
+            continue
+        (first, r, foot), (second, s, other) = pair
+        headings, grazing = headings_at_distances(first, r, second, s)
+        if not headings:
+            raise DeadEnd(reasons.no_tangent(branch, index, pair[0], pair[1]))
+        if (foot, other) == ("start", "end"):
+            way = branch.copy()
+            way.put_heading(index, headings[0])
+            way.changed = True
+            return [way]
+        ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
+        for way, heading in zip(ways, headings, strict=True):
+            way.put_heading(index, heading)
+        return ways
+    return None
+
+
+def _point_side(branch: Branch) -> Ways | None:
+    """The side on which a LINE passes its POINT at DISTANCE: the point on its left first."""
+    for index, element in enumerate(branch.run.elements):
+        distance = element.known.get("point_dist", 0.0)
+        if element.turn or element.point is None or distance == 0.0 or branch.point_side[index] is not None:
+            continue
+        ties = sum(1 for _ in branch.line_ties(index))
+        if branch.offset[index] is not None or ties + (branch.heading_in[index] is not None) != 1:
+            continue
+        ways = [branch.chosen(root) for root in (0, 1)]
+        for way, side in zip(ways, (1.0, -1.0), strict=True):
+            way.put(way.point_side, index, side)
+        return ways
+    return None
+
+
+def _offset_side(branch: Branch) -> Ways | None:
+    """The side on which a LINE lies OFFSET from its parallel: left of that first."""
+    for index, element in enumerate(branch.run.elements):
+        heading, offset = branch.heading_in[index], element.known.get("offset")
+        if element.parallel is None or heading is None or offset is None or branch.offset[index] is not None:
+            continue
+        target = element.parallel.line
+        if target is None and element.parallel.index is not None:
+            target = branch.line(element.parallel.index)
+        if target is None:
+            continue
+        return _offset_ways(branch, index, target, offset)
+    return None
+
+
+def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float) -> Ways:
+    heading = branch.heading_in[index] or 0.0
+    same = abs((heading - target.heading + pi) % (2.0 * pi) - pi) < pi / 2.0
+    ways = []
+    for root, side in enumerate((1.0, -1.0) if offset else (1.0,)):
+        way = branch.chosen(root) if offset else branch.copy()
+        shifted = target.offset + side * offset
+        way.put(way.offset, index, shifted if same else -shifted)
+        way.changed = True
+        ways.append(way)
+    return ways
+
+
+STEPS: Final[tuple[Step, ...]] = (_parallel, _single_circle, _heading, _joint, _circle, _point_side, _offset_side)

@@ -1,0 +1,435 @@
+"""A stretch of a block whose segments are calculated together: which they are, what is known, and what comes out.
+
+It begins at the first segment whose end its own fields do not give, and is the shortest one that the run's solver
+determines; where several solutions are left and the next segment is tied to the last one (TANGENT, a relative angle),
+it goes on as far as that leaves fewer.  BLEND ARCs and CHAMFERs in it are passed over: the run is solved with sharp
+corners.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import cos, dist, sin
+
+from core.finding import Finding, Severity
+from core.geometry.oriented import line_through
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.program.fields import form_of
+from core.program.model import ArcSegment, CornerSegment, Direction, LineSegment, Segment
+from core.program.solve.line import heading, kept_axis
+from core.program.solve.reading import Reading
+from core.program.solve.run import reasons
+from core.program.solve.run.branch import Branch
+from core.program.solve.run.element import LONGEST, Element, Parallel, Run
+from core.program.solve.run.limits import with_limit
+from core.program.solve.run.newton import Picked, picked_answers
+from core.program.solve.run.search import Answer, Search, search
+from core.program.solve.segment import Carried, Draft, Shape, calculate, draft, drafted
+from core.program.solve.solved import Origin, RunAnswer, SolvedRun
+from core.tolerance import JOINED
+from core.units import Unit, from_mm
+
+RELATIONS = ("point_x", "point_y", "point_dist", "parallel", "offset", "start_angle", "start_angle_inc", "angle_inc")
+"""Data that say how a segment lies to others; the rules for a segment by itself do not know them."""
+
+SKETCHED = 0.2
+"""The part of a run's size that is drawn of an element of which only the heading is known."""
+
+KEPT = ("x_end_inc", "y_end_inc")
+"""What a LINE that stays on a coordinate says, by axis."""
+
+TURNS = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """The drafts of a stretch's segments, corners included, and the run as a screen sees it."""
+
+    drafts: tuple[Draft, ...]
+    run: SolvedRun
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """The segments of a block with what is typed in them, and the drafts of those before the stretch."""
+
+    segments: Sequence[Segment]
+    readings: Sequence[Reading]
+    drafts: Sequence[Draft]
+    unit: Unit
+
+
+def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
+    """The stretch that begins at a segment of which `own` is what its own fields give; None where they will do."""
+    segment = contour.segments[index]
+    if own.before.point is None or isinstance(segment, CornerSegment):
+        return None
+    chosen_by_next = len(own.shape.choices) > 1 and _tied(contour, _next(contour, index))
+    tied = _relational(contour, index)
+    undetermined = own.shape.end is None and not own.shape.choices
+    contradicted = undetermined and not own.shape.missing and bool(own.shape.findings)
+    if not (tied or chosen_by_next or undetermined) or (contradicted and not tied):
+        return None
+    attempt = _solved(contour, index, own.before, 1 if tied else 2)
+    if chosen_by_next and not tied and (attempt is None or len(attempt.search.answers) != 1):
+        return None
+    if attempt is None:
+        attempt = _natural(contour, index, own.before)
+        if len(attempt.indices) == 1 and not tied:
+            return None
+    return _result(contour, attempt, own)
+
+
+# which segments
+
+
+@dataclass(frozen=True, slots=True)
+class _Attempt:
+    """The segments of a stretch by index, the run that they make, and all its answers."""
+
+    indices: tuple[int, ...]
+    run: Run
+    search: Search
+
+
+def _next(contour: Contour, index: int) -> int | None:
+    """The next LINE or ARC."""
+    after = range(index + 1, len(contour.segments))
+    return next((at for at in after if not isinstance(contour.segments[at], CornerSegment)), None)
+
+
+def _relational(contour: Contour, index: int) -> bool:
+    """Whether something typed says how a segment lies to others."""
+    segment = contour.segments[index]
+    known = contour.readings[index].known
+    return getattr(segment, "tangent", False) or any(name in known for name in RELATIONS)
+
+
+def _tied(contour: Contour, index: int | None) -> bool:
+    """Whether a segment's heading is tied to the one before it."""
+    if index is None:
+        return False
+    known = contour.readings[index].known
+    relative = "angle_inc" in known or "start_angle_inc" in known
+    return relative or (getattr(contour.segments[index], "tangent", False) and tangent_fault(contour, index) is None)
+
+
+def tangent_fault(contour: Contour, index: int) -> Finding | None:
+    """Why TANGENT cannot be typed there."""
+    if not getattr(contour.segments[index], "tangent", False):
+        return None
+    if index == 0:
+        text = "Segment 1 has no segment before it to which it could be tangent: blank TANGENT."
+    elif isinstance(contour.segments[index - 1], CornerSegment):
+        corner = form_of(contour.segments[index - 1])
+        text = (
+            f"TANGENT cannot stand beside a {corner}, which stands at a corner: blank TANGENT or delete the {corner}."
+        )
+    else:
+        return None
+    return Finding("TANGENT_PLACE", Severity.ERROR, text, field="tangent")
+
+
+def _indices(contour: Contour, first: int) -> Iterator[int]:
+    """The LINEs and ARCs from one on, at most as many as are solved together."""
+    at: int | None = first
+    for _ in range(LONGEST):
+        if at is None:
+            return
+        yield at
+        at = _next(contour, at)
+
+
+def _ends(contour: Contour, indices: Sequence[int]) -> bool:
+    """Whether a stretch ends at a typed point and nothing behind it bears on it."""
+    known, after = contour.readings[indices[-1]].known, _next(contour, indices[-1])
+    if not ("x_end" in known and "y_end" in known):
+        return False
+    if after is None:
+        return True
+    numbers = {index + 1 for index in indices}
+    later = contour.readings[after : after + LONGEST]
+    return not _tied(contour, after) and not any(reading.known.get("parallel") in numbers for reading in later)
+
+
+def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attempt | None:
+    """The shortest stretch from a segment on that is determined, or that has no answer; None where there is none.
+
+    It has at least as many elements as `least`: a segment that nothing ties to others has its own rules.
+    """
+    indices: list[int] = []
+    for index in _indices(contour, first):
+        indices.append(index)
+        attempt = _attempt(contour, indices, before) if len(indices) >= least else None
+        if attempt is not None and attempt.search.stuck is None:
+            return _narrowed(contour, attempt, before)
+        if _ends(contour, indices):
+            return None
+    return None
+
+
+def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Attempt | None:
+    """The answers of a stretch, None where too few data are typed."""
+    run = _run(contour, indices, before)
+    return None if run.missing > 0 else _Attempt(tuple(indices), run, search(run))
+
+
+def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:
+    """The stretch with those after it that are tied to it, as far as they leave fewer answers."""
+    best, indices, count = attempt, list(attempt.indices), len(attempt.indices)
+    while len(best.search.answers) > 1 and len(indices) < LONGEST:
+        after = _next(contour, indices[-1])
+        if after is None or not _tied(contour, after):
+            break
+        indices.append(after)
+        longer = _attempt(contour, indices, before)
+        if longer is None or longer.search.stuck is not None:
+            continue
+        starts = {_rounded(answer.pieces[:count]) for answer in longer.search.answers}
+        if len(starts) < len({_rounded(answer.pieces[:count]) for answer in best.search.answers}):
+            best, count = longer, len(indices)
+    return best
+
+
+def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
+    """What tells two answers apart."""
+    return tuple(round(value, 4) for piece in pieces for value in (*piece.end, *getattr(piece, "center", ())))
+
+
+def _natural(contour: Contour, first: int, before: Carried) -> _Attempt:
+    """The stretch of which is said what is missing: up to the first typed end, or all there is."""
+    indices: list[int] = []
+    for index in _indices(contour, first):
+        indices.append(index)
+        if _ends(contour, indices):
+            break
+    run = _run(contour, indices, before)
+    return _Attempt(tuple(indices), run, search(run))
+
+
+# what is typed
+
+
+def _run(contour: Contour, indices: Sequence[int], before: Carried) -> Run:
+    assert before.point is not None
+    elements = tuple(_element(contour, index, indices) for index in indices)
+    return Run(before.point, before.heading, elements)
+
+
+def _element(contour: Contour, index: int, indices: Sequence[int]) -> Element:
+    segment, known = contour.segments[index], contour.readings[index].known
+    data = {name: value for name, value in known.items() if name not in _NO_SHAPE}
+    if known.get("parallel") is None:
+        data.pop("offset", None)
+    kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    if kept is not None:
+        data.setdefault(KEPT[kept], 0.0)
+    link = 0.0 if _tied(contour, index) else None
+    link = known.get("angle_inc", known.get("start_angle_inc", link))
+    turn = TURNS[segment.direction] if isinstance(segment, ArcSegment) else Turn.NONE
+    return Element(index + 1, turn, tuple(data.items()), link, _parallel(contour, index, indices))
+
+
+_NO_SHAPE = ("z_end", "feed", "pick_x", "pick_y", "parallel", "angle_inc", "start_angle_inc")
+
+
+def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel | None:
+    """What PARALLEL TO names: a line of the stretch, or one before it."""
+    target = contour.readings[index].known.get("parallel")
+    if target is None or parallel_fault(contour, index) is not None:
+        return None
+    at = int(target) - 1
+    if at in indices:
+        return Parallel(indices.index(at))
+    piece = contour.drafts[at].shape.piece if at < len(contour.drafts) else None
+    return Parallel(line=line_through(piece.start, heading(piece))) if isinstance(piece, Line) else None
+
+
+def parallel_fault(contour: Contour, index: int) -> Finding | None:
+    """Why PARALLEL TO cannot be what it is."""
+    target = contour.readings[index].known.get("parallel")
+    if target is None:
+        return None
+    number, at = index + 1, int(target) - 1
+    if at >= index:
+        text = f"PARALLEL TO {target:.0f} is not before segment {number}: enter the number of an earlier LINE."
+    elif not isinstance(contour.segments[at], LineSegment):
+        text = f"PARALLEL TO {target:.0f}: segment {target:.0f} is no LINE. Enter the number of an earlier LINE."
+    else:
+        return None
+    return Finding("PARALLEL_TO", Severity.ERROR, text, field="parallel")
+
+
+def place_faults(contour: Contour, index: int) -> tuple[Finding, ...]:
+    """What is wrong with how a segment names others."""
+    faults = (tangent_fault(contour, index), parallel_fault(contour, index), _relative_fault(contour, index))
+    return tuple(fault for fault in faults if fault is not None)
+
+
+def _relative_fault(contour: Contour, index: int) -> Finding | None:
+    known = contour.readings[index].known
+    for name, label in (("angle_inc", "XY ANGLE"), ("start_angle_inc", "START ANGLE")):
+        if name in known and index == 0:
+            text = f"Segment 1 has no segment before it: enter {label} without I."
+            return Finding("TANGENT_PLACE", Severity.ERROR, text, field=name.removesuffix("_inc"))
+    return None
+
+
+# what comes out
+
+
+def _result(contour: Contour, attempt: _Attempt, own: Draft) -> Stretch:
+    """The drafts of a stretch: solved, to be picked from, or undetermined with the reason."""
+    picked = _picked(contour, attempt)
+    answers = _answers(attempt, picked)
+    taken, finding = _taken(contour, attempt, answers, picked)
+    indices = attempt.indices
+    code = None if finding is None else finding.code
+    missing = max(0, attempt.run.missing)
+    sketch = tuple(piece for piece in (*_sketches(attempt), _across(attempt.run)) if piece is not None)
+    run = SolvedRun(indices[0] + 1, indices[-1] + 1, answers, taken, code, missing, () if taken is not None else sketch)
+    if taken is not None:
+        pieces = dict(answers[taken].pieces)
+        return Stretch(_determined(contour, attempt, pieces, own.before), run)
+    assert finding is not None
+    return Stretch(_waiting(contour, attempt, own, finding), run)
+
+
+def _picked(contour: Contour, attempt: _Attempt) -> Picked | None:
+    """What the operator's pick leads to, where the steps do not solve the run."""
+    known = contour.readings[attempt.indices[0]].known
+    if attempt.search.stuck is None or attempt.run.missing > 0 or not ("pick_x" in known and "pick_y" in known):
+        return None
+    return picked_answers(attempt.run, (known["pick_x"], known["pick_y"]))
+
+
+def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
+    numbers = [index + 1 for index in attempt.indices]
+
+    def of_run(answer: Answer, choice: int | None, pick: Point | None) -> RunAnswer:
+        return RunAnswer(tuple(zip(numbers, answer.pieces, strict=True)), answer.length, choice, pick)
+
+    if picked is not None:
+        return tuple(of_run(answer, None, answer.pieces[picked.joint - 1].end) for answer in picked.answers)
+    if attempt.search.stuck is not None:
+        return ()
+    return tuple(of_run(answer, answer.choice, None) for answer in attempt.search.answers)
+
+
+def _taken(
+    contour: Contour, attempt: _Attempt, answers: tuple[RunAnswer, ...], picked: Picked | None
+) -> tuple[int | None, Finding | None]:
+    """The index of the answer in force, or why there is none."""
+    run, found = attempt.run, attempt.search
+    if picked is not None and answers:
+        return picked.taken, None if picked.taken is not None else reasons.pick_nearer(run, len(answers))
+    if found.stuck is not None:
+        return None, _why_stuck(run, found.stuck, tried=picked is not None)
+    if not answers:
+        return None, with_limit(run, found.findings[0])
+    choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
+    if choice is None and len(answers) == 1:
+        return 0, None
+    taken = next((at for at, answer in enumerate(answers) if answer.choice == choice), None)
+    if taken is not None:
+        return taken, None
+    return None, reasons.pick_solution(run, len(answers), picked=choice is not None)
+
+
+def _why_stuck(run: Run, stuck: Branch, *, tried: bool) -> Finding:
+    if run.missing > 0:
+        return reasons.missing(run, run.missing)
+    for index in range(1, len(run.elements)):
+        if stuck.joint(index) is None and _one_line(stuck, index):
+            return reasons.coincident(run, index)
+    return reasons.not_yet(run, tried=tried)
+
+
+def _one_line(branch: Branch, joint: int) -> bool:
+    """Whether both elements at a joint that is not known run on one line or circle."""
+    first, second = branch.line(joint - 1), branch.line(joint)
+    if first is not None and second is not None:
+        return True
+    centers = branch.center(joint - 1), branch.center(joint)
+    circles = branch.rho[joint - 1] is not None and branch.rho[joint] is not None
+    return circles and centers[0] is not None and centers[1] is not None
+
+
+def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], before: Carried) -> tuple[Draft, ...]:
+    """The drafts of a solved stretch, its blanks filled."""
+    drafts: list[Draft] = []
+    for index in range(attempt.indices[0], attempt.indices[-1] + 1):
+        segment, reading = contour.segments[index], contour.readings[index]
+        if isinstance(segment, CornerSegment):
+            drafts.append(draft(segment, reading, before, contour.unit))
+        else:
+            piece = pieces[index + 1]
+            kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
+            if kept is not None:
+                value = from_mm(piece.end[kept], contour.unit)
+                reading.fill(KEPT[kept].removesuffix("_inc"), value, Origin.SAME)
+            calculate(reading, piece, contour.unit)
+            drafts.append(drafted(segment, reading, before, Shape(piece, piece.end), contour.unit))
+        before = drafts[-1].after
+    return tuple(drafts)
+
+
+def _waiting(contour: Contour, attempt: _Attempt, own: Draft, finding: Finding) -> tuple[Draft, ...]:
+    """The drafts of a stretch that is not determined; the finding stands at its segment."""
+    sketches = dict(zip(attempt.indices, _sketches(attempt), strict=True))
+    before, drafts = own.before, []
+    for index in range(attempt.indices[0], attempt.indices[-1] + 1):
+        segment, reading = contour.segments[index], contour.readings[index]
+        if isinstance(segment, CornerSegment):
+            drafts.append(draft(segment, reading, before, contour.unit))
+        else:
+            shape = Shape(sketch=sketches[index])
+            if finding.segment == index + 1:
+                faulty = finding.code in ("MISSING", "NOT_YET") and bool(reading.findings)
+                missing = (finding.field,) if finding.code == "MISSING" and finding.field else ()
+                shape = replace(shape, missing=missing, findings=() if faulty else (finding,))
+            if index == attempt.indices[0] and finding.code == "MISSING":
+                shape = replace(shape, missing=own.shape.missing or shape.missing)
+            drafts.append(drafted(segment, reading, before, shape, contour.unit))
+        before = drafts[-1].after
+        if not isinstance(segment, CornerSegment) and attempt.indices[-1] != index:
+            before = replace(before, point=_known_joint(attempt, index) or before.point)
+    return tuple(drafts)
+
+
+def _known_joint(attempt: _Attempt, index: int) -> Point | None:
+    return attempt.search.known.joint(attempt.indices.index(index) + 1)
+
+
+def _across(run: Run) -> Line | None:
+    """The way from the run's start to its typed end."""
+    known = run.elements[-1].known
+    if "x_end" not in known or "y_end" not in known:
+        return None
+    end = (known["x_end"], known["y_end"])
+    return Line(run.start, end) if dist(run.start, end) > JOINED else None
+
+
+def _sketches(attempt: _Attempt) -> list[Piece | None]:
+    """What can be drawn of each element of a run that is not determined."""
+    return [_sketch(attempt.run, attempt.search.known, index) for index in range(len(attempt.indices))]
+
+
+def _sketch(run: Run, known: Branch, index: int) -> Piece | None:
+    """A chord between known ends, a whole circle, or a short line in a known heading."""
+    start, end, center, rho = known.joint(index), known.joint(index + 1), known.center(index), known.rho[index]
+    if start is not None and end is not None:
+        return Line(start, end) if dist(start, end) > JOINED else None
+    if center is not None and rho is not None:
+        at = (center[0] + abs(rho), center[1])
+        return Arc(at, at, center, run.elements[index].turn)
+    size = known.length[index] or SKETCHED * run.size
+    leaving, arriving = known.heading_in[index], known.heading_out[index]
+    if size <= JOINED:
+        return None
+    if start is not None and leaving is not None:
+        return Line(start, (start[0] + size * cos(leaving), start[1] + size * sin(leaving)))
+    if end is not None and arriving is not None:
+        return Line((end[0] - size * cos(arriving), end[1] - size * sin(arriving)), end)
+    return None
