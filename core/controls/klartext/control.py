@@ -206,6 +206,7 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
         "PLANE": settings.plane,
         "*": settings.structure,
         "(": settings.bracketed,
+        "FUNCTION": settings.function,
         "DECLARE": settings.text_parameter,
         "QS": settings.text_parameter,
         "STOP": m_functions.only_functions,

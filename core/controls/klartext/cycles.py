@@ -10,23 +10,28 @@ import re
 from typing import Final
 
 from core.controls.klartext.center_path import ProgrammedStep, Role
+from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.settings import shift
-from core.controls.klartext.state import AXES, COMMON_WORDS, CalledCycle, State
+from core.controls.klartext.state import AXES, COMMON_WORDS, State
 from core.finding import Severity
 from core.units import to_mm
 
 _CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
 _POSITION: Final = re.compile(r"\s*CALL\s*(POS|PAT)?", re.ASCII)
-_VALUE: Final = re.compile(r"Q(\d{3})\s*=\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+))(?=\s|$)", re.ASCII)
+_VALUE: Final = re.compile(r"Q(\d{3})\s*=\s*(\S+)", re.ASCII)
+_HEIGHTS: Final = frozenset(("Q200", "Q203", "Q204"))
+"""Set-up clearance, surface and 2nd set-up clearance."""
+
+_ANY: Final = r"([-+.,\dQLR]+)"
 _NEUTRAL: Final = {
-    8: re.compile(r"\s*", re.ASCII),
-    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*", re.ASCII),
-    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*", re.ASCII),
-    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*", re.ASCII),
+    8: (re.compile(r"\s*", re.ASCII), 0.0),
+    10: (re.compile(rf"\s*ROT\s*{_ANY}\s*", re.ASCII), 0.0),
+    11: (re.compile(rf"\s*SCL\s*{_ANY}\s*", re.ASCII), 1.0),
+    19: (re.compile(rf"(?:\s*A\s*{_ANY})?(?:\s*B\s*{_ANY})?(?:\s*C\s*{_ANY})?\s*", re.ASCII), 0.0),
 }
-"""Cycles that turn, mirror, scale or tilt, and the words with which they do none of it."""
+"""Cycles that mirror, turn, scale or tilt, their words, and the value with which these do none of it."""
 
 _MOVED: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
 """Cycles that change where the contour lies."""
@@ -59,7 +64,7 @@ def cycle(state: State, block: Block) -> None:
             shift(state, rest)
     elif number in _NEUTRAL and head[3] == "0":
         return  # only the cycle's name; what it does comes in the blocks after it
-    elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
+    elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number == 247 and _at_the_start(state):
@@ -72,25 +77,41 @@ def cycle(state: State, block: Block) -> None:
         _define(state, block, number)
 
 
+def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:
+    """Whether a cycle's values change nothing."""
+    pattern, neutral = _NEUTRAL[number]
+    words = pattern.fullmatch(body)
+    if words is None:
+        return False
+    return all(state.value(value, block) == neutral for value in words.groups() if value is not None)
+
+
 def _define(state: State, block: Block, number: int) -> None:
     """A cycle that waits for its call, or a pattern, which calls the one before at once."""
     if number in _PATTERNS:
         _pass_over(state, block, number, None)
         return
-    values = {
-        f"Q{name}": float(value.replace(",", "."))
-        for name, value in _VALUE.findall("\n".join((block.body, *block.more)))
-    }
-    state.parameters |= values
+    _take_values(state, block)
     if number not in _WAITING:
-        state.cycle = CalledCycle(number, _end_height(state, values))
+        state.cycle = number
     text = f"Cycle {number} is skipped: it moves nothing before it is called."
     state.tell(Severity.INFO, "IGNORED", text, block)
 
 
-def _end_height(state: State, values: dict[str, float]) -> float | None:
+def _take_values(state: State, block: Block) -> None:
+    """The values of a cycle as parameters; one that cannot be evaluated here has none."""
+    for name in _HEIGHTS:
+        state.parameters.pop(name, None)
+    for name, formula in _VALUE.findall("\n".join((block.body, *block.more))):
+        value = evaluate(formula, state.parameters)
+        if isinstance(value, float):
+            state.parameters[f"Q{name}"] = value
+
+
+def _end_height(state: State) -> float | None:
     """The tool axis's height at a drilling cycle's end, in millimeters: the larger of both clearances above Q203."""
-    if not {"Q200", "Q203", "Q204"} <= values.keys():
+    values = state.parameters
+    if not values.keys() >= _HEIGHTS:
         return None
     height = to_mm(values["Q203"] + max(values["Q200"], values["Q204"]), state.unit)
     return height + state.shift[state.plane.axes[2]]
@@ -110,8 +131,8 @@ def _call_block(state: State, block: Block) -> None:
         _refuse_compensated(state, block)
         for index, value in enumerate(state.target(rest, words)):
             state.position[index] = value
-    elif head and head[1] == "PAT" and state.cycle:
-        _pass_over(state, block, state.cycle.number, None)
+    elif head and head[1] == "PAT" and state.cycle is not None:
+        _pass_over(state, block, state.cycle, None)
         return
     else:
         state.words(rest, frozenset(("M",)))
@@ -122,9 +143,9 @@ def call(state: State, block: Block) -> None:
     """The call of the cycle defined last, by CYCL CALL or M99."""
     if state.cycle is None:
         state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
-    if state.cycle.number == _PROGRAM:
+    if state.cycle == _PROGRAM:
         state.stop("CYCLE", "Cycle 12 runs another file. Copy its blocks in.", block)
-    _pass_over(state, block, state.cycle.number, state.cycle.end)
+    _pass_over(state, block, state.cycle, _end_height(state))
 
 
 def _refuse_compensated(state: State, block: Block) -> None:

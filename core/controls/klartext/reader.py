@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from core.controls.program_text import capitals
 
-NUMBER: Final = r"[+-]?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
+NUMBER: Final = r"(?:[+-][ \t]*)?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
 """A number with a point or a comma, or a Q parameter; either with a sign or without."""
 
 _NAMES: Final = r"F[ \t]*(?:MAX|AUTO)|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"

@@ -26,6 +26,9 @@ _UNSUPPORTED: Final = (
 )
 """Blocks that the control knows and that are not supported here, and the end of the sentence about them."""
 
+_SPATIAL: Final = re.compile(
+    r"\s*SPATIAL\s+SPA\s*([-+.,\dQLR]+)\s+SPB\s*([-+.,\dQLR]+)\s+SPC\s*([-+.,\dQLR]+)\s+STAY\b", re.ASCII
+)
 _PLANES: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
 _DEF: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
 _CALL: Final = frozenset(("S", "F", "DL", "DR", "DR2", "X", "Y", "Z"))
@@ -59,8 +62,8 @@ def ignored(state: State, block: Block) -> None:
 
 
 def bracketed(state: State, block: Block) -> None:
-    """A whole line in brackets, which other languages write as a comment."""
-    if not block.body.rstrip().endswith(")"):
+    """A line in brackets, which other languages write as a comment; before BEGIN PGM the bracket may be left open."""
+    if state.begun and not block.body.rstrip().endswith(")"):
         unknown(state, block)
     state.tell(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
 
@@ -75,8 +78,18 @@ def text_parameter(state: State, block: Block) -> None:
 
 
 def plane(state: State, block: Block) -> None:
-    """PLANE RESET STAY, accepted because nothing is tilted; any other PLANE is not supported."""
-    if block.body.split() != ["RESET", "STAY"]:
+    """PLANE RESET STAY, and PLANE SPATIAL with angles of 0: nothing is tilted; any other PLANE is not supported."""
+    angles = _SPATIAL.match(block.body)
+    if angles is not None and all(state.value(angle, block) == 0.0 for angle in angles.groups()):
+        state.parameters |= dict.fromkeys(("Q120", "Q121", "Q122"), 0.0)
+    elif block.body.split() != ["RESET", "STAY"]:
+        unknown(state, block)
+    ignored(state, block)
+
+
+def function(state: State, block: Block) -> None:
+    """FUNCTION RESET and FUNCTION MODE MILL, which are the state anyway; any other FUNCTION is not supported."""
+    if block.body.split()[:1] != ["RESET"] and block.body.split()[:2] != ["MODE", "MILL"]:
         unknown(state, block)
     ignored(state, block)
 

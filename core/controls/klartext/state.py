@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from re import Pattern
 from types import MappingProxyType
-from typing import Final, NamedTuple, NoReturn
+from typing import Final, NoReturn
 
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Log
@@ -34,17 +34,11 @@ AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
 SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
 COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
 FEEDS: Final = frozenset(("F", "FMAX", "FAUTO"))
+ROTARY_AXES: Final = frozenset("ABC")
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 
 Words = dict[str, str]
 """The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
-
-
-class CalledCycle(NamedTuple):
-    """A cycle that waits for its call, and the tool axis's height at its end in millimeters, None if not known."""
-
-    number: int
-    end: float | None
 
 
 @dataclass(slots=True)
@@ -55,7 +49,7 @@ class State:
     `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
     just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the share of the
     tool's radius that is run with.  `pole` is in coordinates of `pole_plane`, the plane of the axes that CC names.
-    `cycle` is the one that a call runs, `cycle_due` whether M99 calls it after the block.
+    `cycle` is the number of the one that a call runs, `cycle_due` whether M99 calls it after the block.
     """
 
     log: Log
@@ -76,7 +70,7 @@ class State:
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     pole: Point | None = None
     pole_plane: Plane = Plane.XY
-    cycle: CalledCycle | None = None
+    cycle: int | None = None
     cycle_due: bool = False
     feed: float = 0.0
     tool_feed: float = 0.0
@@ -107,6 +101,9 @@ class State:
             name = joined_name(written)
             if name == "R" and number == "0":
                 name, number = "R0", ""
+            if name not in allowed and name in ROTARY_AXES and number and self.value(number, block, name) == 0.0:
+                self.tell(Severity.INFO, "AXIS", "Rotary axes at 0 tilt nothing and are skipped.", block, name)
+                continue
             if name not in allowed:
                 self._unknown(block, name or junk, number)
             if name == "M":

@@ -66,3 +66,15 @@ def test_the_values_of_a_cycle_are_parameters() -> None:
 
 def test_a_block_number_may_begin_with_n() -> None:
     assert flat(runs("N10 L X+1 Y+2 Z+3 FMAX", "N20L X+5"), 1)[0] == (1, 2)
+
+
+def test_the_values_of_a_cycle_may_be_parameters_or_stand_on_lines_of_their_own() -> None:
+    loose = ("CYCL DEF 203 DRILLING", "Q200 = 2", "Q203 = 0", "Q204 = 20", "CYCL CALL")
+    for cycle in (loose, ("Q1 = 20", "CYCL DEF 203 DRILLING ~", "Q200=2 ~", "Q203=0 ~", "Q204=+Q1", "CYCL CALL")):
+        assert points(runs("L X+1 Y+2 Z+9 R0 FMAX", *cycle))[-1] == (1, 2, 20)
+
+
+def test_a_value_that_is_not_known_leaves_the_height_open() -> None:
+    made = runs("L X+1 Y+2 Z+9 R0 FMAX", "CYCL DEF 203 DRILLING ~", "Q200=2 ~", "Q203=+Q7 ~", "Q204=20", "CYCL CALL")
+    assert points(made, 1) == [(1, 2, 9)]
+    assert "from the next absolute words" in made.findings[-1].text

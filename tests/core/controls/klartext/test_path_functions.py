@@ -194,6 +194,12 @@ def test_polar_angles_in_zx_count_from_z() -> None:
     assert points(made, 1) == [NEAR((10, 0, 0)), NEAR((0, 0, 10)), NEAR((10, 0, 0)), NEAR((0, 0, -10))]
 
 
+def test_arcs_of_cam_systems_sink_into_the_cut_and_rise_out_of_it() -> None:
+    """As posts write ramps: down to the depth at which the next line goes on, and up to the height of the retract."""
+    made = clean("L X+18 Y+0 Z+7 F9", "CC X+10 Z+7", "CP IPA+90 DR+", "L X-40 Z-1", "CC X-40 Z+7", "CP IPA+90 DR+")
+    assert points(made, 1) == [NEAR((18, 0, 7)), NEAR((10, 0, -1)), NEAR((-40, 0, -1)), NEAR((-48, 0, 7))]
+
+
 def test_an_arc_in_yz_runs_there() -> None:
     made = clean(START, "CC Y+5 Z+0", "C Y+5 Z-5 DR+", "CP IPA+90 DR+")
     assert [move.plane for move in list(made.moves)[1:]] == [Plane.YZ] * 2

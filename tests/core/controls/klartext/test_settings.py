@@ -79,6 +79,12 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("L Z+1 MB MAX",), "WORD", 4),
         (("CYCL DEF 7.1 #5",), "WORD", 4),
         (("PLANE SPATIAL SPA+10",), "WORD", 4),
+        (("PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY",), "WORD", 4),
+        (("PLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE ABST50",), "WORD", 4),
+        (("FUNCTION TCPM F TCP",), "WORD", 4),
+        (("Q8 = 30", "CYCL DEF 10.1 ROT+Q8"), "WORD", 5),
+        (("L C+Q122 FMAX",), "Q", 4),
+        (("L U+0",), "WORD", 4),
         (("CALL PGM OTHER",), "WORD", 4),
         (("FC DR+ R10",), "WORD", 4),
         (("FN 18: SYSREAD Q1 = ID1", "L X+Q1 F9"), "Q", 5),
@@ -129,6 +135,10 @@ def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[st
         ("FN 16: F-PRINT A.A / B.TXT", "IGNORED", Severity.INFO),
         ('DECLARE STRING QS1 = "A"', "IGNORED", Severity.INFO),
         ("CYCL DEF 10.1 ROT+0", "IGNORED", Severity.INFO),
+        ("CYCL DEF 11.1 SCL 1.000", "IGNORED", Severity.INFO),
+        ("PLANE SPATIAL SPA+0 SPB0 SPC-0 STAY SEQ+ TABLE ROT", "IGNORED", Severity.INFO),
+        ("FUNCTION RESET TCPM", "IGNORED", Severity.INFO),
+        ("L A0 C+0.000 FMAX", "AXIS", Severity.INFO),
         ("CYCL DEF 8.1", "IGNORED", Severity.INFO),
         ("CYCL DEF 11.1 SCL 1", "IGNORED", Severity.INFO),
         ("CYCL DEF 19.1 A+0 B+0 C+0", "IGNORED", Severity.INFO),
@@ -214,3 +224,23 @@ def test_an_axis_that_moves_to_a_machine_point_has_no_known_position_until_it_is
     for block, position in (("L X+5 IY+1 F9", "POSITION"), ("L IX+5 Y+1 F9", "")):
         made = runs("L X+0 Y+0 Z+1 FMAX", "L Y+9 FMAX M91", block)
         assert [finding.code for finding in made.findings] == ["MACHINE", *filter(None, (position,))]
+
+
+def test_a_header_before_begin_pgm_may_leave_its_brackets_open() -> None:
+    text = "( SHEET\n(   MACHINE: A\n(\nBEGIN PGM P MM\nL X+1 Y+2 FMAX\n{}END PGM P MM\n"
+    assert flat(run_klartext(text.format("").encode(), NONE), 1) == [(1, 2)]
+    assert run_klartext(text.format("( OPEN\n").encode(), NONE).stopped_at == 6
+
+
+def test_values_of_0_and_1_may_be_parameters() -> None:
+    made = runs("Q8 = 0", "Q9 = 1", "CYCL DEF 10.1 ROT+Q8", "CYCL DEF 11.1 SCL Q9", "L X+1 Y+1 FMAX")
+    assert made.stopped_at is None
+
+
+def test_a_plane_without_tilt_sets_its_axis_angles() -> None:
+    made = runs("PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY", "L A+Q120 C+Q122 FMAX", "L X+1 Y+1 FMAX")
+    assert flat(made, 1) == [(1, 1)]
+
+
+def test_a_blank_may_part_a_sign_from_its_number() -> None:
+    assert flat(runs("L X + 3 Y- 4 FMAX"), 1) == [(3, -4)]
