@@ -344,7 +344,8 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
             return
         begin = reader.at
         if text[begin] != "#":
-            raise FaultError("PS0127", f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
+            rule = "PS0127" if text[begin].isalpha() else "PS0114"
+            raise FaultError(rule, f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
         if count:
             said = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
             log.tell(Severity.WARNING, "PS0127", said, number, line.column(begin))

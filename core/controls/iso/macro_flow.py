@@ -39,7 +39,8 @@ ProgramLibrary = Callable[[int], tuple[str, bytes] | None]
 """Finds a program by its number outside of the file: its name and text."""
 
 _KEYWORD: Final = re.compile(
-    r"(?:/[0-9]?)?(?:N[0-9]++)?(?:/[0-9]?)?(IF(?=\[)|WH(?:ILE)?(?=\[)|DO|END|GO(?:TO)?|#|(?=\[))"
+    r"(?:/[0-9]?)?(?:N[0-9]++)?(?:/[0-9]?)?(IF(?=\[)|WH(?:ILE)?(?=\[)|"
+    r"DO(?=[0-9#\[])|END(?=[0-9#\[])|GO(?:TO)?(?=[-+0-9#\[])|#|(?=\[))"
 )
 _EXTERNAL: Final = re.compile(r"(?:/[0-9]?)?(?:N[0-9]++)?(DPRNT|BPRNT|POPEN|PCLOS|SETVN)")
 _THEN: Final = re.compile(r"TH(?:EN)?")
@@ -49,6 +50,7 @@ _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
 _WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?0*+[1-9][0-9]*+(?![0-9.])")
 _NO_LENGTHS: Final = re.compile(r"G0?5|G6[56]|M9[789]")
+_LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _EXPRESSIONS: Final = frozenset("#[,")
 
 ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
@@ -113,6 +115,10 @@ class MacroFlow(Flow):
         begin = len(self.lines)
         for number, line in enumerate(lines, first_number):
             for start, text in _parts(line):
+                if start and _is_remark(text):
+                    said = f"Text after the end of the block is ignored: {quoted(text)}"
+                    self.log.tell(Severity.INFO, "TEXT", said, number, start + 1)
+                    continue
                 row = len(self.lines)
                 self.lines.append(text)
                 self.numbers.append(number)
@@ -558,6 +564,12 @@ def _between_percents(lines: Sequence[str]) -> list[str]:
     if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, signs[0]
     return [line if first < index < last else "" for index, line in enumerate(lines)]
+
+
+def _is_remark(text: str) -> bool:
+    """Whether what stands after a semicolon is a remark: it has letters that are neither words nor a macro's."""
+    bare = capitals(without_comments(text))
+    return _LETTERS.search(bare) is not None and not _KEYWORD.match("".join(bare.split()))
 
 
 def _parts(line: str) -> Iterator[tuple[int, str]]:

@@ -139,10 +139,15 @@ class Fanuc(VectorQueue, Control):
         self.too_many = not (_UNBUFFERED_G.isdisjoint(block.g) and _UNBUFFERED_M.isdisjoint(block.m))
         if self.active:
             self._refuse(block)
-        if "D" in block.words:
+        if "D" in block.words and self._is_known(block):
             self._take_number(block)
         if self.active:
             self._leave_for_a_while(block)
+
+    def _is_known(self, block: Block) -> bool:
+        """Whether the control has a block's codes: in another control's cycle D is no offset number."""
+        codes = (self.machine.dialect.codes.get(number) for number in block.g)
+        return all(code is not None and code.action is not CodeAction.UNSUPPORTED for code in codes)
 
     def _refuse(self, block: Block) -> None:
         """What compensation does not allow."""

@@ -369,7 +369,7 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("END1", "PS0124"),
         ("IF[1EQ1]X5", "PS0114"),
         ("#1=2X5", "PS0127"),
-        ("#1=#1-#11:", "PS0127"),
+        ("#1=#1-#11:", "PS0114"),
         ("X", "PS0005"),
         ("X1.2.3", "PS0009"),
         ("G123", "PS0010"),
@@ -380,6 +380,7 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("G10 L12 P1", "PS0032"),
         ("G10 L50", "FN-PARAMETER"),
         ("G29 X5", "BEYOND"),
+        ("G71 P10 Q20 D0.05", "PS0010"),
     ],
 )
 def test_what_the_control_cannot_read_is_its_alarm(row: str, code: str) -> None:
@@ -472,6 +473,12 @@ def test_a_safety_line_and_the_usual_words_run() -> None:
 
 def test_a_semicolon_ends_a_block_but_not_in_a_comment() -> None:
     assert ends(ran(f"{HEAD}X1.;Y2.;(A;B);X3.\nM30")) == [(1.0, 0.0), (1.0, 2.0), (3.0, 2.0)]
+
+
+def test_a_remark_after_a_semicolon_is_skipped_and_told() -> None:
+    done = ran("N1 G21; mm mode\nG1 X5. F9; Rapid move to the side\nG1 Y1.;#100=5;IF[#100EQ5]GOTO9\nX99.\nN9 M30; End")
+    assert ends(done) == [(5.0, 0.0), (5.0, 1.0)]
+    assert len(told(done, "TEXT")) == 3
 
 
 def test_two_codes_of_a_group_the_last_one_counts() -> None:
