@@ -52,14 +52,28 @@ EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
 Batches = Iterator[tuple[Rows, Rows]]
 
 
-def near_pairs(first: Floats, second: Floats, reach: float) -> Batches:
+@dataclass(frozen=True, eq=False, slots=True)
+class BoxTree:
+    """Boxes (4, n) with a tree of them, for whoever asks more than once what is near them."""
+
+    boxes: Floats
+    tree: shapely.STRtree
+
+    @staticmethod
+    def of(boxes: Floats) -> BoxTree:
+        """These boxes with their tree."""
+        return BoxTree(boxes, shapely.STRtree(_diagonals(boxes)))
+
+
+def near_pairs(first: Floats, second: Floats | BoxTree, reach: float) -> Batches:
     """All pairs (i, j) of a box of `first` and one of `second` no farther apart than `reach`, in rising order of i.
 
     Exact for the boxes, hence a superset for what is inside them.
     """
-    if not (first.shape[1] and second.shape[1]):
+    boxes = second.boxes if isinstance(second, BoxTree) else second
+    if not (first.shape[1] and boxes.shape[1]):
         return
-    tree = shapely.STRtree(_diagonals(second))
+    tree = second.tree if isinstance(second, BoxTree) else BoxTree.of(boxes).tree
     grown = first + np.array([[-reach], [-reach], [reach], [reach]])
     start, count = 0, 64
     while start < first.shape[1]:
@@ -67,7 +81,7 @@ def near_pairs(first: Floats, second: Floats, reach: float) -> Batches:
         i += start
         start += count
         # the tree's boxes are square at their corners
-        near = ~(_apart(first.take(i, axis=1), second.take(j, axis=1)) > reach)
+        near = ~(_apart(first.take(i, axis=1), boxes.take(j, axis=1)) > reach)
         yield i[near], j[near]
         count = min(BATCH_QUERIES, 2 * count) if len(i) < BATCH_PAIRS else max(1, count // 2)
 

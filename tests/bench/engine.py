@@ -27,7 +27,6 @@ from core.verify.judge import judge
 from tests.bench import peers
 from tests.bench.families import FAMILIES, Work, gear
 
-LOOKAHEAD: Final = 8
 SIZES: Final = (100, 1_000, 10_000, 100_000)
 STAGES: Final = ("control path", "verdict", "best path")
 
@@ -72,9 +71,9 @@ def main() -> None:
 
 def stages(work: Work) -> dict[str, Run]:
     """Control path with all its deletions, the verdict on it, and the best path."""
-    path = compensate(work.contour, work.side, work.radius, LOOKAHEAD, closed=work.closed).path
+    path = compensate(work.contour, work.side, work.radius, work.lookahead, closed=work.closed).path
     return {
-        "control path": partial(compensate, work.contour, work.side, work.radius, LOOKAHEAD, closed=work.closed),
+        "control path": partial(compensate, work.contour, work.side, work.radius, work.lookahead, closed=work.closed),
         "verdict": partial(judge, work.contour, work.side, work.radius, path),
         "best path": partial(best_path, work.contour, work.side, work.radius, closed=work.closed),
     }

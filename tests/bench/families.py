@@ -23,6 +23,7 @@ class Work:
     radius: float
     closed: bool
     accepted: float
+    lookahead: int = 8
 
 
 def _polyline(places: NDArray[np.complex128]) -> Path:
@@ -108,6 +109,13 @@ def dense_waves(count: int) -> Work:
     return Work(_polyline(x + 4j * np.sin(2.0 * pi / 10.0 * x)), Side.LEFT, 2.0, False, 0.3)
 
 
+def dense_ripples(count: int) -> Work:
+    """A disc with 300 ripples of 0.05 mm drawn by ever shorter chords, that a cutter of 6 mm gouges at look-ahead 3."""
+    angle = 2.0 * pi * _steps(count) / count
+    angle[-1] = 0.0
+    return Work(_polyline((58.0 + 0.05 * np.sin(300.0 * angle)) * np.exp(1j * angle)), Side.RIGHT, 3.0, True, 0.1, 3)
+
+
 def dense_spiral(count: int) -> Work:
     """Thirty turns 2 mm apart for a cutter of 1.2 mm, drawn by ever shorter chords."""
     angle = 2.0 * pi * np.sqrt(900.0 * _steps(count) / count + 4.0)
@@ -141,6 +149,7 @@ FAMILIES: Final[tuple[Callable[[int], Work], ...]] = (
     stair,
     dense_disc,
     dense_waves,
+    dense_ripples,
     dense_spiral,
     tangent_slots,
     tangent_stack,

@@ -303,7 +303,7 @@ class Comparison:
                 yield f"{where}: missing after"
             elif key == "findings":
                 yield from self._findings(value, new[key], where)
-            elif key not in ("text", "needs"):
+            elif key not in ("text", "needs", "file"):
                 yield from self.documents(value, new[key], where)
 
     def _findings(self, old: list[dict[str, Any]], new: list[dict[str, Any]], place: str) -> Iterator[str]:

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_path.clearance import clear_slices
-from core.comp.best_path.prepared_contour import PreparedContour, crosses_itself, prepare_contour
+from core.comp.best_path.prepared_contour import PreparedContour, Walls, crosses_itself, prepare_contour
 from core.comp.best_path.raw_offset import RawOffset, raw_offset
 from core.comp.best_path.slices import sliced
 from core.comp.best_path.stitch import StitchedSlices, chains, path_of_slices, stitch
@@ -52,7 +52,8 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     surface = prepare_contour(contour, radius, closed=closed)
     if not len(surface.path):
         return BestPath((), (), surface.findings)
-    crossing = crosses_itself(surface.path, closed=closed)
+    walls = Walls.of(surface.path)
+    crossing = crosses_itself(walls, closed=closed)
     findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
     untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     raw = trimmed(untrimmed, side.sign, radius)
@@ -60,8 +61,8 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     cut = sliced(raw, side.sign)
     if cut is None:
         return BestPath((), (), (*findings, _tangled()))
-    cut = clear_slices(raw, cut, surface.path, radius)
-    made = stitch(raw, cut, side.sign, surface.path, radius)
+    cut = clear_slices(raw, cut, walls, radius)
+    made = stitch(raw, cut, side.sign, walls, radius)
     return _best(raw, made, surface, findings)
 
 

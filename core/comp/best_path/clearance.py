@@ -11,19 +11,19 @@ from typing import Final
 
 import numpy as np
 
+from core.comp.best_path.prepared_contour import Walls
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices, least_of_connected
 from core.geometry.distance import distance
 from core.geometry.nearby import near_pairs, point_boxes
-from core.geometry.path import Flags, Path, Points, Rows, as_complex
-from core.geometry.piece_arrays import piece_arrays
+from core.geometry.path import Flags, Points, Rows, as_complex
 from core.tolerance import CLEAR
 
 SAMPLE: Final = 64
 """Of a group's slices in their order the first and then one in this number are measured, and all that are long."""
 
 
-def clear_slices(raw: RawOffset, cut: Slices, surface: Path, radius: float) -> Slices:
+def clear_slices(raw: RawOffset, cut: Slices, walls: Walls, radius: float) -> Slices:
     """The slices along which the cutter is nowhere nearer to the surface than the radius."""
     if not len(cut):
         return cut
@@ -33,36 +33,36 @@ def clear_slices(raw: RawOffset, cut: Slices, surface: Path, radius: float) -> S
     lost[group[cut.dead]] = True
     alive = ~lost[group]
     sample = alive & ((_rank(np.where(alive, group, -1)) % SAMPLE == 0) | (cut.size > radius / 4.0))
-    good = _clear_in_middle(raw, cut, sample, surface, radius)
+    good = _clear_in_middle(raw, cut, sample, walls, radius)
     clear, blocked = np.zeros((2, len(cut)), np.bool_)
     clear[group[good]] = True
     blocked[group[sample & ~good]] = True
     doubtful = alive & clear[group] & blocked[group] & ~sample
     good |= alive & clear[group] & ~blocked[group]
-    good |= _clear_in_middle(raw, cut, doubtful, surface, radius)
+    good |= _clear_in_middle(raw, cut, doubtful, walls, radius)
     return cut.take(good.nonzero()[0])
 
 
-def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, surface: Path, radius: float) -> Flags:
+def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, walls: Walls, radius: float) -> Flags:
     """Which of the slices that are asked about are clear, each measured in its middle."""
     good = asked.copy()
     points, piece = cut.middles(raw, asked.nonzero()[0])
-    good[asked] = clear(points, raw.segment[piece], surface, radius)
+    good[asked] = clear(points, raw.segment[piece], walls, radius)
     return good
 
 
-def clear(points: Points, segments: Rows, surface: Path, radius: float) -> Flags:
+def clear(points: Points, segments: Rows, walls: Walls, radius: float) -> Flags:
     """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR.
 
     `segments` (k,) are the pieces the points were offset from: most points that are not clear are too near to a vertex
     not far from there.
     """
-    good = _clear_of_vertices(points, segments, as_complex(surface.points), radius)
+    good = _clear_of_vertices(points, segments, as_complex(walls.path.points), radius)
     rows = good.nonzero()[0]
     if len(rows):
-        walls, spots = piece_arrays(surface), points[rows]
-        for i, j in near_pairs(point_boxes(spots), walls.boxes, radius):
-            good[rows[i[distance(walls.take(j), spots[i]) < radius - CLEAR]]] = False
+        spots = points[rows]
+        for i, j in near_pairs(point_boxes(spots), walls.tree, radius):
+            good[rows[i[distance(walls.pieces.take(j), spots[i]) < radius - CLEAR]]] = False
     return good
 
 

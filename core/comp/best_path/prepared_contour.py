@@ -11,9 +11,9 @@ import numpy as np
 from core.comp import findings as comp_findings
 from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
-from core.geometry.nearby import near_pairs, near_pairs_within
+from core.geometry.nearby import BoxTree, near_pairs, near_pairs_within
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
-from core.geometry.piece_arrays import even_centers, piece_arrays
+from core.geometry.piece_arrays import PieceArrays, even_centers, piece_arrays
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF_TURN: Final = 3.1
@@ -103,18 +103,33 @@ def _closed(path: Path) -> Path:
     )
 
 
-def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
+@dataclass(frozen=True, eq=False, slots=True)
+class Walls:
+    """The surface of a contour that is offset, with its pieces and a tree of their boxes."""
+
+    path: Path
+    pieces: PieceArrays
+    tree: BoxTree
+
+    @staticmethod
+    def of(path: Path) -> Walls:
+        """The walls of a surface."""
+        pieces = piece_arrays(path)
+        return Walls(path, pieces, BoxTree.of(pieces.boxes))
+
+
+def crosses_itself(walls: Walls, *, closed: bool) -> tuple[float, float] | None:
     """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
 
     A full circle among other segments touches its neighbors with both ends.
     """
+    path, pieces = walls.path, walls.pieces
     circles = ((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1)).nonzero()[0]
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
     apart = _meet_next_only_at_joint(path)
-    pieces = piece_arrays(path)
-    for i, j in near_pairs_within(pieces.boxes, 2.0 * ON_PATH):
+    for i, j in near_pairs_within(walls.tree.boxes, 2.0 * ON_PATH):
         i, j = pieces.rows[i], pieces.rows[j]
         known = apart[i] & (j == i + 1)
         if closed and apart[-1]:

@@ -14,6 +14,7 @@ from math import sqrt
 import numpy as np
 
 from core.comp.best_path.clearance import clear
+from core.comp.best_path.prepared_contour import Walls
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices
 from core.geometry.nearby import near_pairs, point_boxes, sorted_pairs
@@ -48,7 +49,7 @@ def bridge_limit(radius: float) -> float:
     return min(WHISKER, sqrt(8.0 * radius * CLEAR))
 
 
-def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float) -> StitchedSlices:
+def stitch(raw: RawOffset, cut: Slices, sign: int, walls: Walls, radius: float) -> StitchedSlices:
     """Each clear slice with the one that follows it, without the slices that lead nowhere."""
     cut = _without_dead_ends(_without_doubles(raw, cut))
     while True:
@@ -60,7 +61,7 @@ def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float)
         begin &= ~cut.outer[cut.first]
         whisker = (end | begin) & (cut.size < WHISKER)
         if not whisker.any():
-            return StitchedSlices(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
+            return StitchedSlices(_without_overlaps(raw, cut, following, walls, radius), following, end, begin)
         cut = cut.take((~whisker).nonzero()[0])
 
 
@@ -130,7 +131,7 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
     _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
 
 
-def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, surface: Path, radius: float) -> Slices:
+def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, walls: Walls, radius: float) -> Slices:
     """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other.
 
     What is still inside a wall at its very end is cut back until it is clear.
@@ -156,7 +157,7 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, surface: Pat
     stops = np.where(over > 0.0, raw.at(until, end[rows]), cut.points[last[rows]])
     for _ in range(_CUT_BACKS):
         spots, segments = np.append(stops, starts), raw.segment[np.append(until, piece)]
-        blocked, gaps = ~clear(spots, segments, surface, radius), np.abs(stops - starts)
+        blocked, gaps = ~clear(spots, segments, walls, radius), np.abs(stops - starts)
         if not blocked.any():
             break
         end[rows] -= np.where(blocked[: len(rows)], np.minimum(gaps, (end[rows] - low) / 2.0), 0.0)
