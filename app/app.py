@@ -8,16 +8,18 @@ from pathlib import Path
 from typing import ClassVar
 
 from textual import on, work
-from textual.app import App
 from textual.binding import Binding, BindingType
 from textual.command import Provider
 from textual.reactive import var
 from textual.screen import Screen
 
 from app import theme
+from app.documents.document import ContourDocument, NcDocument
+from app.documents.service import DocumentService, Opened
+from app.documents.settings import SettingsFile
+from app.file_actions import FileActions
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
-from app.screens.dialogs import Answer, Question
 from app.screens.draw import DrawScreen
 from app.screens.help import HelpScreen
 from app.screens.home import HomeScreen
@@ -34,11 +36,10 @@ from app.session.session import SEGMENT, Session
 from app.widgets.status import Surroundings
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, FormPlace, Refused
-from core.program.history import History
 from core.program.model import Program
 
 
-class CutcompApp(App[int]):
+class CutcompApp(FileActions):
     """The only place where the session changes.
 
     `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session
@@ -54,6 +55,7 @@ class CutcompApp(App[int]):
         Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
         Binding("ctrl+q", "quit", "Quit", show=False, priority=True),
         Binding("ctrl+g", "help", "Help", show=False),
+        Binding("ctrl+s", "save", "Save", show=False, priority=True),
         Binding("ctrl+o", "home", "Open", show=False, priority=True),
     ]
 
@@ -70,9 +72,17 @@ class CutcompApp(App[int]):
         few_colors: bool = False,
         light: bool = False,
         character_sets: tuple[str, ...] = ("braille", "block", "ascii"),
+        service: DocumentService | None = None,
+        opened: Opened[ContourDocument] | None = None,
+        settings_file: SettingsFile | None = None,
+        home: bool = False,
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
+        self.service, self._opened, self._home = service, opened, home
+        self.settings_file = settings_file or SettingsFile()
+        self.settings = self.settings_file.held
+        self.document = ContourDocument.of(session.program) if opened is None else opened.document
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self._wanted: Request | None = None
@@ -90,8 +100,14 @@ class CutcompApp(App[int]):
         return ContourScreen()
 
     def on_ready(self) -> None:
-        """Once the first screen stands, work out what follows from the program."""
+        """Once the first screen stands, work out what follows from the program, and ask what is to be asked."""
         self._derive(Request(self.session.program))
+        if self._home:
+            self.action_home()
+        if self._opened is not None:
+            self.tell(self._opened.notice)
+            if self._opened.offer is not None:
+                self._ask_offer(self._opened.document, self._opened.offer)
 
     # ---- the session
 
@@ -99,6 +115,9 @@ class CutcompApp(App[int]):
         """Take an edit, or say why it is refused; whether it was taken."""
         if isinstance(edited, Refused):
             self.say(edited.text, Tone.ERROR)
+            return False
+        if self.looking:
+            self.say(self.looking, Tone.ERROR)
             return False
         self._change(self.session.with_program(edited, label))
         return True
@@ -136,15 +155,11 @@ class CutcompApp(App[int]):
         before = self.session
         if session is before:
             return
-        if session.history is not before.history:
-            self.keep(session.history)
+        self.keep(session)
         self.session = session
         self.shown = session
         if session.program is not before.program:
             self._derive(Request(session.program))
-
-    def keep(self, history: History) -> None:
-        """Put every edit where a crash does not lose it."""
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line of the screen in front."""
@@ -237,8 +252,9 @@ class CutcompApp(App[int]):
 
     def action_home(self) -> None:
         """HOME, the files of a folder."""
-        file = self.session.file
-        self.push_screen(HomeScreen(Path.cwd() if file is None else file.parent))
+        if not isinstance(self.screen, HomeScreen):
+            file = self.session.file
+            self.push_screen(HomeScreen(Path.cwd() if file is None else file.absolute().parent))
 
     def action_parameters(self) -> None:
         """PROGRAM PARAMETERS."""
@@ -292,16 +308,32 @@ class CutcompApp(App[int]):
         """The time of day, in its zone."""
         return datetime.now().astimezone()
 
-    async def action_quit(self) -> None:
-        """Leave; asks where something is not saved."""
-        self._leave()
+    # ---- what the actions on files need
 
-    @work(exclusive=True, group="question")
-    async def _leave(self) -> None:
-        if self.session.unsaved:
-            name = self.session.title or (self.session.file.stem if self.session.file else "This program")
-            lines = [f"{name} has {self.session.history.undo_count} changes that are not saved."]
-            answers = [Answer("DISCARD", "the changes are lost")]
-            if await self.push_screen_wait(Question("QUIT?", lines, answers, "GO BACK")) != "DISCARD":
-                return
-        self.exit(0)
+    @property
+    def current_session(self) -> Session:
+        """The session as it is now."""
+        return self.session
+
+    def begin(self, session: Session) -> None:
+        """Work on another program from now on, or on the same one under another name."""
+        same = session.program is self.session.program and session.derived is self.session.derived
+        self.session = self.shown = session
+        if not same:
+            self._derive(Request(session.program))
+
+    def bring_form(self) -> None:
+        """MILL CONTOUR to the front."""
+        self.bring(ContourScreen)
+
+    def show_screen(self, screen: BaseScreen) -> None:
+        """A screen over all others."""
+        self.push_screen(screen)
+
+    def show_nc(self, document: NcDocument) -> None:
+        """NC PROOF on a text."""
+        self.say(f"{document.file.path} is an NC program.")
+
+    def show_folder(self, folder: Path) -> None:
+        """HOME with the files of a folder."""
+        self.push_screen(HomeScreen(folder))

@@ -78,6 +78,12 @@ class Host(Protocol):
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 
+    def save_as(self, text: str) -> None:
+        """Save the program under a typed name."""
+
+    def show_folder(self, folder: Path) -> None:
+        """HOME with the files of a folder."""
+
     def go_to(self, entry: FindingEntry) -> None:
         """MILL CONTOUR with the cursor on the place of a finding."""
 

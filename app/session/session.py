@@ -59,6 +59,18 @@ class Session:
         held = program if saved is None else saved
         return Session(History(program), held, outline(program), Cursor(), file, title)
 
+    @staticmethod
+    def of_history(
+        history: History, saved: Program, place: FormPlace, field: str, file: Path | None, title: str
+    ) -> Session:
+        """A session on work that has a history, the cursor where it was."""
+        cursor = Cursor(nearest_place(history.program, place), field)
+        return Session(history, saved, outline(history.program), cursor, file, title)
+
+    def like(self, before: Session) -> Session:
+        """The session with what was known of the same program before."""
+        return replace(self, derived=before.derived, cursor=before.cursor, table=before.table)
+
     @property
     def program(self) -> Program:
         """The program as it is now."""

@@ -1,0 +1,52 @@
+"""SAVE AS and OPEN A PATH: the name of a file, typed."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from app.documents.naming import typed
+from app.screens.entry_screen import EntryScreen
+from app.session.messages import Sentence
+from app.widgets.softkeys import Softkey
+
+
+class SaveAsScreen(EntryScreen):
+    """SAVE AS: the name of the program's file."""
+
+    TITLE: ClassVar[str] = "SAVE AS"
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("SAVE", "enter", "SAVE"),
+        *(None,) * 6,
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def entered(self, text: str) -> None:
+        """Save under this name."""
+        self.host.save_as(text)
+
+    def prompt_text(self) -> Sentence:
+        """What to type."""
+        return Sentence("Name of the program file, Enter saves. Without a folder it goes beside the open program.")
+
+
+class OpenPathScreen(EntryScreen):
+    """OPEN A PATH: a program, an NC file, or a folder."""
+
+    TITLE: ClassVar[str] = "OPEN A PATH"
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("OPEN", "enter", "OPEN"),
+        *(None,) * 6,
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def entered(self, text: str) -> None:
+        """Open the file, or show the folder."""
+        path = typed(text).expanduser()
+        if path.is_dir():
+            self.host.show_folder(path)
+        else:
+            self.host.open_file(path)
+
+    def prompt_text(self) -> Sentence:
+        """What to type."""
+        return Sentence("Path of a program (.toml), an NC file, or a folder. Enter opens it.")

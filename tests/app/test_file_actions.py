@@ -1,0 +1,142 @@
+"""What the App does with files: open, save, leave, and every edit on the disk."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.app import CutcompApp
+from app.documents import times
+from app.documents.files import load
+from app.documents.lock import myself
+from app.documents.programs import example
+from app.documents.service import DocumentService, Opened
+from app.documents.settings import Settings, SettingsFile, load_settings
+from app.file_actions import session_of
+from app.screens.dialogs import Question
+from app.screens.home import HomeScreen
+from core.program.model import Number
+from tests.app.widget_pilot import SURROUNDINGS, Operator
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    shop = tmp_path / "shop"
+    shop.mkdir()
+    (shop / "part.toml").write_bytes(example("pocket").read_bytes())
+    monkeypatch.chdir(shop)
+    return shop
+
+
+@asynccontextmanager
+async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIterator[Operator]:
+    service = DocumentService(own=folder / "own", **options)
+    opened = service.open(folder / name)
+    assert isinstance(opened, Opened)
+    app = CutcompApp(
+        session_of(opened.document),
+        surroundings=SURROUNDINGS,
+        service=service,
+        opened=opened,
+        settings_file=SettingsFile(folder / "settings.toml", Settings()),
+    )
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Operator(app, pilot)
+        await one.settle()
+        yield one
+        await one.settle()
+    service.stop()
+
+
+DEAD = replace(myself(times.now()), pid=4194305)
+"""Ourselves in a process that is no more."""
+
+
+def journals(folder: Path) -> list[str]:
+    return [path.name for path in folder.iterdir() if path.name.endswith("-journal")]
+
+
+async def test_an_edit_is_on_the_disk_before_the_next_key_and_a_save_ends_its_journal(folder):
+    async with at_work(folder) as one:
+        assert journals(folder) == []
+        await one.press("pagedown", "tab", "'5.5", "enter")
+        assert journals(folder) == [".part.toml.cutcomp-journal"]
+        await one.press("ctrl+s")
+        assert journals(folder) == []
+        assert load(folder / "part.toml") == one.session.program
+        assert not one.session.unsaved
+        assert one.session.history.undo_count == 1
+
+
+async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo(folder):
+    async with at_work(folder, me=DEAD) as one:
+        await one.press("pagedown", "tab", "'5.5", "enter")
+        kept = (folder / ".part.toml.cutcomp-journal").read_bytes()
+    (folder / ".part.toml.cutcomp-journal").write_bytes(kept)
+    async with at_work(folder) as one:
+        assert isinstance(one.app.screen, Question)
+        await one.press("r")
+        assert one.session.block.segments[0].x_end == Number(5.5)
+        assert one.session.history.undo_count == 1
+
+
+async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
+    async with at_work(folder) as one:
+        await one.app.run_action("app.save_as")
+        await one.press(*"other", "enter")
+        assert load(folder / "other.toml") == one.session.program
+        assert one.session.file == folder / "other.toml"
+        assert one.at == "segment"
+        assert load_settings(folder / "settings.toml")[0].recent[0] == str(folder / "other.toml")
+
+
+async def test_a_file_that_is_in_the_way_is_asked_about(folder):
+    (folder / "other.toml").write_bytes(example("notch").read_bytes())
+    async with at_work(folder) as one:
+        await one.app.run_action("app.save_as")
+        await one.press(*"other", "enter")
+        assert isinstance(one.app.screen, Question)
+        await one.press("escape")
+        assert load(folder / "other.toml") == load(example("notch"))
+        await one.press("enter", "r")
+        assert load(folder / "other.toml") == one.session.program
+
+
+async def test_quit_asks_while_something_is_not_saved_and_go_back_changes_nothing(folder):
+    async with at_work(folder) as one:
+        await one.press("pagedown", "tab", "'5.5", "enter", "ctrl+q")
+        assert isinstance(one.app.screen, Question)
+        await one.press("escape")
+        assert one.session.block.segments[0].x_end == Number(5.5)
+        await one.press("ctrl+q", "s")
+    assert load(folder / "part.toml").blocks[0].segments[0].x_end == Number(5.5)
+    assert journals(folder) == []
+
+
+async def test_another_program_is_opened_after_the_question_about_unsaved_work(folder):
+    async with at_work(folder) as one:
+        await one.press("pagedown", "tab", "'5.5", "enter", "ctrl+o")
+        assert isinstance(one.app.screen, HomeScreen)
+        await one.app.workers.wait_for_complete()
+        await one.press("n", "enter")
+        assert isinstance(one.app.screen, Question)
+        await one.press("d")
+        assert one.session.title == "notch"
+        assert load(folder / "part.toml") == load(example("pocket"))
+        assert journals(folder) == []
+
+
+async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
+    theirs = DocumentService(own=folder / "their-own")
+    theirs.open(folder / "part.toml")
+    async with at_work(folder) as one:
+        assert isinstance(one.app.screen, Question)
+        await one.press("l")
+        await one.press("pagedown", "tab", "'5.5", "enter")
+        assert one.session.program == load(example("pocket"))
+        assert "SAVE AS" in one.prompt
+    theirs.stop()
