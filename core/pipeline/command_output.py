@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
-from typing import Any
+from math import atan2, degrees, isfinite
+from typing import Any, Final
 
 from core.advice.lookahead_table import Row, Table
 from core.advice.path_findings import nearest_place
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.piece import Point
+from core.geometry.piece import Line, Piece, Point
 from core.pipeline.derived import Derived, DerivedBlock
+from core.program.fields import form_of
+from core.program.model import ArcSegment, Relative, Unread
+from core.program.solve.solved import Solved, SolvedRun, SolvedSegment
 from core.units import Kind, Unit, from_mm, sentence, show
 
 Document = dict[str, Any]
@@ -35,7 +38,81 @@ def _block(block: DerivedBlock, unit: Unit) -> Document:
         "clearance_at": _clearance_at(block, unit),
         "moves": list(_block_moves(block, unit)),
         "deleted": _deleted(block, unit),
+        "segments": [_segment(segment, block, unit) for segment in block.solved.segments],
+        "runs": [_run(run, unit) for run in block.solved.runs],
         "findings": [finding_document(finding, unit) for finding in block.findings],
+    }
+
+
+def _segment(segment: SolvedSegment, block: DerivedBlock, unit: Unit) -> Document:
+    """One segment with the value of every field in program units, and its tag, null where it is typed.
+
+    A number that is typed is given as the piece comes to it: where more is typed than is needed, the two may differ
+    within the tolerance.
+    """
+    typed = block.block.segments[segment.number - 1]
+    run = block.solved.run_of(segment.number)
+    document: Document = {"segment": segment.number, "kind": str(form_of(typed))}
+    if isinstance(typed, ArcSegment):
+        document["direction"] = str(typed.direction)
+    if run is not None:
+        document["run"] = [run.first, run.last]
+    measured = {} if segment.sharp is None else _measured(segment.sharp, unit)
+    for name, value in segment.values.items():
+        if isinstance(value, Unread):
+            document[name] = {"value": None, "tag": "ERR", "text": value.text}
+        elif isinstance(value, Solved):
+            document[name] = {"value": value.value, "tag": str(value.origin)}
+        elif isinstance(value, Relative):
+            document[name] = {"value": measured.get(name), "tag": "INC", "typed": value.value}
+        elif value is not None:
+            document[name] = {"value": _as_solved(value.value, measured.get(name), name), "tag": None}
+    return document
+
+
+def _as_solved(typed: float, solved: float | None, name: str) -> float:
+    """A typed number, or what the piece comes to where that differs."""
+    if solved is None:
+        return typed
+    off = abs(typed - solved)
+    if name in ("angle", "start_angle"):
+        off = abs((off + 180.0) % 360.0 - 180.0)
+    return typed if off <= TYPED_EXACTLY else solved
+
+
+TYPED_EXACTLY: Final = 1e-9
+"""A number that a piece comes to is the typed one where they differ by no more than this, in program units."""
+
+
+def _measured(piece: Piece, unit: Unit) -> dict[str, float]:
+    """What a piece comes to, by field name, in program units and degrees."""
+    values = {"x_end": from_mm(piece.end[0], unit), "y_end": from_mm(piece.end[1], unit)}
+    x, y = piece.direction_at(piece.start)
+    heading = degrees(atan2(y, x)) % 360.0
+    if isinstance(piece, Line):
+        return values | {"length": from_mm(piece.length, unit), "angle": heading}
+    center = {"x_center": from_mm(piece.center[0], unit), "y_center": from_mm(piece.center[1], unit)}
+    sizes = {"radius": from_mm(piece.radius, unit), "sweep": degrees(abs(piece.sweep)), "start_angle": heading}
+    return values | center | sizes
+
+
+def _run(run: SolvedRun, unit: Unit) -> Document:
+    """One run: which solution is in force (an index, null for none), and all of them, the shortest first."""
+    return {
+        "first": run.first,
+        "last": run.last,
+        "solution": run.taken,
+        "missing": run.missing,
+        "code": run.code,
+        "solutions": [
+            {
+                "choice": answer.choice,
+                "pick": None if answer.pick is None else [from_mm(number, unit) for number in answer.pick],
+                "total": from_mm(answer.length, unit),
+                "segments": [{"segment": number, **_measured(piece, unit)} for number, piece in answer.pieces],
+            }
+            for answer in run.answers
+        ],
     }
 
 

@@ -87,7 +87,7 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
             drafts.append(own)
         else:
             drafts += stretch.drafts
-            runs.append(stretch.run)
+            runs += [stretch.run] if stretch.run is not None else []
         carried = drafts[-1].after
     placed = [_with_faults(item, place_faults(contour, index)) for index, item in enumerate(drafts)]
     return placed, tuple(runs)
@@ -145,6 +145,7 @@ def _segment(index: int, draft: Draft, corners: Corners, adjusted: Finding | Non
         z_start=before.z or 0.0,
         z_end=after.z or 0.0,
         feed=after.feed,
+        sharp=shape.piece,
         findings=(*draft.reading.findings, *(replace(finding, segment=index + 1) for finding in findings)),
     )
 

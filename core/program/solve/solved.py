@@ -63,6 +63,8 @@ class SolvedSegment:
     z_end: float = 0.0
     feed: float | None = None
     findings: tuple[Finding, ...] = ()
+    sharp: Piece | None = None
+    """The piece as its fields say it, before any blending."""
 
 
 @dataclass(frozen=True, slots=True)

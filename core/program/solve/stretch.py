@@ -47,7 +47,7 @@ class Stretch:
     """The drafts of a stretch's segments, corners included, and the run as a screen sees it."""
 
     drafts: tuple[Draft, ...]
-    run: SolvedRun
+    run: SolvedRun | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +71,9 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
     contradicted = undetermined and not own.shape.missing and bool(own.shape.findings)
     if not (tied or chosen_by_next or undetermined) or (contradicted and not tied):
         return None
+    if _tied(contour, index) and own.before.heading is None:
+        # nothing can be said before the segment to which it is tied is determined
+        return Stretch((drafted(segment, contour.readings[index], own.before, Shape(), contour.unit),), None)
     attempt = _solved(contour, index, own.before, 1 if tied else 2)
     if chosen_by_next and not tied and (attempt is None or len(attempt.search.answers) != 1):
         return None
@@ -123,9 +126,7 @@ def tangent_fault(contour: Contour, index: int) -> Finding | None:
         text = "Segment 1 has no segment before it to which it could be tangent: blank TANGENT."
     elif isinstance(contour.segments[index - 1], CornerSegment):
         corner = form_of(contour.segments[index - 1])
-        text = (
-            f"TANGENT cannot stand beside a {corner}, which stands at a corner: blank TANGENT or delete the {corner}."
-        )
+        text = f"TANGENT cannot follow a {corner}, which stands at a corner: blank TANGENT or delete the {corner}."
     else:
         return None
     return Finding("TANGENT_PLACE", Severity.ERROR, text, field="tangent")

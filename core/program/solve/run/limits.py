@@ -9,7 +9,7 @@ from typing import Final
 from core.finding import Finding
 from core.program.solve.run import reasons
 from core.program.solve.run.element import Element, Run
-from core.program.solve.run.search import search
+from core.program.solve.run.search import GRAZE_SHIFT, search
 
 TRIED: Final = tuple(1.08**step for step in range(1, 60))
 """The factors by which a radius is made larger and smaller."""
@@ -64,4 +64,6 @@ def _fits(run: Run, index: int, radius: float) -> bool:
     element = run.elements[index]
     typed = tuple((name, radius if name == "radius" else value) for name, value in element.typed)
     elements = (*run.elements[:index], replace(element, typed=typed), *run.elements[index + 1 :])
-    return bool(search.__wrapped__(replace(run, elements=elements)).answers)
+    # where it only just fits, the limit is where it does without any tolerance
+    answers = search.__wrapped__(replace(run, elements=elements)).answers
+    return any(answer.choice < 1 << GRAZE_SHIFT for answer in answers)

@@ -50,7 +50,7 @@ def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
         if element.turn:
             center = branch.center(index)
             assert center is not None
-            piece, trouble = _arc(run, index, start, end, center, branch)
+            piece, trouble = _arc(run, index, start, end, center)
             far = far or max(map(abs, center)) > LARGEST
         else:
             piece, trouble = _line(run, index, start, end, branch)
@@ -79,14 +79,14 @@ def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tup
     return Line(start, end), []
 
 
-def _arc(
-    run: Run, index: int, start: Point, end: Point, center: Point, branch: Branch
-) -> tuple[Arc | None, list[Finding]]:
+def _arc(run: Run, index: int, start: Point, end: Point, center: Point) -> tuple[Arc | None, list[Finding]]:
     """An arc, which must be as far from its center at both ends, and turn by more than nothing."""
     element = run.elements[index]
     radius, out = dist(start, center), dist(end, center)
-    if dist(start, end) <= CLOSED and not _full(element, branch.sweep[index]):
-        return None, [reasons.no_length(run, index)]
+    if dist(start, end) <= CLOSED:
+        if not _full(element, start):
+            return None, [reasons.no_length(run, index)]
+        return Arc(start, start, center, element.turn), []
     if abs(radius - out) > ARC_RADII:
         return None, [reasons.radii_differ(run, index, radius, out)]
     arc = construct.even_arc(start, end, center, element.turn)
@@ -95,9 +95,13 @@ def _arc(
     return arc, []
 
 
-def _full(element: Element, sweep: float | None) -> bool:
-    """Whether a full turn is typed."""
-    return element.known.get("sweep", 0.0) >= tau - AGREES or (sweep is not None and sweep >= tau - AGREES)
+def _full(element: Element, start: Point) -> bool:
+    """Whether an arc that ends where it starts is typed as the full circle: by SWEEP ANGLE, or with center and end."""
+    known = element.known
+    if "sweep" in known:
+        return known["sweep"] >= tau - AGREES
+    typed = all(name in known for name in ("x_end", "y_end", "x_center", "y_center"))
+    return typed and dist(start, (known["x_end"], known["y_end"])) <= JOINED
 
 
 def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:

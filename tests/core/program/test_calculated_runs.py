@@ -1,0 +1,402 @@
+"""Runs of segments calculated together: the golden cases, and what is said where there is no answer."""
+
+from __future__ import annotations
+
+import json
+import random
+from itertools import product
+from math import dist, radians
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from core.geometry.piece import Arc
+from core.program.file.read import StoreError, loads
+from core.program.file.write import dumps
+from core.program.solve.block import solve_block
+from core.units import Unit, sentence
+from tests.core.program.run_files import codes, document, plain, program_of, solved, text_of
+from tests.random_runs import BruteForce, apart, random_case, walk
+
+GOLDEN = json.loads((Path(__file__).parents[2] / "data/calculated_runs/golden.json").read_text(encoding="utf-8"))
+SOLVED = [case for case in GOLDEN if case["solutions"]]
+REFUSED = [case for case in GOLDEN if not case["solutions"]]
+
+
+def name(case: dict[str, Any]) -> str:
+    return str(case["name"])
+
+
+def line(**typed: Any) -> dict[str, Any]:
+    return {"kind": "LINE", **typed}
+
+
+def ccw(**typed: Any) -> dict[str, Any]:
+    return {"kind": "ARC", "direction": "CCW", **typed}
+
+
+def cw(**typed: Any) -> dict[str, Any]:
+    return {"kind": "ARC", "direction": "CW", **typed}
+
+
+def case_of(*segments: dict[str, Any], start: tuple[float, float] = (0.0, 0.0)) -> dict[str, Any]:
+    return {"start": list(start), "segments": list(segments)}
+
+
+def said(case: dict[str, Any]) -> list[str]:
+    return [sentence(finding, Unit.MM) for segment in solved(case).segments for finding in segment.findings]
+
+
+# the golden cases
+
+
+@pytest.mark.parametrize("case", SOLVED, ids=name)
+def test_every_golden_answer_comes_in_its_order(case: dict[str, Any]) -> None:
+    answers = [[{}]] if not (runs := document(case)["runs"]) else [run["solutions"] for run in runs]
+    count = 1
+    for solutions in answers:
+        count *= len(solutions)
+    assert count == len(case["solutions"])
+    for index, expected in enumerate(case["solutions"]):
+        choices = {run["first"]: run["solutions"][index]["choice"] for run in runs if len(run["solutions"]) > 1}
+        found = document(case, choices)
+        assert [run["solution"] for run in found["runs"]] == [0 if len(r["solutions"]) == 1 else index for r in runs]
+        for segment, wanted in zip(found["segments"], expected["segments"], strict=True):
+            for field in wanted.keys() - {"kind"}:
+                assert segment[field]["value"] == pytest.approx(wanted[field], abs=1.5e-6), (segment["segment"], field)
+
+
+@pytest.mark.parametrize("case", REFUSED, ids=name)
+def test_a_golden_case_without_answer_says_why(case: dict[str, Any]) -> None:
+    block = solved(case)
+    assert case["finding"] in codes(block)
+    assert not block.postable
+
+
+@pytest.mark.parametrize("case", SOLVED, ids=name)
+def test_what_was_typed_has_no_tag_and_what_was_calculated_has_cal(case: dict[str, Any]) -> None:
+    block = document(case)
+    if any(run["solution"] is None for run in block["runs"]):
+        block = document(case, {run["first"]: run["solutions"][0]["choice"] for run in block["runs"]})
+    for segment, typed in zip(block["segments"], case["segments"], strict=True):
+        for field in ("x_end", "y_end", "length", "angle", "x_center", "y_center", "radius", "sweep"):
+            if field in segment:
+                tag = None if field in typed else "INC" if f"{field}_inc" in typed else "CAL"
+                assert segment[field]["tag"] == tag, (segment["segment"], field)
+
+
+# what is said
+
+
+BAD = [
+    ("BEHIND", "2 would have to run 50.000 backwards at XY ANGLE 120: enter 300, or correct segment 1.",
+     case_of(line(angle=30), line(x_end=100, y_end=0, angle=120))),
+    ("NO_MEETING", "Segments 1 and 2 are parallel, 50.000 apart: they never meet.",
+     case_of(line(angle=0), line(x_end=100, y_end=50, angle=0))),
+    ("NO_MEETING", "Segment 1 passes the circle of segment 2 at 46.961; its RADIUS is 15.000.",
+     case_of(line(angle=30), ccw(x_end=75, y_end=-10, x_center=60, y_center=-10 - 9.585, radius=15))),
+    ("UNDETERMINED", "Segments 1 and 2 run on one line: their joint may be anywhere. Enter one end.",
+     case_of(line(angle=0), line(x_end=100, y_end=0, angle=0))),
+    ("TOO_SHORT", "XY LENGTH 30.000 and 30.000 do not reach: the points are 100.000 apart.",
+     case_of(line(length=30), line(x_end=100, y_end=0, length=30))),
+    ("TOO_SMALL", "RADIUS 10.000 cannot touch segment 1 and reach the end: it takes at least 15.000.",
+     case_of(line(angle=0), ccw(tangent=True, radius=10, x_end=60, y_end=30))),
+    ("TOO_LARGE", "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 40.000.",
+     case_of(line(angle=0), ccw(tangent=True, radius=70), line(tangent=True, angle=90, x_end=60, y_end=40))),
+    ("INSIDE", "The point 45.000 20.000 lies inside the circle of segment 2: no line from it is tangent.",
+     case_of(line(), ccw(tangent=True, x_center=50, y_center=20, radius=15, x_end=65, y_end=20), start=(45, 20))),
+    ("NO_TANGENT", "Segments 1 and 3 overlap: no line runs from one to the other with these DIRECTIONS.",
+     case_of(ccw(x_center=0, y_center=0, radius=20), line(tangent=True),
+             cw(tangent=True, x_center=10, y_center=0, radius=20, x_end=10, y_end=20), start=(0, -20))),
+    ("WRONG_SENSE", "DIRECTION CW: a tangent arc to this end turns CCW.",
+     case_of(line(x_end=50, y_end=0), cw(tangent=True, x_end=70, y_end=20))),
+    ("CONTRADICTION", "XY LENGTH is 49.000, but 50.000 by segments 1 and 2: correct or blank one of them.",
+     case_of(line(angle=30), line(x_end=100, y_end=0, angle=300, length=49))),
+    ("OUT_OF_RANGE", "Segments 1 and 2 are parallel but for 0.001 degrees.",
+     case_of(line(angle=30), line(x_end=100, y_end=0, angle=29.999))),
+    ("MISSING", "Segments 1 to 3 need 1 more value: RADIUS of 2, or an end.",
+     case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))),
+    ("PICK_SOLUTION", "Two solutions fit: pick one on SOLUTION.",
+     case_of(line(angle=30), line(x_end=70, y_end=10, length=40))),
+    ("NOT_YET", "Segments 1 and 2 cannot be calculated from these data yet: enter one end, or a center.",
+     case_of(line(length=40), ccw(tangent=True, x_end=60, y_end=20, sweep=90))),
+    ("TANGENT_PLACE", "Segment 1 has no segment before it to which it could be tangent: blank TANGENT.",
+     case_of(line(tangent=True, x_end=5, y_end=5))),
+    ("TANGENT_PLACE", "TANGENT cannot follow a BLEND ARC, which stands at a corner",
+     case_of(line(x_end=5, y_end=5), {"kind": "BLEND ARC", "radius": 1}, line(tangent=True, x_end=9, y_end=0))),
+    ("PARALLEL_TO", "PARALLEL TO 2 is not before segment 2: enter the number of an earlier LINE.",
+     case_of(line(x_end=5, y_end=5), line(parallel=2, x_end=9, y_end=0))),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("code", "text", "case"), BAD, ids=[f"{code}-{at}" for at, (code, _, _) in enumerate(BAD)])
+def test_a_run_without_answer_says_why_and_with_which_numbers(code: str, text: str, case: dict[str, Any]) -> None:
+    assert code in codes(solved(case))
+    assert any(text in each for each in said(case)), said(case)
+
+
+@pytest.mark.parametrize("blank", ["length", "angle"])
+def test_blanking_either_of_two_numbers_that_contradict_mends_it(blank: str) -> None:
+    last = line(x_end=100, y_end=0, angle=300, length=49)
+    del last[blank]
+    assert "CONTRADICTION" not in codes(solved(case_of(line(angle=30), last)))
+
+
+# corners, choices, relations
+
+
+def test_a_blend_in_a_run_is_put_in_at_the_sharp_corner() -> None:
+    block = solved(case_of(line(angle=30), {"kind": "BLEND ARC", "radius": 5}, line(x_end=100, y_end=0, angle=300)))
+    arc = block.segments[1].piece
+    assert isinstance(arc, Arc)
+    assert dist(arc.start, (70.669873, 40.801270)) < 1e-6
+    assert dist(arc.end, (77.5, 38.971143)) < 1e-6
+    assert dist(arc.center, (73.169873, 36.471143)) < 1e-6
+    assert arc.turn < 0
+    assert [(run.first, run.last) for run in block.runs] == [(1, 3)]
+
+
+def test_a_chamfer_in_a_run_is_put_in_at_the_sharp_corner() -> None:
+    block = solved(case_of(line(angle=30), {"kind": "CHAMFER", "length": 5}, line(x_end=100, y_end=0, angle=300)))
+    cut = block.segments[1].piece
+    assert cut is not None
+    assert dist(cut.start, (75.0, 43.301270)) == pytest.approx(5.0)
+    assert dist(cut.end, (75.0, 43.301270)) == pytest.approx(5.0)
+
+
+def test_the_next_segment_decides_where_it_is_tangent() -> None:
+    case = case_of(line(angle=30), line(length=40, x_end=70, y_end=10), line(tangent=True, length=10))
+    assert [len(run.answers) for run in solved(case).runs] == [2]
+    end = solved(case, {1: 0}).segments[1].end
+    assert end == (70.0, 10.0)
+    heading = next(s for s in document(case, {1: 0})["segments"] if s["segment"] == 2)["angle"]["value"]
+    decided = case_of(line(angle=30), line(length=40, x_end=70, y_end=10), line(tangent=True, angle=heading, length=10))
+    block = solved(decided)
+    assert block.runs[0].taken == 0
+    assert block.whole
+
+
+def test_an_arc_with_two_centers_is_decided_by_a_tangent_line_after_it() -> None:
+    case = case_of(ccw(x_end=20, y_end=0, radius=10.0001), line(tangent=True, x_end=20, y_end=30))
+    assert codes(solved(case)) == ["CONTRADICTION"] or solved(case).whole
+    exact = case_of(ccw(x_end=10, y_end=10, radius=10), line(tangent=True, x_end=10, y_end=30))
+    block = solved(exact)
+    assert block.whole
+    assert block.segments[0].piece is not None
+    assert getattr(block.segments[0].piece, "center", None) == pytest.approx((0.0, 10.0))
+
+
+def test_relative_numbers_count_from_the_start_and_from_the_heading_before() -> None:
+    block = solved(
+        case_of(
+            line(x_end=10, y_end=10),
+            line(x_end_inc=5, y_end_inc=-2),
+            line(angle_inc=90, length=3),
+            ccw(tangent=True, x_center_inc=-1, y_center_inc=0.4, sweep=90),
+        )
+    )
+    assert block.segments[1].end == (15.0, 8.0)
+    second, third = block.segments[1].piece, block.segments[2].piece
+    assert second is not None
+    assert third is not None
+    (a, b), (c, d) = second.direction_at(second.end), third.direction_at(third.start)
+    assert a * c + b * d == pytest.approx(0.0, abs=1e-12)
+    assert a * d - b * c > 0.0
+
+
+def test_a_line_that_keeps_a_coordinate_keeps_it_inside_a_run() -> None:
+    block = solved(case_of(line(angle=30), line(x_end=50), line(x_end=60, y_end=10, angle=300)))
+    second = block.segments[1].piece
+    assert second is not None
+    assert second.start[1] == pytest.approx(second.end[1])
+    assert str(getattr(block.segments[1].values["y_end"], "origin", "")) == "SAME"
+
+
+def test_parallel_and_point_at_distance_have_all_their_answers() -> None:
+    case = case_of(line(point_x=50, point_y=20, point_dist=10, x_end=-90))
+    for answer in solved(case).runs[0].answers:
+        assert walk(case, plain(answer)) < 1e-7
+    assert len(solved(case).runs[0].answers) == 2
+
+
+def test_a_full_circle_may_be_tangent() -> None:
+    block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
+    assert block.whole
+    assert block.segments[1].piece is not None
+    assert block.segments[1].piece.length == pytest.approx(radians(360) * 10)
+
+
+def test_a_picked_answer_that_vanishes_is_asked_about_again() -> None:
+    case = case_of(line(angle=30), line(length=40, x_end=70, y_end=10))
+    assert solved(case, {1: 1}).runs[0].taken == 1
+    case["segments"][1]["x_end"] = 10.0
+    block = solved(case, {1: 1})
+    assert len(block.runs[0].answers) < 2 or block.runs[0].taken is not None
+    grazing = case_of(line(angle=0), line(length=10, x_end=50, y_end=10))
+    assert solved(grazing).runs[0].taken == 0
+    assert "PICK_SOLUTION" in codes(solved(grazing, {1: 1}))
+
+
+def test_the_picked_answer_never_jumps_under_small_edits() -> None:
+    pick = random.Random(7)
+    moved = 0
+    for case in (each for each in SOLVED if len(each["solutions"]) > 1):
+        for answer in solved(case).runs[0].answers:
+            choices = {solved(case).runs[0].first: answer.choice or 0}
+            before = solved(case, choices)
+            for _ in range(12):
+                step = pick.uniform(-0.01, 0.01)
+                case = {**case, "start": [case["start"][0] + step, case["start"][1] + step / 2.0]}
+                after = solved(case, choices)
+                if after.runs[-1].taken is None:
+                    assert "PICK_SOLUTION" in codes(after) or not after.runs[-1].answers
+                    break
+                for one, other in zip(before.segments, after.segments, strict=True):
+                    assert one.end is not None
+                    assert other.end is not None
+                    assert dist(one.end, other.end) <= 100.0 * abs(step) + 1e-9
+                moved += 1
+                before = after
+    assert moved > 200
+
+
+# the pick on the drawing
+
+
+PICKED = case_of(line(length=40), ccw(tangent=True, x_end=60, y_end=20, sweep=90))
+
+
+def test_a_pick_takes_the_nearest_answer_of_a_run_the_steps_do_not_solve() -> None:
+    first = solved(case_of(line(length=40, pick_x=30, pick_y=-10), *PICKED["segments"][1:])).runs[0]
+    assert first.taken is not None
+    for answer in first.answers:
+        assert walk(PICKED, plain(answer)) < 1e-7
+    pick = first.answers[first.taken].pick
+    assert pick is not None
+    again = solved(case_of(line(length=40, pick_x=pick[0], pick_y=pick[1]), *PICKED["segments"][1:])).runs[0]
+    assert again.taken is not None
+    assert apart(plain(again.answers[again.taken]), plain(first.answers[first.taken])) < 1e-6
+
+
+def test_a_pick_far_from_every_answer_takes_none() -> None:
+    block = solved(case_of(line(length=40, pick_x=-500, pick_y=300), *PICKED["segments"][1:]))
+    assert block.runs[0].taken is None
+    assert set(codes(block)) & {"PICK_SOLUTION", "NOT_YET"}
+
+
+# random runs
+
+
+def test_a_sample_of_random_runs_is_solved_and_proved() -> None:
+    count = right = 0
+    for seed in range(9000, 9120):
+        case, truth = random_case(seed)
+        if kept(case) or BruteForce(case).condition(truth) < 1e-5:
+            continue
+        runs = solved(case).runs
+        if not runs or runs[0].code in ("NOT_YET", "MISSING"):
+            continue
+        chains, waiting = chains_of(case)
+        if waiting:
+            continue
+        count += 1
+        assert any(apart(chain, truth) < 1e-6 for chain in chains), seed
+        for chain in chains:
+            assert walk(case, chain) < 1e-7, seed
+        right += 1
+    assert count == right > 25
+
+
+@pytest.mark.parametrize("seed", [9001, 9013, 9030, 9046, 9063, 9078])
+def test_brute_force_has_the_same_answers(seed: int) -> None:
+    while True:
+        case, truth = random_case(seed, 2, 3)
+        if not kept(case) and BruteForce(case).condition(truth) > 1e-4 and len(chains := chains_of(case)[0]) > 1:
+            break
+        seed += 1000
+    others = BruteForce(case).answers(600)
+    assert all(any(apart(chain, other) < 1e-3 for other in others) for chain in chains), seed
+    assert all(any(apart(chain, other) < 1e-3 for chain in chains) for other in others), seed
+
+
+def kept(case: dict[str, Any]) -> bool:
+    """Whether a line has one end coordinate alone, which then keeps the other one."""
+    return any(
+        segment["kind"] == "LINE" and segment.keys() - {"kind"} in ({"x_end"}, {"y_end"})
+        for segment in case["segments"]
+    )
+
+
+def chains_of(case: dict[str, Any]) -> tuple[list[list[dict[str, float]]], bool]:
+    """Every answer of a whole contour, and whether some way to pick leads to a run that waits for a pick on the drawing.
+
+    All ways to pick one solution of each run, and of each segment with two.
+    """
+    waits = False
+    found: list[list[dict[str, float]]] = []
+    waiting: list[dict[int, int]] = [{}]
+    while waiting:
+        choices = waiting.pop()
+        block = solved(case, choices)
+        if block.whole:
+            found.append([piece_of(segment) for segment in document(case, choices)["segments"]])
+            continue
+        waits = waits or any(run.code == "NOT_YET" for run in block.runs)
+        for number, options in open_choices(block):
+            waiting += [{**choices, number: option} for option in options]
+            break
+    return found, waits
+
+
+def open_choices(block: Any) -> list[tuple[int, list[int]]]:
+    runs = [(run.first, [answer.choice for answer in run.answers]) for run in block.runs if run.taken is None]
+    alone = [(segment.number, list(range(len(segment.choices)))) for segment in block.segments if segment.choices]
+    return sorted((number, options) for number, options in (*runs, *alone) if len(options) > 1)
+
+
+def piece_of(segment: dict[str, Any]) -> dict[str, float]:
+    names = ("x_end", "y_end", "x_center", "y_center")
+    return {name: segment[name]["value"] for name in names if name in segment}
+
+
+# the file
+
+
+def test_the_new_keys_come_back_from_a_file_and_make_it_format_2() -> None:
+    for case, choice in product(GOLDEN, (None, 3)):
+        program = program_of(case, None if choice is None else {1: choice})
+        assert loads(dumps(program), "again") == program
+    assert dumps(program_of(case_of(line(x_end=1, y_end=2)))).startswith("format = 1")
+    assert dumps(program_of(case_of(line(x_end=1, y_end_inc=2)))).startswith("format = 2")
+
+
+@pytest.mark.parametrize(
+    ("segment", "text"),
+    [
+        (line(x_end=1, x_end_inc=2), "x_end appears twice, as x_end and as x_end_inc: remove one."),
+        (line(tangent=1), "tangent cannot be 1.0: write true or false."),
+        (line(tangent=True, angle_inc=3), "tangent = true says what angle_inc says: remove one."),
+        (line(length_inc=3), "length_inc is not a key of"),
+    ],
+)
+def test_keys_that_cannot_be_are_refused_by_name(segment: dict[str, Any], text: str) -> None:
+    with pytest.raises(StoreError) as refused:
+        loads(text_of(case_of(segment)), "x.toml")
+    assert text in refused.value.text
+
+
+def test_inch_and_millimeter_programs_have_the_same_answers() -> None:
+    case = next(each for each in SOLVED if name(each).startswith("c24"))
+    inches = {
+        "start": [number / 25.4 for number in case["start"]],
+        "segments": [in_inches(s) for s in case["segments"]],
+    }
+    program = loads(text_of(inches, {1: 1}, "IN"), "x")
+    block = solve_block(program.blocks[0], program)
+    assert block.segments[1].end == pytest.approx(solved(case, {1: 1}).segments[1].end, abs=1e-9)
+
+
+def in_inches(segment: dict[str, Any]) -> dict[str, Any]:
+    lengths = ("x_end", "y_end", "x_center", "y_center", "radius", "length")
+    return {key: value / 25.4 if key in lengths else value for key, value in segment.items()}
