@@ -19,7 +19,7 @@ from app.widgets.field import Cell, ChoiceField, NumberField, State
 from app.widgets.softkeys import Softkey
 from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
-from core.program.model import Number, Program, Tool, Unread
+from core.program.model import Number, Program, Tool, Typed
 from core.program.solve.solved import Value
 from core.units import Kind
 
@@ -262,7 +262,7 @@ def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
     return set_tool(program, replace(tool, **{name: value}))
 
 
-def _renumbered(program: Program, tool: Tool, typed: Number | Unread | None) -> Edited:
+def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
     ways = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
     if not isinstance(typed, Number) or typed.value != int(typed.value):
         return Refused(f"A tool needs a whole number from 1 to 9999. {ways}")

@@ -329,7 +329,7 @@ def kept(case: dict[str, Any]) -> bool:
 
 
 def chains_of(case: dict[str, Any]) -> tuple[list[list[dict[str, float]]], bool]:
-    """Every answer of a whole contour, and whether some way to pick leads to a run that waits for a pick on the drawing.
+    """Every answer of a whole contour, and whether some way leads to a run that waits for a pick on the drawing.
 
     All ways to pick one solution of each run, and of each segment with two.
     """
