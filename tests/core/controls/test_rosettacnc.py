@@ -121,3 +121,17 @@ def test_lower_case_and_comments_of_both_kinds_are_read() -> None:
 def test_the_loaded_tool_counts_without_d(text: str) -> None:
     done = ran(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
     assert done.stretches[0].radius == pytest.approx(3)
+
+
+@pytest.mark.parametrize("entry", ["nist", "easy", "normal"])
+@pytest.mark.parametrize(
+    "code",
+    [
+        *("G18", "G19", "G28", "G30", "G52 X1", "G53 X1", "G92 X1", "G54", "G55", "G56", "G57", "G58", "G59"),
+        *("G59.1", "G59.2", "G59.3"),
+    ],
+)
+def test_no_plane_origin_or_machine_point_is_taken_under_compensation(entry: str, code: str) -> None:
+    text = "G21 G17 G90\nT1 M6\nG0 X-20 Y0\nF100\nG41 D1\nG1 X10\nX20\n{}X40\nG40\nG0 X80\nM2\n"
+    assert ran(text.format("G17\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at is None
+    assert ran(text.format(f"{code}\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at == 8

@@ -139,19 +139,23 @@ def test_a_coordinate_along_the_bisector_says_nothing():
     assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == OnePoint((2.0, 7.0))
 
 
-def test_settled_keeps_a_center_that_fits():
+def test_an_even_arc_keeps_a_center_that_fits():
     assert construct.even_arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
         (1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW
     )
 
 
-def test_settled_moves_the_center_onto_the_bisector():
+def test_an_even_arc_moves_the_center_onto_the_bisector():
     arc = construct.even_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
     assert near(arc.center, (1.0, 0.5))
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
+    off_center = (4.0 + 0.001 * 0.8, 4.0 + 0.001 * 0.6)
+    arc = construct.even_arc((3.0, -3.0), (11.0, 3.0), off_center, Turn.CCW)
+    assert near(arc.center, (4.0, 4.0))
+    assert (arc.start, arc.end) == ((3.0, -3.0), (11.0, 3.0))
 
 
-def test_settled_closes_a_circle_that_ends_at_its_start():
+def test_an_even_arc_closes_a_circle_that_ends_at_its_start():
     arc = construct.even_arc((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
     assert arc == Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == tau
@@ -159,7 +163,7 @@ def test_settled_closes_a_circle_that_ends_at_its_start():
 
 @pytest.mark.parametrize("off", [0.001, -0.002])
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
-def test_settled_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
+def test_an_even_arc_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
     """The end moved onto the circle by rounding behind the start or before it: the circle was there or vanished."""
     for x in (0.1, 0.3, -0.7):
         center = (x, -10.0)
@@ -169,13 +173,13 @@ def test_settled_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
         assert arc == Arc((0.0, 0.0), (0.0, 0.0), center, turn)
 
 
-def test_settled_leaves_a_tiny_arc_tiny():
+def test_an_even_arc_leaves_a_tiny_arc_tiny():
     """Two microns of a circle are no full circle."""
     arc = construct.even_arc((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
-def test_settled_moves_the_end_where_the_center_would_go_far():
+def test_an_even_arc_moves_the_end_where_the_center_would_go_far():
     """On a chord of 0.1 a radius of 50 that differs by 0.002 would push the center by a whole millimeter."""
     end = (50.002 * cos(0.002), 50.002 * sin(0.002))
     arc = construct.even_arc((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
@@ -186,7 +190,7 @@ def test_settled_moves_the_end_where_the_center_would_go_far():
 
 @laws
 @given(points, st.floats(0.1, 200), angles, angles, st.floats(-ARC_RADII, ARC_RADII), turns)
-def test_settled_is_exact_and_moves_nothing_by_more_than_the_tolerance(center, radius, first, last, off, turn):
+def test_an_even_arc_is_exact_and_moves_nothing_by_more_than_the_tolerance(center, radius, first, last, off, turn):
     start = (center[0] + radius * cos(first), center[1] + radius * sin(first))
     end = (center[0] + (radius + off) * cos(last), center[1] + (radius + off) * sin(last))
     arc = construct.even_arc(start, end, center, turn)
