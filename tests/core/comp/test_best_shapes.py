@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin, sqrt
+from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
+from core.comp.best_path.prepared_contour import winds
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import CLOSE, assert_true, only
@@ -177,3 +178,13 @@ def test_a_pocket_with_a_slot_too_narrow_beside_a_boss():
     assert 9 not in loop.numbers.tolist()
     row = loop.numbers.tolist().index(8)
     assert loop.points[row + 1] == pytest.approx((0.5, 3.5 - sqrt(0.75**2 - 0.5**2)), abs=CLOSE)
+
+
+@pytest.mark.parametrize("turn", [Turn.CCW, Turn.CW])
+@pytest.mark.parametrize(("degrees_turned", "wound"), [(90.0, False), (170.0, False), (185.0, True), (200.0, True)])
+def test_an_open_contour_winds_from_half_a_turn_on_whichever_way_it_turns(turn, degrees_turned, wound):
+    angle = radians(degrees_turned)
+    end = (10 + 2 * sin(angle), turn * (2 - 2 * cos(angle)))
+    last = (end[0] + 4 * cos(angle), end[1] + 4 * turn * sin(angle))
+    hook = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), end, (10, 2 * turn), turn), Line(end, last)])
+    assert winds(hook, 2.1) is wound

@@ -199,6 +199,16 @@ def test_long_way_names_what_it_erased():
     assert "segments 2-3" in found.text
 
 
+def test_a_bridged_corner_is_named_wherever_the_contour_lies():
+    notch = [(0.0, 0.0), (2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0), (4.0, 0.0)]
+    done = compensate(lines(*notch), Side.LEFT, 0.25, 1, closed=False)
+    row = int(done.bridged.nonzero()[0][0])
+    x, y = done.path.points[row : row + 2].mean(axis=0).tolist()
+    about_origin = compensate(lines(*((px - x, py - y) for px, py in notch)), Side.LEFT, 0.25, 1, closed=False)
+    for found in (done, about_origin):
+        assert [(finding.code, finding.segment) for finding in found.findings] == [("CORNER_MISSED", 3.5)]
+
+
 def test_many_places_are_counted_not_listed():
     notch = [(0.0, 0.0), (2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0)]
     done = compensate(
