@@ -9,8 +9,12 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from math import atan2, cos, dist, pi, sin, tau
+from itertools import combinations
+from math import atan2, dist, pi, tau
 from typing import Final, NamedTuple
+
+import numpy as np
+import shapely
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nodes import Nodes, PointGrid, exact_nodes, nodes_of
@@ -152,14 +156,6 @@ def _equal(first: Piece, second: Piece, slack: float) -> bool:
     return (forward or backward) and dist(first.point_at(0.5), second.point_at(0.5)) <= slack
 
 
-class _Span(NamedTuple):
-    """A stretch of a carrier from `low` to `high`, and the piece it is of."""
-
-    low: float
-    high: float
-    row: int
-
-
 def _without_overlaps(items: list[LayeredPiece], tolerance: float, slack: float) -> list[LayeredPiece]:
     """With pieces that overlap on one line or one circle joined to one, where an end of one of them leads nowhere.
 
@@ -168,10 +164,10 @@ def _without_overlaps(items: list[LayeredPiece], tolerance: float, slack: float)
     open_rows = [row for row, item in enumerate(items) if not is_circle(item.piece)]
     nodes = nodes_of([items[row].piece for row in open_rows], tolerance)
     loose = {row: _loose(nodes, at) for at, row in enumerate(open_rows)}
-    gone: set[int] = set()
-    for rows in _carriers(items, slack):
-        _join_on_carrier(items, rows, slack, loose, gone)
-    return [item for row, item in enumerate(items) if row not in gone]
+    joiner = _Joiner(items, loose, slack)
+    for first, second in _candidates(items, slack):
+        joiner.join(first, second)
+    return [item for row, item in enumerate(items) if row not in joiner.into]
 
 
 def _loose(nodes: Nodes, at: int) -> tuple[bool, bool]:
@@ -179,92 +175,82 @@ def _loose(nodes: Nodes, at: int) -> tuple[bool, bool]:
     return nodes.degree(first) == 1, nodes.degree(last) == 1
 
 
-def _carriers(items: Sequence[LayeredPiece], slack: float) -> Iterator[list[int]]:
-    """Groups of pieces that may lie on one line or one circle."""
+def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[int, int]]:
+    """Pairs of rows of pieces that may overlap on one line or one circle, the lower row first."""
     circles: defaultdict[tuple[int, ...], list[int]] = defaultdict(list)
     directions: defaultdict[int, list[int]] = defaultdict(list)
     cell = max(4.0 * slack, 1e-6)
+    count = int(pi / ANGLE_CELL)
     for row, item in enumerate(items):
         piece = item.piece
-        if isinstance(piece, Arc):
-            for shift in (0.0, 0.5):
+        # each stands in two cells of which the second is half a cell on: what is near shares one of them
+        for half in (0, 1):
+            if isinstance(piece, Arc):
                 numbers = (*piece.center, piece.radius)
-                circles[(int(2 * shift), *(int(value / cell + shift) for value in numbers))].append(row)
-        else:
-            angle = atan2(piece.end[1] - piece.start[1], piece.end[0] - piece.start[0]) % pi
-            for shift in (0.0, 0.5):
-                directions[2 * (int(angle / ANGLE_CELL + shift) % int(pi / ANGLE_CELL)) + int(2 * shift)].append(row)
-    yield from (rows for rows in circles.values() if len(rows) > 1)
+                circles[(half, *(int(value // cell + half / 2.0) for value in numbers))].append(row)
+            else:
+                directions[2 * (int(_direction(piece) / ANGLE_CELL + half / 2.0) % count) + half].append(row)
+    for rows in circles.values():
+        yield from combinations(rows, 2)
     for key in sorted(directions):
         if len(directions[key]) > 1:
-            yield from _strips(items, directions[key], (key // 2 + 0.5 - key % 2 / 2) * ANGLE_CELL, slack)
+            yield from _near_lines(items, directions[key], slack)
 
 
-def _strips(items: Sequence[LayeredPiece], rows: list[int], angle: float, slack: float) -> Iterator[list[int]]:
-    """Lines of nearly one direction in groups whose distances from the origin overlap, each in order along them."""
-    ahead, spans = (cos(angle), sin(angle)), list[_Span]()
-    begins: dict[int, float] = {}
-    for row in rows:
-        ends = (items[row].piece.start, items[row].piece.end)
-        offsets = [y * ahead[0] - x * ahead[1] for x, y in ends]
-        begins[row] = min(x * ahead[0] + y * ahead[1] for x, y in ends)
-        spans.append(_Span(min(offsets) - slack, max(offsets) + slack, row))
-    group, high = list[int](), float("-inf")
-    for span in sorted(spans):
-        if span.low > high and group:
-            yield sorted(group, key=lambda row: begins[row])
-            group = []
-        high = max(high, span.high) if group else span.high
-        group.append(span.row)
-    yield sorted(group, key=lambda row: begins[row])
+def _direction(piece: Piece) -> float:
+    """The direction of a line in radians, the same forward and backward."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    return atan2(y1 - y0, x1 - x0) % pi
 
 
-def _join_on_carrier(
-    items: list[LayeredPiece], rows: list[int], slack: float, loose: dict[int, tuple[bool, bool]], gone: set[int]
-) -> None:
-    """Join the pieces of a group that overlap; the group is in the order in which its lines begin."""
-    active: list[int] = []
-    for row in rows:
-        if row in gone:
-            continue
-        active = [other for other in active if other not in gone and _reaches(items[other].piece, items[row].piece)]
-        for other in active:
-            if any(loose.get(row, ())) or any(loose.get(other, ())):
-                _join_pair(items, (other, row), slack, loose, gone)
-            if row in gone:
-                break
-        else:
-            active.append(row)
+def _near_lines(items: Sequence[LayeredPiece], rows: list[int], slack: float) -> list[tuple[int, int]]:
+    """Pairs of lines of nearly one direction whose boxes overlap in a frame that is turned with them."""
+    starts, ends = (np.array([complex(*point) for point in points]) for points in zip(*_ends(items, rows), strict=True))
+    along = ends - starts
+    # the mean direction of lines without a sign is half that of their squares
+    ahead = np.sqrt((along * along).sum())
+    if abs(ahead) == 0.0:
+        return []
+    turned = [points * (ahead.conjugate() / abs(ahead)) for points in (starts, ends)]
+    low, high = np.minimum(turned[0].real, turned[1].real), np.maximum(turned[0].real, turned[1].real)
+    below, above = np.minimum(turned[0].imag, turned[1].imag), np.maximum(turned[0].imag, turned[1].imag)
+    boxes = shapely.box(low - slack, below - slack, high + slack, above + slack)
+    first, second = shapely.STRtree(boxes).query(boxes)
+    order = first < second
+    return sorted((rows[i], rows[j]) for i, j in zip(first[order].tolist(), second[order].tolist(), strict=True))
 
 
-def _reaches(first: Piece, second: Piece) -> bool:
-    """Whether two pieces of a carrier may overlap: the boxes of lines do, but for their slack."""
-    if isinstance(first, Arc) or isinstance(second, Arc):
-        return True
-    return all(
-        max(first.start[axis], first.end[axis]) + MOST_SLACK >= min(second.start[axis], second.end[axis])
-        and max(second.start[axis], second.end[axis]) + MOST_SLACK >= min(first.start[axis], first.end[axis])
-        for axis in (0, 1)
-    )
+def _ends(items: Sequence[LayeredPiece], rows: Sequence[int]) -> list[tuple[Point, Point]]:
+    return [(items[row].piece.start, items[row].piece.end) for row in rows]
 
 
-def _join_pair(
-    items: list[LayeredPiece],
-    pair: tuple[int, int],
-    slack: float,
-    loose: dict[int, tuple[bool, bool]],
-    gone: set[int],
-) -> None:
-    """Put what two pieces cover together into the first of them, if they overlap."""
-    first, second = pair
-    union = _union(items[first].piece, items[second].piece, slack)
-    if union is None:
-        return
-    piece, ends = union
-    both = (loose.get(first, (True, True)), loose.get(second, (True, True)))
-    gone.add(second)
-    items[first] = items[first]._replace(piece=piece)
-    loose[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
+@dataclass(slots=True)
+class _Joiner:
+    """Joins overlapping pieces two at a time; `into` holds the row that a joined one went into."""
+
+    items: list[LayeredPiece]
+    loose: dict[int, tuple[bool, bool]]
+    slack: float
+    into: dict[int, int] = field(default_factory=dict)
+
+    def join(self, first: int, second: int) -> None:
+        """Put what two pieces cover together into the first of them, if they overlap and an end is loose."""
+        first, second = self._row(first), self._row(second)
+        if first == second or not (any(self.loose.get(first, ())) or any(self.loose.get(second, ()))):
+            return
+        union = _union(self.items[first].piece, self.items[second].piece, self.slack)
+        if union is None:
+            return
+        piece, ends = union
+        both = (self.loose.get(first, (True, True)), self.loose.get(second, (True, True)))
+        self.into[second] = first
+        self.items[first] = self.items[first]._replace(piece=piece)
+        self.loose[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
+
+    def _row(self, row: int) -> int:
+        while row in self.into:
+            row = self.into[row]
+        return row
 
 
 _EndsOf = tuple[tuple[int, int], tuple[int, int]]

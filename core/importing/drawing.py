@@ -107,6 +107,8 @@ class Drawing:
     hidden: Mapping[str, int] = field(default_factory=dict)
     not_flat: tuple[NotFlat, ...] = ()
     notes: tuple[str, ...] = ()
+    entities: int = 0
+    """Entities that the shapes are of, those of a block as often as it is inserted."""
 
     @property
     def layers(self) -> tuple[str, ...]:

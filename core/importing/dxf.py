@@ -75,7 +75,14 @@ def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progres
     reader = _Reader(document, progress, damaged=damaged)
     if not scan.whole:
         reader.notes[f"The file breaks off at line {scan.last_line}: what comes after it is missing."] += 1
-    reader.read(scan)
+    for section in scan.unknown_sections:
+        reader.notes[f"The section {words_of(section)!r} is unknown and is not read."] += 1
+    try:
+        reader.read(scan)
+    except DrawingError:
+        raise
+    except Exception as error:  # what is damaged may show only where it is used
+        raise damaged_file(words_of(error)) from error
     drawing = reader.drawing(scan)
     if not drawing.shapes and not drawing.not_flat:
         raise DrawingError("NO_GEOMETRY", _no_geometry(drawing))
@@ -111,6 +118,7 @@ class _Reader:
     hidden: Counter[str] = field(default_factory=Counter)
     not_flat: list[NotFlat] = field(default_factory=list)
     notes: Counter[str] = field(default_factory=Counter)
+    taken: int = 0
     heights: list[float] = field(default_factory=list)
     lines: dict[int, ScannedEntity] = field(default_factory=dict)
     layers: dict[str, tuple[bool, bool]] = field(default_factory=dict)
@@ -174,7 +182,13 @@ class _Reader:
             notes.append(f"$INSUNITS is {code}: that unit is not read.")
         unit = UNIT_CODES.get(code)
         return Drawing(
-            unit, tuple(self.shapes), dict(self.skipped), dict(self.hidden), tuple(self.not_flat), tuple(notes)
+            unit,
+            tuple(self.shapes),
+            dict(self.skipped),
+            dict(self.hidden),
+            tuple(self.not_flat),
+            tuple(notes),
+            self.taken,
         )
 
     def _entity(self, entity: DXFGraphic, matrix: Matrix44 | None, outer_layer: str | None, depth: int) -> None:
@@ -220,6 +234,7 @@ class _Reader:
         if not all(map(_finite, shapes)):
             self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
             return
+        self.taken += 1
         self.shapes += [Drawn(shape, layer, line) for shape in shapes]
 
     def _unreadable(self, entity: DXFGraphic, why: str) -> None:
@@ -244,6 +259,8 @@ class _Reader:
         if depth >= MAX_INSERT_DEPTH:
             raise DrawingError("TOO_MUCH", f"INSERTs are nested deeper than {MAX_INSERT_DEPTH} blocks.")
         self._match(list(block), self.scanned.pop(str(block.name).lower(), []))
+        if not len(block):
+            self.notes[f"INSERT of the block {words_of(insert.dxf.get('name', ''))!r}, which holds nothing."] += 1
         if _is_clipped(insert):
             self.notes["An INSERT is clipped (XCLIP): all of its block is taken."] += 1
         rows, columns = insert.dxf.row_count, insert.dxf.column_count

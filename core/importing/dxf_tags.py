@@ -20,6 +20,10 @@ COMMENT: Final = 999
 
 _BREAK: Final = re.compile(rb"\r\n|\r")
 
+_SECTIONS: Final = frozenset(
+    {"HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"}
+)
+
 _SUBORDINATE: Final = frozenset({"VERTEX", "SEQEND", "ATTRIB"})
 """Entities that belong to the one before them: points of a POLYLINE, texts of an INSERT."""
 
@@ -93,6 +97,7 @@ class Scan:
     open_section: str = ""
     """The section in which the file ends."""
     cut: int = 0
+    unknown_sections: list[str] = field(default_factory=list)
 
     @property
     def first_fault(self) -> ScannedEntity | None:
@@ -201,6 +206,11 @@ class _Scanner:
                 self.open_polyline = False
         elif self.section == "ENTITIES" or self.block is not None:
             self._add(tag)
+        elif self.section == "BLOCKS":
+            # its block has lost its beginning
+            self.scan.blocks.setdefault("", []).append(
+                ScannedEntity(name, tag.line, 1, fault="stands outside of any block")
+            )
 
     def _add(self, tag: Tag) -> None:
         entities = self.scan.entities if self.block is None else self.scan.blocks[self.block]
@@ -216,6 +226,8 @@ class _Scanner:
             self.section = next((tag.value for tag in body if tag.code == 2), "")
             if self.section == "HEADER":
                 self._header(body)
+            elif self.section not in _SECTIONS:
+                self.scan.unknown_sections.append(self.section)
         elif marker.value == "BLOCK" and self.section == "BLOCKS":
             self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
             self.scan.blocks.setdefault(self.block, [])

@@ -134,8 +134,8 @@ def read_nc(
     if made.stretches:
         passes = [contour for stretch in made.stretches for contour in _programmed(made, stretch, words)]
     elif center is None:
-        text = "The program runs the tool's center: its side and the tool's diameter are needed."
-        raise NcError(text, needs_center=True)
+        words_needed = "The program runs the tool's center: its side and the tool's diameter are needed."
+        raise NcError(words_needed, needs_center=True)
     else:
         passes = list(_center_passes(made, center, words))
     if not passes:

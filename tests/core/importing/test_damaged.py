@@ -1,0 +1,64 @@
+"""Damaged drawings: a sample of the mutants of six files; the report `tests.reports.dxf_mutants` runs thousands."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from core.importing.drawing import DrawingError
+from core.importing.dxf import read_dxf
+from tests.core.importing.drawings import dxf, made, square
+from tests.core.importing.mutants import TIME_LIMIT, lost_in_silence, mutant, originals, outcome
+
+FILES = originals()
+SEED = 7
+MUTANTS = 40
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_mutant_is_refused_in_a_sentence_or_taken_with_all_that_is_said(name: str) -> None:
+    whole = outcome(FILES[name])
+    assert whole.code == ""
+    refused = 0
+    for number in range(MUTANTS):
+        result = outcome(mutant(FILES[name], random.Random(f"{SEED} {name} {number}")))
+        assert result.seconds < TIME_LIMIT, number
+        assert not lost_in_silence(whole, result), (number, result)
+        refused += bool(result.code)
+    assert refused >= MUTANTS / 20
+
+
+def test_a_file_cut_off_anywhere_is_never_taken_in_silence() -> None:
+    data = made("d14-layers.dxf")
+    for length in range(60, len(data) - 6, 7):
+        with pytest.raises(DrawingError):
+            read_dxf(data[:length], "cut.dxf")
+
+
+def test_a_damaged_file_is_taken_as_far_as_it_is_whole() -> None:
+    data = dxf(*square(0, 0, 10))
+    taken = read_dxf(data[: len(data) - 40], "cut.dxf", damaged=True)
+    assert taken.entities == 3
+    assert "breaks off" in taken.notes[0]
+
+
+def test_trash_after_the_end_is_no_damage() -> None:
+    assert read_dxf(dxf(*square(0, 0, 10)) + b"\x00\xff trash\n12\n", "trash.dxf").entities == 4
+
+
+@pytest.mark.parametrize("ends", [b"\r\n", b"\r"])
+def test_line_ends_of_any_system_are_read(ends: bytes) -> None:
+    assert read_dxf(dxf(*square(0, 0, 10)).replace(b"\n", ends), "ends.dxf").entities == 4
+
+
+def test_more_entities_than_the_limit_are_refused_with_both_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("core.importing.dxf_document.MAX_ENTITIES", 3)
+    with pytest.raises(DrawingError, match="The drawing has 4 entities: at most 3 are read"):
+        read_dxf(dxf(*square(0, 0, 10)), "many.dxf")
+
+
+def test_without_ezdxf_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "ezdxf", None)
+    with pytest.raises(DrawingError, match="DXF files need the package ezdxf: pip install ezdxf"):
+        read_dxf(dxf(*square(0, 0, 10)), "part.dxf")
