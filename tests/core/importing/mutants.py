@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from time import process_time
 
 import ezdxf.filemanagement
+from ezdxf._options import options
 from ezdxf.math import BSpline
 
 from core.importing.contours import ImportOptions, contours_of
@@ -22,7 +23,7 @@ TIME_LIMIT = 60.0
 def full_document() -> ezdxf.document.Drawing:
     """A drawing of R2000 with what later versions have: LWPOLYLINE, ELLIPSE, SPLINE, INSERT, a hidden layer."""
     # the same bytes in every run
-    ezdxf.options.write_fixed_meta_data_for_testing = True
+    options.write_fixed_meta_data_for_testing = True
     document = ezdxf.filemanagement.new("R2000", units=4)
     document.layers.add("OFF").off()
     space = document.modelspace()
