@@ -1,7 +1,7 @@
 """Files: read programs; save without ever leaving a half-written file.
 
 A file is written next to its place, forced to the disk and renamed over the old one: whatever happens, the old
-file or the new one is there, and nothing else is left.
+file or the new one is there.  A save that is killed may leave the new one beside it, which the next opening finds.
 """
 
 from __future__ import annotations
@@ -9,10 +9,12 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from fcntl import LOCK_EX, LOCK_NB, flock
 from pathlib import Path
+from types import MappingProxyType
 from typing import BinaryIO, Final
 from zlib import adler32, crc32
 
@@ -22,6 +24,8 @@ from core.program.model import Program
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
+MAX_NAME_BYTES: Final = 200
+"""Bytes of a file's name that a hidden name beside it begins with."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,10 +124,17 @@ def load_from(stream: BinaryIO, name: str) -> Program:
     return loads_bytes(data, name)
 
 
+class TooLargeError(OSError):
+    """A file has more bytes than anybody reads."""
+
+    def __init__(self) -> None:
+        super().__init__(errno.EFBIG, "too large")
+
+
 def _whole(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
     data = file.read(most + 1) or b""
     if len(data) > most:
-        raise OSError(errno.EFBIG, "too large")
+        raise TooLargeError
     return data
 
 
@@ -132,23 +143,24 @@ def save(program: Program, path: str | Path) -> None:
     write_text(path, dumps(program))
 
 
-def write_text(path: str | Path, text: str) -> None:
-    """Write a file in one step, through a symbolic link if there is one; its permissions stay.
-
-    StoreError leaves the old file as it was and nothing next to it.
-    """
+def write_text(path: str | Path, text: str) -> str:
+    """Write a file's text; see `write_data`."""
     try:
         data = text.encode()
     except ValueError as error:
         raise StoreError(f"{path} is not saved: {why(error)}") from error
-    write_data(path, data)
+    return write_data(path, data)
 
 
-def write_data(path: str | Path, data: bytes) -> None:
-    """The same with bytes."""
+def write_data(path: str | Path, data: bytes) -> str:
+    """Write a file, through a symbolic link if there is one; why it is written in place, empty where it is not.
+
+    The file keeps its owner, group, mode, extended attributes and links.  It is replaced in one step; where that would
+    take one of them away, it is written in place, its whole new content lying beside it meanwhile.  StoreError leaves
+    the old file as it was and nothing next to it.
+    """
     try:
-        target = Path(os.path.realpath(path))
-        _replace(target, data)
+        return _write(Path(os.path.realpath(path)), data)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} is not saved: {why(error)}") from error
 
@@ -174,24 +186,113 @@ def _is_program(path: Path) -> bool:
         return False
 
 
-def _replace(target: Path, data: bytes) -> None:
+def temporary_path(target: Path, size: int) -> Path:
+    """Where a file's new content is written first; the name says how long it is when it is whole."""
+    return target.with_name(f".{short_name(target.name)}.{os.urandom(6).hex()}-{size}.tmp")
+
+
+def short_name(name: str) -> str:
+    """A file's name, cut such that a hidden one can be made of it: 255 bytes are the most."""
+    return name.encode("utf-8", "surrogateescape")[:MAX_NAME_BYTES].decode("utf-8", "ignore")
+
+
+def _write(target: Path, data: bytes) -> str:
     old = _status(target)
-    temporary = target.with_name(f".{target.name[:200]}.{os.urandom(6).hex()}.tmp")
-    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    temporary = temporary_path(target, len(data))
+    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666 if old is None else 0o600)
     try:
         try:
-            if old is not None:
-                os.fchmod(handle, stat.S_IMODE(old.st_mode))
+            with suppress(OSError):
+                # whoever finds the file knows that it is being written
+                flock(handle, LOCK_EX | LOCK_NB)
             write_all(handle, data)
+            reason = "" if old is None else _taken_on(handle, target, old)
             os.fsync(handle)
         finally:
+            # some network folders tell of a full disk only here
             os.close(handle)
-        temporary.replace(target)
+        reason = reason or _put_in_place_of(temporary, target)
+        if reason and old is not None:
+            _write_in_place(target, data, old)
+            temporary.unlink()
     except BaseException:
         with suppress(OSError):
             temporary.unlink()
         raise
     sync_folder(target.parent)
+    return reason
+
+
+def _put_in_place_of(temporary: Path, target: Path) -> str:
+    """Rename; where the folder lets nobody replace the file of another, say so."""
+    try:
+        temporary.replace(target)
+    except PermissionError:
+        if not target.exists():
+            raise
+        return "its folder lets nobody replace it"
+    return ""
+
+
+def _taken_on(handle: int, target: Path, old: os.stat_result) -> str:
+    """Give a new file what the old one has besides its content; what it cannot have, empty where it has all."""
+    if old.st_nlink > 1:
+        return "it has more than one name"
+    new = os.fstat(handle)
+    if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
+        try:
+            os.fchown(handle, old.st_uid, old.st_gid)
+        except PermissionError:
+            return "it stays its owner's" if new.st_uid != old.st_uid else "it keeps its group"
+    os.fchmod(handle, stat.S_IMODE(old.st_mode))
+    return _attributes_taken_on(handle, target)
+
+
+def _attributes_taken_on(handle: int, target: Path) -> str:
+    try:
+        names = os.listxattr(target)
+    except OSError:
+        # a file system without attributes, or one that tells nobody of them
+        return ""
+    try:
+        for name in names:
+            os.setxattr(handle, name, os.getxattr(target, name))
+    except OSError:
+        return "it keeps its attributes"
+    return ""
+
+
+def _write_in_place(target: Path, data: bytes, old: os.stat_result) -> None:
+    """Overwrite a file; an error puts back what it held."""
+    before = target.read_bytes()
+    handle = os.open(target, os.O_WRONLY | os.O_CLOEXEC | os.O_NOFOLLOW)
+    try:
+        try:
+            if len(data) > old.st_size:
+                _reserve(handle, len(data))
+            _overwrite(handle, data)
+        except BaseException:
+            with suppress(OSError):
+                _overwrite(handle, before)
+            raise
+    finally:
+        os.close(handle)
+
+
+def _reserve(handle: int, size: int) -> None:
+    """Room for what a file grows by, before anything of it is overwritten; some file systems reserve nothing."""
+    try:
+        os.posix_fallocate(handle, 0, size)
+    except OSError as error:
+        if error.errno not in (errno.ENOTSUP, errno.EOPNOTSUPP, errno.EINVAL, errno.ENODEV):
+            raise
+
+
+def _overwrite(handle: int, data: bytes) -> None:
+    os.lseek(handle, 0, os.SEEK_SET)
+    write_all(handle, data)
+    os.ftruncate(handle, len(data))
+    os.fsync(handle)
 
 
 def _status(target: Path) -> os.stat_result | None:
@@ -224,32 +325,42 @@ def sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
+_REASONS: Final[Mapping[int, str]] = MappingProxyType(
+    {
+        errno.ENOSPC: "the disk is full. Make room or save elsewhere.",
+        errno.EDQUOT: "the disk is full. Make room or save elsewhere.",
+        errno.EISDIR: "this is not a file. Choose the name of a file.",
+        errno.ENOTDIR: "a part of the path is no folder. Check the name.",
+        errno.ENOENT: "there is no such file or folder. Check the name.",
+        errno.EROFS: "the disk is write protected. Choose another place.",
+        errno.EFBIG: "the system lets nobody write a file of this size. Ask for a higher limit, or save elsewhere.",
+        errno.ENAMETOOLONG: "the name is too long. Choose a shorter one.",
+        errno.ELOOP: "its links lead round in a circle. Choose another file.",
+        errno.ENXIO: "this is not a file. Choose the name of a file.",
+        errno.EIO: "the disk or the network fails. Try again or choose another place.",
+        errno.ESTALE: "the network folder is gone. Try again or choose another place.",
+        errno.ETIMEDOUT: "the network does not answer. Try again or choose another place.",
+        errno.EMFILE: "too many files are open. Close some and try again.",
+        errno.ENFILE: "too many files are open. Close some and try again.",
+        errno.ETXTBSY: "it is being run. Choose another name.",
+        errno.EBUSY: "it is in use. Try again or choose another name.",
+    }
+)
+
+
 def why(error: OSError | ValueError) -> str:
     """The reason why a file cannot be read or written, and the remedy."""
     if isinstance(error, NotAFileError):
         return f"this is {error.what}. Choose the name of a file."
-    match error.errno if isinstance(error, OSError) else None:
-        case errno.ENOSPC | errno.EDQUOT:
-            return "the disk is full. Make room or save elsewhere."
-        case errno.EISDIR | errno.ENOTDIR:
-            return "this is not a file. Choose the name of a file."
-        case errno.ENOENT:
-            return "there is no such file or folder. Check the name."
-        case errno.EACCES | errno.EPERM:
-            what = "it" if _there(error) else "its folder"
-            return f"{what} is protected. Ask for permission, or choose another place."
-        case errno.EROFS:
-            return "the disk is write protected. Choose another place."
-        case errno.EFBIG:
-            return "it is too large for a program file. Choose another file."
-        case errno.ENAMETOOLONG:
-            return "the name is too long. Choose a shorter one."
-        case None:
-            return "that is not a file name. Choose another."
-        case _:
-            return (
-                f"{error.strerror or error}. Try again or choose another place." if isinstance(error, OSError) else ""
-            )
+    if isinstance(error, TooLargeError):
+        return "it is too large. Choose another file."
+    if not isinstance(error, OSError):
+        return "that is not a file name. Choose another."
+    if error.errno in (errno.EACCES, errno.EPERM):
+        what = "it" if _there(error) else "its folder"
+        return f"{what} is protected. Ask for permission, or choose another place."
+    reason = None if error.errno is None else _REASONS.get(error.errno)
+    return reason or f"{error.strerror or 'the system refuses'}. Try again or choose another place."
 
 
 def _there(error: OSError | ValueError) -> bool:

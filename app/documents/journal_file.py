@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 from zlib import crc32
 
-from app.documents.files import sync_folder, write_all
+from app.documents.files import short_name, sync_folder, write_all
 
 Record = Mapping[str, Any]
 """One line of the journal."""
@@ -221,7 +221,7 @@ def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
 def journal_path(path: Path) -> Path:
     """The journal of a program file: hidden, next to the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
-    return target.with_name(f".{target.name[:200]}{SUFFIX}")
+    return target.with_name(f".{short_name(target.name)}{SUFFIX}")
 
 
 def new_path(path: Path) -> Path:

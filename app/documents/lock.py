@@ -17,7 +17,7 @@ from socket import gethostname
 from time import sleep
 from typing import Final
 
-from app.documents.files import write_all
+from app.documents.files import NotAFileError, TooLargeError, read_file, short_name, write_all
 
 SUFFIX: Final = ".cutcomp-lock"
 
@@ -38,6 +38,9 @@ class Owner:
 
 UNKNOWN: Final = Owner("somebody", "", 0, "", "")
 """The owner of a lock that we may not read."""
+MAX_PID: Final = 2**31 - 1
+"""The largest number that a system could give to a process."""
+MAX_LOCK_BYTES: Final = 4096
 ENDED: Final = "ended"
 LOOKS: Final = 4
 BETWEEN: Final = 0.05
@@ -90,11 +93,14 @@ def alive(owner: Owner) -> bool:
     """Whether the owner may still be running; one on another host always may."""
     if owner == UNKNOWN or owner.host != gethostname():
         return True
+    if not 0 < owner.pid <= MAX_PID:
+        # 0 and less would ask after groups of processes
+        return False
     try:
         os.kill(owner.pid, 0)
     except ProcessLookupError:
         return False
-    except (PermissionError, OverflowError):
+    except PermissionError:
         pass
     now = started(owner.pid)
     return now != ENDED and (not now or not owner.started or now == owner.started)
@@ -103,7 +109,7 @@ def alive(owner: Owner) -> bool:
 def lock_path(path: Path) -> Path:
     """The lock's file: hidden, next to the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
-    return target.with_name(f".{target.name[:200]}{SUFFIX}")
+    return target.with_name(f".{short_name(target.name)}{SUFFIX}")
 
 
 def take(path: Path, me: Owner) -> Lock | Held:
@@ -116,8 +122,7 @@ def take(path: Path, me: Owner) -> Lock | Held:
             owner = _owner(lock.path)
             if owner is not None and alive(owner):
                 return Held(owner)
-            with suppress(FileNotFoundError):
-                lock.path.unlink()
+            _clear(lock.path)
         else:
             return lock
     return Held(_owner(lock.path) or UNKNOWN)
@@ -126,8 +131,7 @@ def take(path: Path, me: Owner) -> Lock | Held:
 def take_over(path: Path, me: Owner) -> Lock:
     """Lock a program file whoever has it; OSError where no lock can be written."""
     lock = Lock(lock_path(path), me)
-    with suppress(FileNotFoundError):
-        lock.path.unlink()
+    _clear(lock.path)
     _create(lock)
     return lock
 
@@ -149,6 +153,15 @@ def release(lock: Lock) -> None:
     if _owner(lock.path) == lock.owner:
         with suppress(OSError):
             lock.path.unlink()
+
+
+def _clear(path: Path) -> None:
+    """Take away what stands in a lock's place; a folder is renamed, since it may hold something."""
+    with suppress(FileNotFoundError):
+        if path.is_dir() and not path.is_symlink():
+            path.rename(path.with_name(f"{path.name}.{os.urandom(4).hex()}"))
+        else:
+            path.unlink()
 
 
 def _create(lock: Lock) -> None:
@@ -178,8 +191,11 @@ def _owner(path: Path) -> Owner | None:
     """
     for _ in range(LOOKS):
         try:
-            return owner_of(json.loads(path.read_bytes()[:4096]))
+            return owner_of(json.loads(read_file(path, MAX_LOCK_BYTES)[0]))
         except FileNotFoundError:
+            return None
+        except (NotAFileError, TooLargeError):
+            # no lock of ours, and nobody's
             return None
         except OSError:
             return UNKNOWN
@@ -192,6 +208,8 @@ def owner_of(values: object) -> Owner:
     """The owner that `dataclasses.asdict` wrote; ValueError for anything else."""
     match values:
         case {"user": str(user), "host": str(host), "pid": int(pid), "started": str(begun), "since": str(since)}:
+            if isinstance(pid, bool):
+                raise ValueError("no owner")
             return Owner(user, host, pid, begun, since)
         case _:
             raise ValueError("no owner")

@@ -590,7 +590,7 @@ class DocumentService:
     ) -> Saved[AnyDocument] | Trouble:
         try:
             data = document.data()
-            write_data(path, data)
+            in_place = write_data(path, data)
         except (StoreError, ValueError) as error:
             return Trouble(f"{error} SAVE AS saves elsewhere.")
         before = document.file
@@ -603,7 +603,8 @@ class DocumentService:
         if path != before.path:
             saved = self._moved(kept, saved)
         other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
-        return Saved(saved, Notice(f"Saved: {written_at(path)}{other}{_marked(saved)}"))
+        how = f", in place: {in_place}" if in_place else ""
+        return Saved(saved, Notice(f"Saved: {written_at(path)}{how}{other}{_marked(saved)}"))
 
     def _moved(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
         """Under another name there is another lock."""

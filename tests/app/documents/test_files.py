@@ -80,7 +80,7 @@ def test_loading_what_is_no_text(tmp_path):
     path.write_bytes(b'format = 1\nunits = "\xb0"\n')
     assert "line 2: this is not UTF-8 text" in refusal(lambda: load(path))
     path.write_bytes(b"#" * (files.LARGEST_FILE + 1))
-    assert "too large for a program file" in refusal(lambda: load(path))
+    assert "it is too large. Choose another file." in refusal(lambda: load(path))
 
 
 def test_loading_what_may_not_be_read(tmp_path, monkeypatch):
@@ -104,7 +104,12 @@ def test_saving_where_no_file_can_be(tmp_path):
 
 @pytest.mark.parametrize("call", ["write", "fsync", "fchmod", "close"])
 @pytest.mark.parametrize(
-    ("number", "words"), [(errno.ENOSPC, "the disk is full"), (errno.EDQUOT, "the disk is full"), (errno.EIO, "Input")]
+    ("number", "words"),
+    [
+        (errno.ENOSPC, "the disk is full"),
+        (errno.EDQUOT, "the disk is full"),
+        (errno.EIO, "the disk or the network fails"),
+    ],
 )
 def test_a_disk_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path, monkeypatch, call, number, words):
     path = tmp_path / "part.toml"
@@ -196,7 +201,7 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
         "except StoreError as error: print(error.text)\n"
     )
     done = subprocess.run([sys.executable, "-c", script, str(path)], capture_output=True, text=True, check=True)
-    assert done.stdout.strip().startswith(f"{path} is not saved: it is too large")
+    assert done.stdout.strip().startswith(f"{path} is not saved: the system lets nobody write a file of this size.")
     assert dumps(load(path)) == TEXT
     assert list(tmp_path.iterdir()) == [path]
 

@@ -30,6 +30,7 @@ from app.documents.lock import (
     take_over,
     taken_by,
 )
+from tests.app.documents.things import put_something
 
 ME = myself("2025-03-04T06:00:00+01:00")
 ELSEWHERE = Owner("bob", "another-host", 1, "", "2025-03-04T05:00:00+01:00")
@@ -158,10 +159,10 @@ def test_a_lock_that_is_being_written_is_waited_for(part: Path, monkeypatch: pyt
 def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     held(part, ELSEWHERE)
 
-    def hidden(_: Path) -> bytes:
+    def hidden(*_: object) -> bytes:
         raise PermissionError(errno.EACCES, "hidden")
 
-    monkeypatch.setattr(Path, "read_bytes", hidden)
+    monkeypatch.setattr("app.documents.lock.read_file", hidden)
     assert take(part, ME) == Held(UNKNOWN)
     assert take_over(part, ME).owner == ME
 
@@ -218,3 +219,25 @@ def test_a_full_disk_keeps_no_half_lock(
             make(part, ME)
     assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
     assert isinstance(take(part, ME), Lock)
+
+
+@pytest.mark.parametrize("pid", [0, -1, -4711, 2**22 + 17, 2**31, 2**63, 10**309])
+def test_a_lock_of_a_process_number_that_cannot_be_is_stale(part: Path, pid: int) -> None:
+    lock_path(part).write_text(json.dumps({**vars_of(ME), "pid": pid}))
+    assert held_by(part) is None
+    assert take(part, ME) == Lock(lock_path(part), ME)
+
+
+def test_a_lock_with_a_truth_value_for_a_process_is_nobodys(part: Path) -> None:
+    lock_path(part).write_text(json.dumps({**vars_of(ELSEWHERE), "pid": True}))
+    assert held_by(part) is None
+
+
+@pytest.mark.parametrize("what", ["pipe", "folder", "full folder", "socket", "device", "endless"])
+@pytest.mark.parametrize("make", [take, take_over])
+def test_what_is_no_lock_in_a_lock_s_place_is_nobodys(
+    part: Path, what: str, make: Callable[[Path, Owner], object]
+) -> None:
+    put_something(lock_path(part), what)
+    assert held_by(part) is None
+    assert make(part, ME) == Lock(lock_path(part), ME)
