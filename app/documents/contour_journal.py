@@ -14,17 +14,13 @@ from functools import partial
 from itertools import pairwise
 from math import isfinite
 from types import MappingProxyType
-from typing import Any, Final, TypeVar, get_type_hints
+from typing import Any, Final, TypeVar, get_args, get_type_hints
 
 from app.documents.journal_file import Record
-from core.program.fields import MAX_CHOICE, Form, field_of, value_refusal
+from core.program.fields import MAX_CHOICE, Form, field_of, form_of, value_refusal
 from core.program.history import History, UndoStep, splice
 from core.program.model import (
-    ArcSegment,
-    BlendSegment,
     Block,
-    ChamferSegment,
-    LineSegment,
     Number,
     Part,
     PartSetup,
@@ -49,9 +45,7 @@ class DamagedError(Exception):
 
 Item = TypeVar("Item")
 Word = TypeVar("Word", bound=StrEnum)
-EMPTY: Final[Mapping[str, Segment]] = MappingProxyType(
-    {"LINE": LineSegment(), "ARC": ArcSegment(), "BLEND ARC": BlendSegment(), "CHAMFER": ChamferSegment()}
-)
+EMPTY: Final[Mapping[str, Segment]] = MappingProxyType({form_of(kind()).value: kind() for kind in get_args(Segment)})
 """The kinds of segments with nothing typed."""
 EMPTY_BLOCK: Final = Block()
 EMPTY_TOOL: Final = Tool(1)
