@@ -196,7 +196,7 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from app.documents.files import write_output
+    from app.documents.files import why, write_output
 
     if output is None or str(output) == DASH:
         try:
@@ -207,7 +207,7 @@ def _deliver(text: str, output: Path | None) -> None:
         except OSError as error:
             # what is still buffered could not be written at the end either
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            raise Unusable(f"standard output cannot be written: {error.strerror}.") from error
+            raise Unusable(f"standard output cannot be written: {why(error)}") from error
         return
     try:
         write_output(output, text)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from app.documents.files import read_file, why
+from app.documents.nc_text import MAX_NC_BYTES
 from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.controls.program_text import quoted
 from core.controls.registry import UnknownControl, resolve
@@ -78,9 +80,9 @@ def _tool(text: str) -> CutterTool:
 def bytes_of(path: Path) -> bytes:
     """What a file holds; Unusable where it cannot be read."""
     try:
-        return path.read_bytes()
+        return read_file(path, MAX_NC_BYTES)[0]
     except (OSError, ValueError) as error:
-        raise Unusable(f"{name_of(path)}: {getattr(error, 'strerror', None) or error}.") from error
+        raise Unusable(f"{name_of(path)}: {why(error)}") from error
 
 
 PROGRAM_FILE_NAMES: Final = (

@@ -13,7 +13,7 @@ from typing import Final
 from app.cli.commands import DASH
 from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from app.documents import times
-from app.documents.files import load, save, write_output
+from app.documents.files import TooLargeError, load, read_file, save, why, write_output
 from app.documents.lock import Held, myself, release, take
 from app.painted.keeping import holder
 from core.finding import Finding
@@ -110,17 +110,15 @@ def _listed(program: Program) -> int:
 def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
     """A table's file; StoreError when it cannot be read."""
     try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
+        data, _ = read_file(path, MAX_TABLE_BYTES)
+    except TooLargeError as error:
+        raise StoreError(f"{path} is too large for a tool table.") from error
     except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) else "this is no file name"
-        raise StoreError(f"{path} cannot be read: {why}. Check the name.") from error
-    if len(data) > LARGEST:
-        raise StoreError(f"{path} is too large for a tool table.")
+        raise StoreError(f"{path} cannot be read: {why(error)}") from error
     return read_tool_table(decode_table(data), unit, program)
 
 
-LARGEST: Final = 1_000_000
+MAX_TABLE_BYTES: Final = 1_000_000
 """Bytes of the largest tool table."""
 
 

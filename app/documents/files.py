@@ -75,6 +75,8 @@ def read_file(path: Path, most: int) -> tuple[bytes, os.stat_result]:
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         _only_a_file(path, status)
+        if status.st_size > most:
+            raise TooLargeError
         return _whole(file, most), status
 
 

@@ -78,8 +78,9 @@ class JournalFile:
 
     def _create(self) -> None:
         """Make the file; one that stands in its place is moved aside, never overwritten, unless it holds nothing."""
-        if self.path.exists():
-            if self.path.stat().st_size:
+        if os.path.lexists(self.path):
+            status = self.path.lstat()
+            if status.st_size or not stat.S_ISREG(status.st_mode):
                 self.aside = set_aside(self.path, "kept")
             else:
                 self.path.unlink()
@@ -260,7 +261,7 @@ def why_aside(path: Path) -> str:
 def set_aside(path: Path, why: str) -> Path:
     """Rename a journal; returns the name it has then, from which `why_aside` and `place_of` are read."""
     place, number = place_of(path), 1
-    while (aside := place.with_name(f"{place.name}.{why}-{number}")).exists():
+    while os.path.lexists(aside := place.with_name(f"{place.name}.{why}-{number}")):
         number += 1
     path.rename(aside)
     sync_folder(aside.parent)

@@ -12,11 +12,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
-from app.documents.files import LARGEST_FILE, write_text
+from app.documents.files import read_file, why, write_text
 from core.program.file.read import StoreError
 from core.units import Unit
 
 MAX_RECENT_FILES: Final = 8
+MAX_SETTINGS_BYTES: Final = 100_000
 CHARACTERS: Final = ("braille", "block", "ascii")
 """The sets of characters that a drawing can be made of."""
 THEMES: Final = ("dark", "light")
@@ -90,13 +91,12 @@ def _quoted(text: str) -> str:
 def load_settings(path: Path) -> tuple[Settings, str]:
     """The settings in a file, and the sentence that says why they are the usual ones, empty if they are not."""
     try:
-        with path.open("rb") as file:
-            return parsed(file.read(LARGEST_FILE).decode()), ""
+        return parsed(read_file(path, MAX_SETTINGS_BYTES)[0].decode()), ""
     except FileNotFoundError:
         return Settings(), ""
     except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is no settings file"
-        return Settings(), f"Your settings in {path} cannot be read: {why}. The usual ones hold."
+        reason = why(error).partition(".")[0] if isinstance(error, OSError) else "it is no settings file"
+        return Settings(), f"Your settings in {path} cannot be read: {reason}. The usual ones hold."
 
 
 @dataclass(slots=True)
@@ -119,5 +119,5 @@ class SettingsFile:
             write_text(self.path, written(settings))
         except (OSError, StoreError) as error:
             self.failed = True
-            return f"Settings are not kept: {error}"
+            return f"Settings are not kept: {why(error) if isinstance(error, OSError) else error}"
         return ""

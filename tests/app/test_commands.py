@@ -87,7 +87,7 @@ def test_standard_output_that_takes_nothing_is_told_in_a_sentence(words: tuple[s
     with FULL.open("w") as full:
         done = subprocess.run(given, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
-    assert done.stderr == "cutcomp: standard output cannot be written: No space left on device.\n"
+    assert done.stderr == "cutcomp: standard output cannot be written: the disk is full. Make room or save elsewhere.\n"
 
 
 def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None:

@@ -68,7 +68,7 @@ def test_segments_in_and_out() -> None:
         {"block": [0, {"x_start": 10**309}, [0, 0, []]]},
         {"block": [0, {"x_start": ["2..", "\x1b[2J"]}, [0, 0, []]]},
         {"block": [0, {"lookahead": 21}, [0, 0, []]]},
-        {"block": [0, {}, [0, 1, [["LINE", {"choice": 7}]]]]},
+        {"block": [0, {}, [0, 1, [["LINE", {"choice": -1}]]]]},
         {"block": [True, {}, [0, 0, []]]},
         {"block": [0, {"x_start": 1e9}, [0, 0, []]]},
         {"block": [0, {"cutter_comp": "UP"}, [0, 0, []]]},
