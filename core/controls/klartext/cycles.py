@@ -63,7 +63,7 @@ def cycle(state: State, block: Block) -> None:
         if head[3] not in (None, "0"):
             shift(state, rest)
     elif number in _NEUTRAL and head[3] == "0":
-        return  # only the cycle's name; what it does comes in the blocks after it
+        pass  # only the cycle's name; what it does comes in the blocks after it
     elif number in _NEUTRAL and _is_neutral(state, block, number, rest.body):
         text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
