@@ -188,3 +188,12 @@ def test_an_open_contour_winds_from_half_a_turn_on_whichever_way_it_turns(turn, 
     last = (end[0] + 4 * cos(angle), end[1] + 4 * turn * sin(angle))
     hook = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), end, (10, 2 * turn), turn), Line(end, last)])
     assert winds(hook, 2.1) is wound
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_a_contour_that_goes_around_twice_is_cut_once(side):
+    square = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (0.0, 5.0)]
+    (once,) = best_path(lines(*square, square[0]), side, 1.0, closed=True).loops
+    best = best_path(lines(*square, *square, square[0]), side, 1.0, closed=True)
+    assert best.closed == (True,)
+    assert best.loops[0].lengths.sum() == pytest.approx(once.lengths.sum())
