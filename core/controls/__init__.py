@@ -15,6 +15,8 @@ Where a maker's manual does not say, cutcomp makes a choice and says so in a fin
   least feed: the machine builder sets all three; its backwards moves are R8 for lines and R10 for arcs;
 * threeblock takes corners under 0.05 degrees as tangent, and T with tool data as calling that tool;
 * inside an arc that is not larger than the tool, threeblock runs about the same center beyond it: a gouge, reported;
+* Fanuc and Haas: which rules are stated and which are assumed stands in the findings FN-PARAM, FN-G1, FN-G2, FN-N2-ARC;
+  loops are given up after 100,000 rows without movement or 200,000 rows run again;
 * compensation left on at the end of a threeblock program is an error that is reported and stops nothing;
 * the orientation of a lathe tool shifts moves on LinuxCNC; on RosettaCNC they stay those of the nose's center;
 * expressions and parameters of 9/Series and threeblock programs are not evaluated: the run ends there and says so;

@@ -73,6 +73,7 @@ class Variables(MacroParameters):
         self.common: dict[int, float] = {}
         self.callers: list[dict[int, float]] = []
         self.vacant_arguments = False
+        self.unset: list[int] = []
 
     def number(self, index: int, at: int) -> float | None:
         """A variable's value, `VACANT` where nothing has set it."""
@@ -224,6 +225,7 @@ class MacroReader(ExpressionReader):
 
     def __init__(self, text: str, values: Variables, at: int = 0) -> None:
         super().__init__(text, values, at)
+        self.variables = values
         self._brackets = 0
 
     def expression(self) -> float:
@@ -248,6 +250,8 @@ class MacroReader(ExpressionReader):
         if isinstance(key, str):
             return self.values.named(key, begin)
         value = self.values.number(key, begin)
+        if isinstance(value, Vacant) and is_common(key):
+            self.unset.append((key, begin))
         return VACANT if value is None else value
 
     def brackets(self) -> float:
@@ -279,6 +283,8 @@ class MacroReader(ExpressionReader):
     def _operated(
         self, at: int, name: str, work: Callable[[float, float], float], left: float, right: float
     ) -> float:  # fmt: skip
+        if name not in _RELATIONS and (isinstance(left, Vacant) or isinstance(right, Vacant)):
+            self.variables.unset += [number for number, _ in self.unset]
         if name in "/MOD" and right == 0.0:
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
         return float(self._worked(at, name, work, left, right))

@@ -179,8 +179,18 @@ class MacroFlow(Flow):
             self._fault(fault, row, statement.line)
         except AlarmByProgramError as alarm:
             self._own_alarm(alarm.number, row)
+        self._tell_unset(row)
         if statement.keyword == "[":
             yield from self._words(row, statement)
+
+    def _tell_unset(self, row: int) -> None:
+        """Reports common variables that the program calculates with before it sets them."""
+        unset, self.variables.unset = self.variables.unset, []
+        if unset:
+            text = (
+                f"The program does not set #{unset[0]}; cutcomp takes 0, and the control may keep another value in it."
+            )
+            self.log.tell(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
 
     def _statement(self, row: int) -> Statement:
         text = self.lines[row]
@@ -230,6 +240,9 @@ class MacroFlow(Flow):
 
     def _set(self, reader: MacroReader, line: CompactText, row: int) -> None:
         set_variables(reader, line, self.numbers[row], self.variables, self.log)
+        if "#3006=" in line.text:
+            text = "The program shows a message here and waits for cycle start; cutcomp goes on."
+            self.log.tell(Severity.INFO, "FN-MESSAGE", text, self.numbers[row], 1)
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
@@ -376,6 +389,7 @@ class MacroFlow(Flow):
             words, columns, corner = words_of(line, self.variables, increment, start)
         except FaultError as fault:
             self._fault(fault, row, line)
+        self._tell_unset(row)
         if not columns:
             return None
         block = Block(number, words, self.starts[row], columns=columns, corner=corner)

@@ -28,6 +28,9 @@ from core.units import Unit, from_mm, to_mm
 EXTENDED_SYSTEM: Final = 100_000
 """Work offsets of G54.1 P have this key, and their P."""
 
+FIRST_BUILDER_CODE: Final = 1000
+"""G codes from G100 on that the control does not have may be macros."""
+
 _TURNED_OFF: Final = (150, 500, 690)
 """Codes of transforms that leave the axis words of their block for a move."""
 
@@ -158,6 +161,10 @@ class MacroMachine(Machine):
                 self.last_words[letter] = block.words[letter]
 
     def _grouped(self, block: Block) -> list[Code]:
+        for number in block.g:
+            if number >= FIRST_BUILDER_CODE and number not in self.dialect.codes:
+                text = f"G{number / 10:g} may be a macro of the machine's builder (6050 to 6059). Call it with G65."
+                self.log.stop("CODE", text, block.line, block.column("G", number))
         codes = super()._grouped(block)
         for code in codes:
             if code.group in self.in_force or code.group == "units":

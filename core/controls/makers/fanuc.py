@@ -326,11 +326,15 @@ class Fanuc(VectorQueue, Control):
     def _tell_parameters(self, line: int) -> None:
         """Names the parameters that are assumed, once."""
         if "FN-PARAM" not in self.log.counts:
-            text = (
-                "cutcomp assumes parameters 5003, 5008, 19607 as this control's name says; 19625 = "
-                f"{self.vector_rules.blocks_read} blocks read, 5004 ODI 0, 5001 EVR 0, 5010 and 1710 = 0."
-            )
-            self.log.tell(Severity.INFO, "FN-PARAM", text, line, 1)
+            self.log.tell(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
+
+    def assumed_parameters(self) -> str:
+        """What the machine builder or the shop sets, and how it is taken here."""
+        read = self.vector_rules.blocks_read
+        return (
+            "cutcomp assumes parameters 5003, 5008 and 19607 as this control's name says, 19625 = "
+            f"{read} blocks read, 5004 ODI 0, 5001 EVR 0, 5010 and 1710 = 0. Only neighbors' vectors are compared."
+        )
 
     def _count(self) -> None:
         """Counts the last block where it did not move in the plane; after too many of them the tool stands square."""

@@ -256,9 +256,15 @@ class VectorQueue(Recorder):
         for point in between:
             self._line(held.element, point, at_start_height=True)
         if held.center is not None:
-            self.arc_about(held.element, start, held.center, -1 if held.offset > 0.0 else 1, held.element.start_height)
+            self._round(held.element, start, held.center, -1 if held.offset > 0.0 else 1)
         else:
             self._line(held.element, start, at_start_height=True)
+
+    def _round(self, element: Element, end: Point, center: Point, turn: int) -> None:
+        """The arc around a corner, a rapid where the element after it is one."""
+        height = element.start_height
+        target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
+        self.tape.arc(target, middle, turn, self.plane, element.feed, element.line, rapid=element.rapid)
 
     def _run_element(self, held: Held, end: Point) -> None:
         element, start = held.element, held.vectors[-1]

@@ -49,6 +49,13 @@ class Haas(fanuc.Fanuc):
             self.log.tell(Severity.WARNING, "H344", text, block.line, block.side_column())
         super().begin(side, block)
 
+    def assumed_parameters(self) -> str:
+        """The settings, and what the manuals do not say."""
+        return (
+            "cutcomp assumes settings 43 and 58 as this control's name says, 40 DIAMETER and 44 = 0; that the control "
+            f"looks across {BLOCKS_READ - 2} blocks without movement; and D0 as a cancel, as on older controls."
+        )
+
     def after_too_many(self, block: Block) -> None:
         """The control cannot see the next move."""
         text = (

@@ -523,3 +523,24 @@ def test_a_rounding_and_a_chamfer_are_moves_of_the_program() -> None:
 
 def test_a_rounding_longer_than_its_move_is_an_alarm() -> None:
     assert alarms(ran(f"{HEAD}X50.,R60.\nY40.\nM30")) == [("PS0055", 2)]
+
+
+def test_a_message_of_the_program_is_told_and_the_program_goes_on() -> None:
+    done = ran("#3006=1(TURN THE PART)\nG21 G1 X5. F9\nM30")
+    assert ends(done) == [(5.0, 0.0)]
+    assert told(done, "FN-MESSAGE")
+
+
+def test_a_common_variable_in_a_sum_before_it_is_set_is_a_warning() -> None:
+    assert [finding.line for finding in told(ran("#1=#500+1\n#2=#501\nIF[#502EQ#0]GOTO9\nN9 M30"), "PARAMETER")] == [1]
+
+
+def test_a_code_of_the_builder_names_the_macro_call() -> None:
+    done = ran("G21\nG105 X5.\nM30")
+    assert alarms(done) == [("PS0010", 2)]
+    assert "G65" in told(done, "PS0010")[0].text
+
+
+def test_the_corner_of_a_rapid_is_rapid_also_where_it_is_an_arc() -> None:
+    done = ran(f"{ENTERED}G0 X10 Y-40\nG40 X0 Y-50\nM30", "fanuc:a-arc")
+    assert [(move.rapid, move.turn) for move in list(done.moves) if move.line == 5] == [(True, -1), (True, 0)]
