@@ -10,7 +10,7 @@ from core.pipeline.outline import outline
 from core.program.file.read import loads
 from core.program.model import Program
 from core.program.solve.block import solve_block
-from core.program.solve.solved import RunAnswer, SolvedBlock
+from core.program.solve.solved import RunAnswer, SolvedBlock, SolvedRun
 
 Case = Mapping[str, Any]
 
@@ -86,3 +86,70 @@ def plain_piece(piece: Any) -> dict[str, float]:
 def codes(block: SolvedBlock) -> Sequence[str]:
     """The codes of the findings of the segments."""
     return [finding.code for segment in block.segments for finding in segment.findings]
+
+
+def keeps_coordinate(case: Case) -> bool:
+    """Whether a line has one end coordinate alone: it keeps the other one, which a random run does not mean."""
+    alone = ({"x_end"}, {"y_end"})
+    return any(each["kind"] == "LINE" and each.keys() - {"kind"} in alone for each in case["segments"])
+
+
+Chain = list[dict[str, float]]
+
+
+def every_chain(case: Case, picks: Mapping[int, tuple[float, float]] | None = None) -> tuple[list[Chain], bool]:
+    """Every answer of a whole contour, and whether some way to pick leads to a run that the steps do not solve.
+
+    All ways to pick one solution of each run, and of each segment with two.  Where the steps do not solve a run that
+    begins at a segment in `picks`, the operator points there.
+    """
+    waits, chains = False, []
+    waiting: list[tuple[Case, dict[int, int]]] = [(case, {})]
+    while waiting:
+        part, choices = waiting.pop()
+        block = solved(part, choices)
+        if block.whole:
+            chains.append([plain_segment(segment) for segment in document(part, choices)["segments"]])
+            continue
+        number, options = _open(block)
+        waiting += [(part, {**choices, number: option}) for option in options]
+        stuck = next((run for run in block.runs if run.code == "NOT_YET"), None)
+        if not options and stuck is not None:
+            waits = True
+            waiting += [(pointed, choices) for pointed in _picked(part, stuck, picks or {}, choices)]
+    return chains, waits
+
+
+def _picked(
+    case: Case, run: SolvedRun, picks: Mapping[int, tuple[float, float]], choices: dict[int, int]
+) -> list[Case]:
+    """The case with a pick on a run's first segment: the one given, and those at the answers to which it leads."""
+    if run.first not in picks or "pick_x" in case["segments"][run.first - 1]:
+        return []
+    first = _pointed(case, run.first, picks[run.first])
+    answers = next(other.answers for other in solved(first, choices).runs if other.first == run.first)
+    return [_pointed(case, run.first, answer.pick) for answer in answers if answer.pick is not None]
+
+
+def _pointed(case: Case, number: int, at: tuple[float, float]) -> Case:
+    """The case with a pick on a segment."""
+    segments = list(case["segments"])
+    segments[number - 1] = {**segments[number - 1], "pick_x": at[0], "pick_y": at[1]}
+    return {**case, "segments": segments}
+
+
+def _open(block: SolvedBlock) -> tuple[int, list[int]]:
+    """The first segment at which a solution is to be picked, and the solutions."""
+    runs = [
+        (run.first, [answer.choice for answer in run.answers if answer.choice is not None])
+        for run in block.runs
+        if run.taken is None
+    ]
+    alone = [(segment.number, list(range(len(segment.choices)))) for segment in block.segments if not segment.end]
+    return min(((number, options) for number, options in (*runs, *alone) if len(options) > 1), default=(0, []))
+
+
+def plain_segment(segment: Mapping[str, Any]) -> dict[str, float]:
+    """A segment of `path --json` as plain data."""
+    names = ("x_end", "y_end", "x_center", "y_center")
+    return {name: segment[name]["value"] for name in names if name in segment}

@@ -16,7 +16,16 @@ from core.program.file.read import StoreError, loads
 from core.program.file.write import dumps
 from core.program.solve.block import solve_block
 from core.units import Unit, sentence
-from tests.core.program.run_files import codes, document, plain, program_of, solved, text_of
+from tests.core.program.run_files import (
+    codes,
+    document,
+    every_chain,
+    keeps_coordinate,
+    plain,
+    program_of,
+    solved,
+    text_of,
+)
 from tests.random_runs import BruteForce, apart, random_case, walk
 
 GOLDEN = json.loads((Path(__file__).parents[2] / "data/calculated_runs/golden.json").read_text(encoding="utf-8"))
@@ -292,13 +301,13 @@ def test_a_sample_of_random_runs_is_solved_and_proved() -> None:
     count = right = 0
     for seed in range(9000, 9120):
         case, truth = random_case(seed)
-        if kept(case) or BruteForce(case).condition(truth) < 1e-5:
+        if keeps_coordinate(case) or BruteForce(case).condition(truth) < 1e-5:
             continue
         runs = solved(case).runs
         if not runs or runs[0].code in ("NOT_YET", "MISSING"):
             continue
-        chains, waiting = chains_of(case)
-        if waiting:
+        chains, waits = every_chain(case)
+        if waits:
             continue
         count += 1
         assert any(apart(chain, truth) < 1e-6 for chain in chains), seed
@@ -312,52 +321,16 @@ def test_a_sample_of_random_runs_is_solved_and_proved() -> None:
 def test_brute_force_has_the_same_answers(seed: int) -> None:
     while True:
         case, truth = random_case(seed, 2, 3)
-        if not kept(case) and BruteForce(case).condition(truth) > 1e-4 and len(chains := chains_of(case)[0]) > 1:
+        if (
+            not keeps_coordinate(case)
+            and BruteForce(case).condition(truth) > 1e-4
+            and len(chains := every_chain(case)[0]) > 1
+        ):
             break
         seed += 1000
     others = BruteForce(case).answers(600)
     assert all(any(apart(chain, other) < 1e-3 for other in others) for chain in chains), seed
     assert all(any(apart(chain, other) < 1e-3 for chain in chains) for other in others), seed
-
-
-def kept(case: dict[str, Any]) -> bool:
-    """Whether a line has one end coordinate alone, which then keeps the other one."""
-    return any(
-        segment["kind"] == "LINE" and segment.keys() - {"kind"} in ({"x_end"}, {"y_end"})
-        for segment in case["segments"]
-    )
-
-
-def chains_of(case: dict[str, Any]) -> tuple[list[list[dict[str, float]]], bool]:
-    """Every answer of a whole contour, and whether some way leads to a run that waits for a pick on the drawing.
-
-    All ways to pick one solution of each run, and of each segment with two.
-    """
-    waits = False
-    found: list[list[dict[str, float]]] = []
-    waiting: list[dict[int, int]] = [{}]
-    while waiting:
-        choices = waiting.pop()
-        block = solved(case, choices)
-        if block.whole:
-            found.append([piece_of(segment) for segment in document(case, choices)["segments"]])
-            continue
-        waits = waits or any(run.code == "NOT_YET" for run in block.runs)
-        for number, options in open_choices(block):
-            waiting += [{**choices, number: option} for option in options]
-            break
-    return found, waits
-
-
-def open_choices(block: Any) -> list[tuple[int, list[int]]]:
-    runs = [(run.first, [answer.choice for answer in run.answers]) for run in block.runs if run.taken is None]
-    alone = [(segment.number, list(range(len(segment.choices)))) for segment in block.segments if segment.choices]
-    return sorted((number, options) for number, options in (*runs, *alone) if len(options) > 1)
-
-
-def piece_of(segment: dict[str, Any]) -> dict[str, float]:
-    names = ("x_end", "y_end", "x_center", "y_center")
-    return {name: segment[name]["value"] for name in names if name in segment}
 
 
 # the file
