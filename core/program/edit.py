@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
 
-from core.geometry.piece import Point
 from core.program.fields import (
     MAX_CHOICE,
     PARAMETERS,
@@ -48,6 +47,7 @@ from core.program.model import (
     changed,
 )
 from core.program.solve.block import solve_block
+from core.program.solve.solution import solution_at
 from core.units import Kind, Unit, convert, from_mm, printable
 
 
@@ -113,17 +113,20 @@ UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
 """What is typed of a segment and has no bearing on which solutions there are."""
 
 
-def pick_answer(program: Program, where: FormPlace, choice: int | None, pick: Point | None) -> Edited:
-    """Take a solution of the run that begins at a segment: by its `choice`, or by a pick in millimeters."""
+def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
+    """Take the solution `index` (from 0) of those that SOLUTION shows at a segment."""
     if refusal := _absent(program, where):
         return refusal
-    part = _part(program, where)
-    if not isinstance(part, LineSegment | ArcSegment):
-        return Refused("SOLUTION belongs to a LINE or an ARC.")
-    values: dict[str, Any] = {"choice": choice}
-    if pick is not None:
-        values |= {name: Number(from_mm(at, program.unit)) for name, at in zip(("pick_x", "pick_y"), pick, strict=True)}
-    return _with_part(program, where, changed(part, values))
+    block = program.blocks[where.block - 1]
+    solution = solution_at(solve_block(block, program), where.segment)
+    if solution is None or not 0 <= index < len(solution.answers):
+        return Refused("There is no such solution to pick here.")
+    answer, first = solution.answers[index], FormPlace(where.block, solution.number)
+    values: dict[str, Any] = {"choice": answer.choice}
+    if answer.pick is not None:
+        at = (Number(from_mm(coordinate, program.unit)) for coordinate in answer.pick)
+        values |= dict(zip(("pick_x", "pick_y"), at, strict=True))
+    return _with_part(program, first, changed(_part(program, first), values))
 
 
 def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:

@@ -1,0 +1,65 @@
+"""What SOLUTION shows and steps through: the answers of a run, or the two solutions of a segment by itself.
+
+The shortest answer of a run comes first; a segment's own two solutions keep their documented order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.geometry.piece import Piece
+from core.program.solve.solved import RunAnswer, SolvedBlock
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """The answers at a segment.
+
+    `number` is the segment whose `choice` or pick takes one, `taken` the index of the one in force, None for none.
+    """
+
+    number: int
+    answers: tuple[RunAnswer, ...]
+    taken: int | None
+
+    @property
+    def label(self) -> str:
+        """What the field shows, such as `2 of 4`; `? of 4` while none is taken."""
+        return f"{'?' if self.taken is None else self.taken + 1} of {len(self.answers)}"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What the field shows for each answer."""
+        return tuple(f"{index} of {len(self.answers)}" for index in range(1, len(self.answers) + 1))
+
+    def stepped(self, by: int) -> int:
+        """The index of the answer after (or before) the one that is taken; the first (or last) where none is."""
+        if self.taken is None:
+            return 0 if by > 0 else len(self.answers) - 1
+        return (self.taken + by) % len(self.answers)
+
+
+def solution_at(block: SolvedBlock, number: int) -> Solution | None:
+    """What there is to choose at a segment; None where there is no choice."""
+    run = block.run_of(number)
+    if run is not None and (len(run.answers) > 1 or (run.answers and run.taken is None)):
+        return Solution(run.first, run.answers, run.taken)
+    if not 1 <= number <= len(block.segments):
+        return None
+    segment = block.segments[number - 1]
+    if len(segment.choices) < 2:
+        return None
+    answers = tuple(RunAnswer(((number, piece),), piece.length, choice) for choice, piece in enumerate(segment.choices))
+    taken = None if segment.sharp is None else segment.choices.index(segment.sharp)
+    return Solution(number, answers, taken)
+
+
+def untaken_pieces(block: SolvedBlock) -> tuple[tuple[Piece, ...], ...]:
+    """The pieces of each answer that is not taken, which a drawing shows dotted."""
+    found: list[tuple[Piece, ...]] = []
+    for number in range(1, len(block.segments) + 1):
+        solution = solution_at(block, number)
+        if solution is not None and solution.number == number:
+            others = (answer for index, answer in enumerate(solution.answers) if index != solution.taken)
+            found += [tuple(piece for _, piece in answer.pieces) for answer in others]
+    return tuple(found)
