@@ -12,7 +12,7 @@ from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
-from app.screens.contour_cells import SOLUTIONS, cells_at, fields_at, form_at, value_at
+from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
 from app.screens.form_screen import FormScreen
 from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
@@ -33,6 +33,7 @@ from core.program.edit import (
     delete_segment,
     insert_segment,
     recalculate_lookahead,
+    take_solution,
     type_field,
 )
 from core.program.fields import SEGMENT_PROMPT, Field, read_typed
@@ -329,7 +330,7 @@ class ContourScreen(FormScreen):
         """The program with this text in a field of the form."""
         session = self.current_session
         if field.name == "choice":
-            return choose(session.program, session.place, field.name, SOLUTIONS.index(text))
+            return take_solution(session.program, session.place, int(text.partition(" ")[0]) - 1)
         if field.kind is Kind.CHOICE:
             return choose(session.program, session.place, field.name, text)
         typed = read_typed(text, field, session.program.unit)

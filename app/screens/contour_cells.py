@@ -12,21 +12,20 @@ from app.widgets.field import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
+from core.program.solve.solution import Solution, solution_at
 from core.program.solve.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
 
 RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     {
         Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead"}),
-        Form.LINE: frozenset({"length", "angle", "feed", "choice"}),
-        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "feed", "choice"}),
+        Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent", "choice"}),
+        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent", "choice"}),
         Form.BLEND: frozenset({"feed"}),
         Form.CHAMFER: frozenset({"feed"}),
     }
 )
 """The fields that stand in the right column of their form; the others stand in the left one."""
-SOLUTIONS: Final = ("1 of 2", "2 of 2")
-"""The choices of SOLUTION as the form shows them, in the order of their indices."""
 
 
 def form_at(session: Session) -> Form:
@@ -48,7 +47,7 @@ def _visible(session: Session, field: Field) -> bool:
         case "lookahead":
             return session.derived_block.side is not None
         case "choice":
-            return len(solved_segment(session).choices) > 1
+            return _solution(session) is not None
         case _:
             return True
 
@@ -71,12 +70,17 @@ def cells_at(session: Session) -> tuple[Cell, ...]:
 def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bool) -> Cell:
     visible = _visible(session, field)
     if field.name == "choice":
-        picked = getattr(session.segment, "choice", None)
-        text = "" if picked is None else SOLUTIONS[picked]
-        return Cell("choice", field.label, text, column, choices=SOLUTIONS, visible=visible)
+        solution = _solution(session)
+        text = "" if solution is None or solution.taken is None else solution.label
+        labels = () if solution is None else solution.labels
+        return Cell("choice", field.label, text, column, choices=labels, visible=visible)
     overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
     value = value_at(session, field.name)
     return cell_of(field, value, unit, column, needed=needed, overrides=overrides, visible=visible)
+
+
+def _solution(session: Session) -> Solution | None:
+    return None if session.segment is None else solution_at(session.derived_block.solved, session.place.segment)
 
 
 def value_at(session: Session, name: str) -> Value | str:
@@ -85,6 +89,8 @@ def value_at(session: Session, name: str) -> Value | str:
     typed: Block | Segment = session.block if segment is None else segment
     if name in ("cutter_comp", "direction"):
         return str(getattr(typed, name))
+    if name == "tangent":
+        return "YES" if getattr(typed, name) else "NO"
     if name == "lookahead":
         return _lookahead(block)
     values = block.solved.values if segment is None else solved_segment(session).values
