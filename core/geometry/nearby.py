@@ -11,7 +11,7 @@ is all pairs.  What has a coordinate that is no number is near everything, so th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -157,22 +157,25 @@ def _apart(first: Floats, second: Floats) -> Floats:
 class CoarseChords:
     """(n,) straight lines from `middle` - `half` to `middle` + `half` that stand for a piece or a run of pieces each.
 
-    No place of the one is farther from the other than `slack`, and no place of the pieces is farther from the middle
-    than `reach`.  `square` is the square of half the length, and never 0.
+    No place of the one is farther from the other than `slack`, and all pieces are in the box from `low` to `high`.
+    `square` is the square of half the length, and never 0.
     """
 
     middle: Points
     half: Points
     slack: Floats
-    reach: Floats
+    low: Points
+    high: Points
     square: Floats
 
     @staticmethod
-    def between(start: Points, end: Points, slack: Floats) -> CoarseChords:
-        """The chords from starts to ends."""
-        half = (end - start) / 2.0
+    def between(start: Points, end: Points, slack: Floats, box: tuple[Points, Points] | None = None) -> CoarseChords:
+        """The chords from starts to ends, each in its own box if none is given."""
+        middle, half = (start + end) / 2.0, (end - start) / 2.0
+        room = np.abs(half.real) + slack + 1j * (np.abs(half.imag) + slack)
+        low, high = box or (middle - room, middle + room)
         square = np.maximum((half * half.conj()).real, np.finfo(float).tiny)
-        return CoarseChords((start + end) / 2.0, half, slack, np.abs(half) + slack, square)
+        return CoarseChords(middle, half, slack, low, high, square)
 
     def __len__(self) -> int:
         return len(self.middle)
@@ -217,7 +220,14 @@ def _grouped(members: CoarseChords) -> CoarseChords:
     gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
     gaps[begins] = 0.0
     slack = np.maximum.reduceat(off, begins) + np.maximum.reduceat(gaps, begins)
-    return CoarseChords.between(starts[begins], ends[lasts], slack)
+    box = _each_way(np.minimum.reduceat, members.low, begins), _each_way(np.maximum.reduceat, members.high, begins)
+    return CoarseChords.between(starts[begins], ends[lasts], slack, box)
+
+
+def _each_way(reduce: Callable[..., Floats], points: Points, begins: Rows) -> Points:
+    """Points whose coordinates are each reduced by themselves."""
+    reduced: Points = reduce(points.view(np.float64).reshape(-1, 2), begins, axis=0).view(np.complex128).ravel()
+    return reduced
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
@@ -324,8 +334,9 @@ def _contenders(
     what is farther at both ends is farther everywhere.
     """
     limit = within.take(i) + tie
-    apart = np.abs(one.middle.take(i) - other.middle.take(j)) - one.reach.take(i) - other.reach.take(j)
-    keep = (~(apart > limit)).nonzero()[0]
+    after, before = one.low.take(i) - other.high.take(j), other.low.take(j) - one.high.take(i)
+    gaps = np.maximum(after.view(np.float64), before.view(np.float64))
+    keep = (~(np.abs(np.maximum(gaps, 0.0, out=gaps).view(np.complex128)) > limit)).nonzero()[0]
     i, j, limit = i[keep], j[keep], limit[keep]
     middle, half = one.middle.take(i), one.half.take(i)
     off = other.off(j, middle)
@@ -333,7 +344,7 @@ def _contenders(
     apart = np.fmax(np.abs(off), np.finfo(float).tiny)
     slope = (off.conj() * half).real / apart
     # a way as short as the rounding of coordinates has no direction
-    blur = BLUR * np.abs(middle) * one.reach.take(i) / apart
+    blur = BLUR * np.abs(middle) * np.abs(half) / apart
     least = apart - blur - one.slack.take(i) - other.slack.take(j)
     keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
     i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]

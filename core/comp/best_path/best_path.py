@@ -52,8 +52,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     surface = prepare_contour(contour, radius, closed=closed)
     if not len(surface.path):
         return BestPath((), (), surface.findings)
-    walls = Walls.of(surface.path)
-    crossing = crosses_itself(walls, closed=closed)
+    crossing = crosses_itself(surface.path, closed=closed)
     findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
     untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     raw = trimmed(untrimmed, side.sign, radius)
@@ -61,6 +60,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     cut = sliced(raw, side.sign)
     if cut is None:
         return BestPath((), (), (*findings, _tangled()))
+    walls = Walls.of(surface.path)
     cut = clear_slices(raw, cut, walls, radius)
     made = stitch(raw, cut, side.sign, walls, radius)
     return _best(raw, made, surface, findings)

@@ -118,18 +118,18 @@ class Walls:
         return Walls(path, pieces, BoxTree.of(pieces.boxes))
 
 
-def crosses_itself(walls: Walls, *, closed: bool) -> tuple[float, float] | None:
+def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
     """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
 
     A full circle among other segments touches its neighbors with both ends.
     """
-    path, pieces = walls.path, walls.pieces
     circles = ((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1)).nonzero()[0]
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
     apart = _meet_next_only_at_joint(path)
-    for i, j in near_pairs_within(walls.tree.boxes, 2.0 * ON_PATH):
+    pieces = piece_arrays(path)
+    for i, j in near_pairs_within(pieces.boxes, 2.0 * ON_PATH):
         i, j = pieces.rows[i], pieces.rows[j]
         known = apart[i] & (j == i + 1)
         if closed and apart[-1]:
