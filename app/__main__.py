@@ -6,6 +6,7 @@ messages to standard error.
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -68,18 +69,31 @@ def screens(file: Path | None, *, example: str | None = None, characters: str = 
 
 
 def guarded() -> None:
-    """The console command: a closed pipe and Ctrl+C end it quietly."""
+    """The console command: a closed pipe and Ctrl+C end it quietly, trouble with files in a sentence."""
     try:
         status = main()
+        # what fails now would be told by the interpreter, and not in a sentence
+        sys.stdout.flush()
     except KeyboardInterrupt:
         status = 130
     except BrokenPipeError:
         sys.stderr.close()
         status = UNUSABLE
     except OSError as error:
-        say(str(error))
+        say(trouble(error))
         status = UNUSABLE
     sys.exit(status)
+
+
+def trouble(error: OSError) -> str:
+    """What the system refused, as a sentence; without a file's name it is standard output that takes nothing."""
+    from app.documents.files import why
+
+    if error.filename is not None:
+        return f"{error.filename}: {why(error)}"
+    # what is still buffered could not be written at the end either
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return f"standard output cannot be written: {why(error)}"
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -196,18 +195,11 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from app.documents.files import why, write_output
+    from app.documents.files import write_output
 
     if output is None or str(output) == DASH:
-        try:
-            sys.stdout.write(text)
-            sys.stdout.flush()
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            # what is still buffered could not be written at the end either
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            raise Unusable(f"standard output cannot be written: {why(error)}") from error
+        sys.stdout.write(text)
+        sys.stdout.flush()
         return
     try:
         write_output(output, text)

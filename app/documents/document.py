@@ -12,7 +12,7 @@ from app.documents.files import LARGEST_FILE, Stamp
 from app.documents.journal import Journal, Kind, Place
 from app.documents.journal_file import Record
 from app.documents.lock import Owner
-from app.documents.nc_text import MAX_NC_BYTES, NcText
+from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from core.program import history as program_history
 from core.program.edit import FormPlace
 from core.program.file.read import StoreError, loads_bytes
@@ -96,6 +96,10 @@ class Document(Protocol):
 
     def holds(self, journal: Journal) -> bool:
         """Whether this is the work of a journal already."""
+        ...
+
+    def work_of(self, data: bytes) -> History | NcText | None:
+        """A file's content as one edit of this document; None where it is no content of this kind."""
         ...
 
     def differences(self, journal: Journal) -> tuple[str, ...]:
@@ -195,6 +199,13 @@ class ContourDocument:
         """Whether this is the program of a journal already."""
         return _history_of(journal).program == self.program
 
+    def work_of(self, data: bytes) -> History | None:
+        """A file's program as one edit."""
+        try:
+            return self.history.do(loads_bytes(data, ""), "SAVE")
+        except StoreError:
+            return None
+
     def differences(self, journal: Journal) -> tuple[str, ...]:
         """What the program of a journal has otherwise."""
         return program_history.differences(self.program, _history_of(journal).program)
@@ -284,6 +295,12 @@ class NcDocument:
     def holds(self, journal: Journal) -> bool:
         """Whether these are the lines of a journal already."""
         return "".join(_text_of(journal).lines) == "".join(self.text.lines)
+
+    def work_of(self, data: bytes) -> NcText | None:
+        """A file's lines as one edit; of another encoding they are none."""
+        text = NcText.read(data, self.text.encoding)
+        same = text.encoding == self.text.encoding
+        return self.text.done(Change(0, self.text.lines, text.lines)) if same else None
 
     def differences(self, journal: Journal) -> tuple[str, ...]:
         """What the lines of a journal have otherwise."""

@@ -50,4 +50,8 @@ def is_program(path: Path) -> bool:
 
 def is_nc(path: Path) -> bool:
     """Whether an existing file is none of our own programs, which are TOML with a format."""
-    return path.suffix.lower() != ".toml" and path.is_file() and not is_program(path)
+    try:
+        return path.suffix.lower() != ".toml" and path.is_file() and not is_program(path)
+    except OSError:
+        # a name that no file can have
+        return False

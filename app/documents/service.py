@@ -16,8 +16,9 @@ from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
 from app.documents.files import load, read_file, refuse_program, stamp_of_data, why, write_data
 from app.documents.folders import chosen, folder, outside, told_path, written_at
+from app.documents.interrupted import interrupted_saves
 from app.documents.journal import Head, Journal, Kind, beginning, continuing
-from app.documents.journal_file import JournalFile, set_aside, why_aside
+from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
 from app.documents.left_overs import (
     Unreadable,
     elsewhere,
@@ -40,6 +41,8 @@ from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable
 
+TEMPORARY: Final = ".tmp"
+"""The end of the name of what an interrupted save leaves."""
 MAX_JOURNAL_GROWTH: Final = {Kind.CONTOUR: 8_000_000, Kind.NC: 64_000_000}
 """Bytes of a journal that is not saved for very long; then it is begun anew with all work as it is."""
 
@@ -200,10 +203,12 @@ class DocumentService:
         assert file.path is not None
         wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
         left = (journal for _, journal in left_by_dead(file.path, Kind.CONTOUR, self.own, self.me.user))
-        journal = wanted or next(left, None)
+        empty = ContourDocument.of(empty_program(), file)
+        saves = (save.journal(empty, self.me.user) for save in interrupted_saves(file.path, Kind.CONTOUR))
+        journal = wanted or next(left, None) or next(filter(None, saves), None)
         if journal is None:
             raise error
-        program = ContourDocument.of(empty_program()).restored(journal).program
+        program = empty.restored(journal).program
         return ContourDocument.of(empty_program(program.unit), file)
 
     def _begun(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
@@ -229,6 +234,8 @@ class DocumentService:
             if isinstance(lock, Held):
                 return lock.owner
             kept.lock = lock
+            # what a program that was killed has not put in its place
+            new_path(journal_path(path)).unlink(missing_ok=True)
         return None
 
     # ---- offers
@@ -262,6 +269,8 @@ class DocumentService:
         Of what is kept for somebody else, and of what was answered, nothing is asked; a notice tells of it.
         """
         told: list[str] = []
+        # before a journal is answered: what it holds too is not asked about twice
+        interrupted = tuple(self._interrupted(document))
         for path, left in self._left(document, kept_copy):
             if path in answered:
                 continue
@@ -270,7 +279,28 @@ class DocumentService:
                 told.append(ask)
             elif ask is not None:
                 return Opened(document, notice, Offer(ask, path, left, answered))
+        for path, journal in interrupted:
+            if path not in answered:
+                ask = questions.unsaved_work(
+                    document, journal, mine=True, me=self.me, living=False, chosen=False, today=self.clock()
+                )
+                return Opened(document, notice, Offer(ask, path, journal, answered))
         return Opened(document, notice or (Notice(" ".join(told), warning=True) if told else None))
+
+    def _interrupted(self, document: Document) -> Iterator[tuple[Path, Journal]]:
+        """What an interrupted save has left and is nowhere else; the rest of such content is removed."""
+        if document.file.path is None or document.file.holder is not None:
+            return
+        saves = tuple(interrupted_saves(document.file.path, document.kind))
+        journals = [left for _, left in self._left(document, None) if isinstance(left, Journal)] if saves else []
+        for save in saves:
+            journal = save.journal(document, self.me.user)
+            kept = [document.data(), *(document.restored(other).data() for other in journals)]
+            if journal is None or save.data in kept:
+                with suppress(OSError):
+                    save.path.unlink()
+            else:
+                yield save.path, journal
 
     def _left(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
         """What may be asked about; a copy that was chosen comes first."""
@@ -373,7 +403,9 @@ class DocumentService:
         """The saved document; the work is kept under a name that is not offered again."""
         aside = path
         try:
-            if isinstance(left, Journal) and alive(left.head.owner):
+            if isinstance(left, Journal) and path.suffix == TEMPORARY:
+                aside = self._copy_of_save(document, path, left)
+            elif isinstance(left, Journal) and alive(left.head.owner):
                 aside = self._out_of_the_way(path, left)
             else:
                 aside = set_aside(path, "discarded")
@@ -384,6 +416,15 @@ class DocumentService:
         except OSError as error:
             notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
+
+    def _copy_of_save(self, document: Document, path: Path, journal: Journal) -> Path:
+        """What an interrupted save has left, as a journal among the kept copies."""
+        work, file = document.restored(journal), document.file.path
+        copy = new_journal(journal_place(file, self.me, self.own).with_suffix(f"{SUFFIX}.saved"), file)
+        copy.add(self._everything(work))
+        copy.close()
+        path.unlink()
+        return set_aside(copy.path, "discarded")
 
     def _leave_to_owner(
         self, document: AnyDocument, path: Path, journal: Journal, answered: frozenset[Path]

@@ -79,6 +79,35 @@ def test_a_dash_is_standard_output(
     assert list(tmp_path.iterdir()) == []
 
 
+SQUARE = Path(__file__).parents[1] / "data" / "nc" / "rosettacnc-square.ngc"
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="there is no device that is always full")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("sheet", str(example("flange"))),
+        ("tools", str(example("flange"))),
+        ("check", str(SQUARE), "--control", "rosettacnc:easy", "--tool", "1=6"),
+    ],
+)
+def test_results_that_standard_output_does_not_take_are_no_error_number(words: tuple[str, ...]) -> None:
+    with FULL.open("w") as full:
+        done = subprocess.run([sys.executable, "-m", "app", *words], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert "Errno" not in done.stderr
+    assert "standard output cannot be written: the disk is full." in done.stderr
+
+
+@pytest.mark.parametrize("words", [("path",), ("check", "--control", "linuxcnc"), ("sheet",), ("tools",)])
+def test_a_name_that_is_too_long_is_no_error_number(words: tuple[str, ...]) -> None:
+    command = [sys.executable, "-m", "app", words[0], "n" * 300, *words[1:]]
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    assert done.returncode == 2
+    assert "the name is too long. Choose a shorter one." in done.stderr
+    assert "Errno" not in done.stderr + done.stdout
+
+
 @pytest.mark.skipif(not FULL.exists(), reason="there is no device that is always full")
 @pytest.mark.parametrize("words", [("path",), ("path", "--json"), ("lookahead",), ("lookahead", "--json"), ("post",)])
 def test_standard_output_that_takes_nothing_is_told_in_a_sentence(words: tuple[str, ...]) -> None:
