@@ -16,6 +16,7 @@ from core.output.grid import Grid, length_text
 from core.output.nc import Posted, Refusal, comments, program_titles
 from core.output.objections import posting_errors
 from core.output.passes import Job, level_floor
+from core.program.model import Coolant
 from core.units import Unit, printable, sentence
 
 CLIMBS: Final = (
@@ -66,7 +67,7 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    style, notes = STYLES.get(control), _no_work_offset(jobs, control)
+    style, notes = STYLES.get(control), (*_no_work_offset(jobs, control), *_no_coolant(jobs, control))
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
         notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
@@ -81,6 +82,15 @@ def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
         return (Finding("WORK_OFFSET", Severity.WARNING, text),)
     return ()
+
+
+def _no_coolant(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
+    """That coolant is left to whoever runs a control's own program: not every control knows M7 and M8."""
+    wanted = dict.fromkeys(str(job.coolant) for job in jobs if job.coolant is not Coolant.OFF)
+    if not wanted:
+        return ()
+    text = f"COOLANT {' and '.join(wanted)} is not written for {control}; switch it on at the control."
+    return (Finding("COOLANT", Severity.WARNING, text),)
 
 
 def _header(
@@ -101,7 +111,7 @@ def _header(
     for job in jobs:
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
-    for note in (*_no_work_offset(jobs, control), *notes):
+    for note in (*_no_work_offset(jobs, control), *_no_coolant(jobs, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
 

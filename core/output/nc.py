@@ -22,6 +22,7 @@ from core.geometry.piece import Arc, Turn
 from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE, overridden_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
+from core.program.model import Coolant
 from core.units import Unit, sentence
 
 COMMENT_WIDTH: Final = 72
@@ -225,20 +226,34 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     inch = grid.unit is Unit.IN
     yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
     yield f"G64 P{CORNER_TOLERANCE[grid.unit]}"
-    place, tool, speed = ToolPosition(), None, 0.0
+    place, tool, speed, coolant = ToolPosition(), None, 0.0, Coolant.OFF
     for job in jobs:
         for a_pass in passes(job):
             if a_pass.cutter.number != tool:
+                yield from _coolant_change(coolant, Coolant.OFF)
                 yield from _tool_change(a_pass, first=tool is None)
-                tool, speed, place = a_pass.cutter.number, a_pass.speed, ToolPosition()
+                tool, speed, place, coolant = a_pass.cutter.number, a_pass.speed, ToolPosition(), Coolant.OFF
             elif a_pass.speed != speed:
                 yield f"S{speed_text(a_pass.speed)}"
                 speed = a_pass.speed
+            yield from _coolant_change(coolant, job.coolant)
+            coolant = job.coolant
             yield from comments(_title(a_pass, grid.unit))
             lines, place = _nc_lines(a_pass.motions, place, grid)
             yield from lines
+    yield from _coolant_change(coolant, Coolant.OFF)
     yield "M5"
     yield "M30"
+
+
+def _coolant_change(now: Coolant, then: Coolant) -> Iterator[str]:
+    """M7 is mist, M8 flood; M9 switches both off."""
+    if now is then:
+        return
+    if now is not Coolant.OFF:
+        yield "M9"
+    if then is not Coolant.OFF:
+        yield "M7" if then is Coolant.MIST else "M8"
 
 
 def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:

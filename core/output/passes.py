@@ -30,6 +30,7 @@ from core.advice.path_findings import ZStep
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Floats, Path, joined
 from core.geometry.piece import Line, Piece, Point, Turn
+from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
 
 WRAPPED: Final = 1e-6
@@ -112,6 +113,7 @@ class Job:
     safe_z: float
     finish_tool: int = 0
     work_offset: int = 54
+    coolant: Coolant = Coolant.OFF
     lookahead: str = ""
     findings: tuple[Finding, ...] = ()
     notes: tuple[str, ...] = ()

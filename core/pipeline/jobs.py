@@ -45,6 +45,7 @@ def job(block: DerivedBlock, program: Program) -> Job:
         safe_z=to_mm(setup_value(program, "safe_z"), program.unit),
         finish_tool=finish_tool,
         work_offset=int(setup_value(program, "work_offset")),
+        coolant=solved.coolant,
         lookahead="" if block.side is None else tag,
         findings=block.findings,
         notes=tuple(_notes(block, program.unit)),

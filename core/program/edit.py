@@ -31,6 +31,7 @@ from core.program.fields import (
 from core.program.model import (
     ArcSegment,
     Block,
+    Coolant,
     CornerSegment,
     CutterComp,
     Direction,
@@ -86,12 +87,15 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
 
 
 def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
-    """Pick CUTTER COMP. of START, DIRECTION of an ARC, or the solution of a LINE or an ARC (None for none yet)."""
+    """Pick CUTTER COMP. or COOLANT of START, DIRECTION of an ARC, or the solution of a LINE or an ARC.
+
+    None blanks COOLANT, and takes the picked solution back.
+    """
     if refusal := _absent(program, where):
         return refusal
     part = _part(program, where)
     field = _field(part, name)
-    if value is None and name == "choice":
+    if value is None and name in ("choice", "coolant"):
         return _with_part(program, where, changed(part, {name: None}))
     if name == "choice":
         if not (isinstance(value, int) and 0 <= value <= MAX_CHOICE):
@@ -106,7 +110,7 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
 
 
 _PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
-    {"cutter_comp": CutterComp, "direction": Direction}
+    {"cutter_comp": CutterComp, "direction": Direction, "coolant": Coolant}
 )
 
 UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
@@ -270,9 +274,11 @@ def delete_block(program: Program, at: int) -> Edited:
 
 def set_tool(program: Program, tool: Tool) -> Edited:
     """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
-    fits = _misfit(field_of(Form.TOOL, "number"), Number(tool.number), program.unit)
-    if refusal := fits or _misfit(field_of(Form.TOOL, "diameter"), tool.diameter, program.unit):
+    if refusal := _misfit(field_of(Form.TOOL, "number"), Number(tool.number), program.unit):
         return refusal
+    for name in ("diameter", "speed", "feed", "plunge_feed"):
+        if refusal := _misfit(field_of(Form.TOOL, name), getattr(tool, name), program.unit):
+            return refusal
     others = (other for other in program.tools if other.number != tool.number)
     return replace(program, tools=tuple(sorted((*others, tool), key=lambda tool: tool.number)))
 

@@ -17,6 +17,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     ChamferSegment,
+    Coolant,
     CutterComp,
     Direction,
     LineSegment,
@@ -103,6 +104,10 @@ def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field
     return Field(name, label, Kind.COUNT, prompt, low, high)
 
 
+def _coolant(prompt: str) -> Field:
+    return Field("coolant", "COOLANT", Kind.CHOICE, prompt, choices=tuple(coolant.value for coolant in Coolant))
+
+
 _FEED: Final = _feed(
     "feed",
     "FEED",
@@ -138,6 +143,7 @@ START: Final = (
     _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, FASTEST),
     _allowance("peck_depth", "PECK DEPTH", "Depth of one pass; 0 = full depth."),
     _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
+    _coolant("Coolant of the block. Blank: as TOOL SETUP has it for the tool."),
 )
 
 LINE: Final = (
@@ -198,6 +204,10 @@ TOOL: Final = (
     _count("number", "TOOL", "Tool number.", 1, 9999),
     Field("type", "TYPE", Kind.TEXT, "Type of the tool, such as END MILL."),
     _size("diameter", "TOOL DIAMETER", "Diameter of the tool."),
+    _count("speed", "SPEED (RPM)", "Spindle speed of blocks that leave theirs blank.", 1, FASTEST),
+    _feed("feed", "FEED", "Feed of contours that leave theirs blank."),
+    _feed("plunge_feed", "PLUNGE FEED", "Plunge feed of blocks that leave theirs blank."),
+    _coolant("Coolant of blocks that leave theirs blank."),
 )
 
 PARAMETERS: Final = (

@@ -63,6 +63,14 @@ class PathChoice(StrEnum):
     BEST = "BEST"
 
 
+class Coolant(StrEnum):
+    """COOLANT of a block."""
+
+    OFF = "OFF"
+    MIST = "MIST"
+    FLOOD = "FLOOD"
+
+
 @dataclass(frozen=True, slots=True)
 class LineSegment:
     """A LINE as typed; `choice` says which solution is picked, on the first segment of a run for the whole run.
@@ -135,7 +143,10 @@ a new curve needs a piece in `geometry.piece`."""
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A MILL CONTOUR block: segment 0 START and the segments 1 ... n.  `lookahead` None is CAL, a value is USR."""
+    """A MILL CONTOUR block: segment 0 START and the segments 1 ... n.  `lookahead` None is CAL, a value is USR.
+
+    A blank `speed`, `plunge_feed` or `coolant` takes what the tool table proposes for the tool.
+    """
 
     tool: Typed = None
     cutter_comp: CutterComp = CutterComp.ON
@@ -148,16 +159,21 @@ class Block:
     speed: Typed = None
     peck_depth: Typed = None
     lookahead: Typed = None
+    coolant: Coolant | None = None
     segments: tuple[Segment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Tool:
-    """A line of the tool table."""
+    """A line of the tool table; speed, feeds and coolant are proposals for blocks that leave theirs blank."""
 
     number: int
     type: str = "END MILL"
     diameter: Typed = None
+    speed: Typed = None
+    feed: Typed = None
+    plunge_feed: Typed = None
+    coolant: Coolant | None = None
 
 
 @dataclass(frozen=True, slots=True)

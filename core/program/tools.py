@@ -194,7 +194,7 @@ def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str 
 
 def _objections(row: TableLine, unit: Unit, program: Unit) -> Iterator[Finding]:
     """What the shop's own table cannot take, though a control may."""
-    number, _, size = TOOL
+    number, _, size, *_ = TOOL
     if (trouble := value_refusal(number, row.number, program)) is not None:
         yield row.finding(Severity.ERROR, "T", trouble)
     value = row.words.get("D", 0.0)

@@ -15,11 +15,13 @@ from app.painted.widgets.form import typed_spans
 from app.painted.widgets.header import header
 from app.painted.widgets.rows import Look, Row, Span, padded, plain
 from core.program.edit import Edited, Refused, delete_tool, set_tool
-from core.program.fields import TOOL, Field, read_typed
+from core.program.fields import TOOL as EVERY
+from core.program.fields import Field, read_typed
 from core.program.model import Number, Program, Tool, Typed, Unread
 from core.program.solve.solved import Value
 from core.units import Unit
 
+TOOL: Final = EVERY[:3]
 COLUMNS: Final = {"number": (3, 6), "type": (14, 23), "diameter": (38, 12)}
 """First cell and width of each column of the table."""
 

@@ -14,7 +14,17 @@ from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
-from core.program.fields import MAX_CHOICE, NUMBER_FIELDS, STORED, TABLES, Field, Form, unread_reason, value_refusal
+from core.program.fields import (
+    MAX_CHOICE,
+    NUMBER_FIELDS,
+    STORED,
+    TABLES,
+    Field,
+    Form,
+    field_of,
+    unread_reason,
+    value_refusal,
+)
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
 from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, RELATIVE, UNREAD
 from core.program.model import (
@@ -22,6 +32,7 @@ from core.program.model import (
     BlendSegment,
     Block,
     ChamferSegment,
+    Coolant,
     CutterComp,
     Direction,
     LineSegment,
@@ -272,7 +283,9 @@ def _tool(table: _Table) -> Tool:
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is not a tool number'}: write 1 to 9999."
         )
-    return Tool(int(number.value), table.text("type") if "type" in table.data else Tool(1).type, typed.get("diameter"))
+    kind = table.text("type") if "type" in table.data else Tool(1).type
+    others = {name: value for name, value in typed.items() if name != "number"}
+    return Tool(int(number.value), kind, **others, coolant=_coolant(table))
 
 
 def _block(table: _Table) -> Block:
@@ -282,11 +295,16 @@ def _block(table: _Table) -> Block:
     typed = _numbers(table, Form.START)
     lookahead = typed.get("lookahead")
     if isinstance(lookahead, Number) and (
-        trouble := value_refusal(TABLES[Form.START][-1], lookahead.value, table.unit)
+        trouble := value_refusal(field_of(Form.START, "lookahead"), lookahead.value, table.unit)
     ):
         raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
     segments = tuple(_segment(segment) for segment in table.array("segment"))
-    return Block(**typed, cutter_comp=table.chosen("cutter_comp", CutterComp), segments=segments)
+    comp, coolant = table.chosen("cutter_comp", CutterComp), _coolant(table)
+    return Block(**typed, cutter_comp=comp, coolant=coolant, segments=segments)
+
+
+def _coolant(table: _Table) -> Coolant | None:
+    return table.chosen("coolant", Coolant) if "coolant" in table.data else None
 
 
 def _segment(table: _Table) -> Segment:

@@ -35,6 +35,9 @@ NEWER_KEYS: Final = frozenset(
 RELATIVE: Final = "_inc"
 """The ending of the key of a number that is relative."""
 
+PROPOSALS: Final = ("speed", "feed", "plunge_feed", "coolant")
+"""What format 1 does not have of a tool."""
+
 KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
 
@@ -69,7 +72,9 @@ def dumps(program: Program) -> str:
 def format_of(program: Program) -> int:
     """The format a program needs: 2 where it has anything that format 1 does not have."""
     segments = (segment for block in program.blocks for segment in block.segments)
-    return NEWER_FORMAT if any(map(_is_newer, segments)) else FORMAT
+    newer = any(map(_is_newer, segments)) or any(block.coolant is not None for block in program.blocks)
+    newer = newer or any(getattr(tool, name) is not None for tool in program.tools for name in PROPOSALS)
+    return NEWER_FORMAT if newer else FORMAT
 
 
 def _is_newer(segment: Segment) -> bool:

@@ -2,10 +2,10 @@
 
 A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as `Solved`,
 together with those of the segments after it where they need each other (`stretch`).  Z END and FEED carry over from the
-segment before, on the first from Z BOTTOM and PLUNGE FEED.  A LINE on which X END or Y END is all that is typed of its
-shape keeps the other coordinate; no other blank X END or Y END carries over: the line or arc then is not determined,
-and says what is missing.  Where two solutions fit, `line` and `arc` document their order, and the segment's `choice`
-picks.
+segment before, on the first from Z BOTTOM and the tool's FEED, else PLUNGE FEED.  A LINE on which X END or Y END is all
+that is typed of its shape keeps the other coordinate; no other blank X END or Y END carries over: the line or arc then
+is not determined, and says what is missing.  Where two solutions fit, `line` and `arc` document their order, and the
+segment's `choice` picks.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
 from core.program.fields import TABLES, Form, field_of, form_of
-from core.program.model import Block, CornerSegment, CutterComp, Program
+from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program
 from core.program.solve.corners import Corners, put_corners_in
-from core.program.solve.reading import Reading, read_form
+from core.program.solve.reading import Reading, read_form, usable
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment, Value
 from core.program.solve.stretch import Contour, place_faults, stretch_at
-from core.program.tools import CalledTool, called_tool
+from core.program.tools import CalledTool, called_tool, find_tool
 from core.tolerance import CLOSED
 from core.units import Unit
 
@@ -57,6 +57,8 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
         speed=known.get("speed"),
         peck_depth=known.get("peck_depth", 0.0),
         findings=start.findings,
+        coolant=start.coolant[0],
+        coolant_origin=start.coolant[1],
         pieces=tuple((segment.number, segment.piece) for segment in determined if segment.piece is not None),
         runs=runs,
     )
@@ -73,7 +75,8 @@ def _closed(segments: Sequence[SolvedSegment]) -> bool:
 def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple[SolvedRun, ...]]:
     """Every segment solved, by itself or together with others, each from where the one before it ends."""
     typed = typed_point(start.values, ("x_start", "y_start"))
-    carried = Carried(start.point, typed, start.known.get("z_bottom"), start.known.get("plunge_feed"))
+    feed, origin = start.feed
+    carried = Carried(start.point, typed, start.known.get("z_bottom"), feed, feed_origin=origin)
     numbered = enumerate(block.segments, 1)
     readings = [read_form(form_of(segment), segment, unit, number) for number, segment in numbered]
     drafts: list[Draft] = []
@@ -160,6 +163,9 @@ class _Start:
     tool: CalledTool
     finish: CalledTool
     findings: tuple[Finding, ...]
+    feed: tuple[float | None, Origin]
+    """The feed of segments before the first that has one typed, and where it comes from."""
+    coolant: tuple[Coolant, Origin | None]
 
 
 def _start(block: Block, program: Program) -> _Start:
@@ -170,11 +176,37 @@ def _start(block: Block, program: Program) -> _Start:
     finish = called_tool(program, block.finish_tool, "finish_tool", severity)
     for name in ZERO_IF_BLANK:
         reading.fill(name, 0.0, Origin.USUAL)
+    proposed = _propose(reading, block, program)
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
     # what was typed and is wrong comes before what is still to be typed: few of them are seen at once
     trouble = (*tool.findings, *finish.findings, *_depths(known), *_missing(reading), *_empty(block))
-    return _Start(reading.values, point, known, tool, finish, reading.findings + trouble)
+    feed = (known.get("plunge_feed"), Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
+    coolant = _coolant(block, program)
+    return _Start(reading.values, point, known, tool, finish, reading.findings + trouble, feed, coolant)
+
+
+def _propose(reading: Reading, block: Block, program: Program) -> float | None:
+    """Fill blanks of START with what the tool table proposes; returns the feed it proposes (mm/min)."""
+    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
+    if tool is None:
+        return None
+    for name in ("speed", "plunge_feed"):
+        typed = getattr(tool, name)
+        known = usable(field_of(Form.TOOL, name), typed, program.unit)
+        if known is not None and reading.values[name] is None:
+            reading.known[name] = known
+            reading.fill(name, typed.value, Origin.TOOL)
+    return usable(field_of(Form.TOOL, "feed"), tool.feed, program.unit)
+
+
+def _coolant(block: Block, program: Program) -> tuple[Coolant, Origin | None]:
+    if block.coolant is not None:
+        return block.coolant, None
+    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
+    if tool is not None and tool.coolant is not None:
+        return tool.coolant, Origin.TOOL
+    return Coolant.OFF, Origin.USUAL
 
 
 def _missing(reading: Reading) -> tuple[Finding, ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
 from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Unread
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Typed, Unread
 from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, to_mm, to_radians
 
@@ -49,6 +49,13 @@ def read_form(
             code, text = trouble
             findings.append(Finding(code, Severity.ERROR, text, number, field.name))
     return Reading(values, known, tuple(findings))
+
+
+def usable(field: Field, typed: Typed, unit: Unit) -> float | None:
+    """A typed number in millimeters or radians, None for a blank and for what the field does not take."""
+    if not isinstance(typed, Number) or _trouble(field, typed, unit) is not None:
+        return None
+    return _internal(typed.value, field.kind, unit)
 
 
 def _trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:

@@ -46,6 +46,7 @@ class Carried:
     feed: float | None
     heading: float | None = None
     """The direction in which the segment before ends, before any blending."""
+    feed_origin: Origin = Origin.CALCULATED
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +74,11 @@ def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Dr
 def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, unit: Unit) -> Draft:
     """A segment of a known shape, which takes over Z and feed where its own are blank, and what it hands on."""
     known = reading.known
+    origin = Origin.CALCULATED if "feed" in known else before.feed_origin
     z, feed = known.get("z_end", before.z), known.get("feed", before.feed)
-    reading.fill("feed", None if feed is None else from_mm(feed, unit))
+    reading.fill("feed", None if feed is None else from_mm(feed, unit), origin)
     if isinstance(segment, CornerSegment):
-        return Draft(reading, shape, before, Carried(shape.end, before.typed, z, feed, before.heading))
+        return Draft(reading, shape, before, Carried(shape.end, before.typed, z, feed, before.heading, origin))
     reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
@@ -86,7 +88,7 @@ def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, u
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
     heading = None if shape.piece is None else end_heading(shape.piece)
-    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed, heading))
+    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed, heading, origin))
 
 
 def end_heading(piece: Piece) -> float:

@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
-from core.program.model import Number, Relative, Unread
+from core.program.model import Coolant, Number, Relative, Unread
 
 
 class Origin(StrEnum):
@@ -118,6 +118,9 @@ class SolvedBlock:
     speed: float | None
     peck_depth: float
     findings: tuple[Finding, ...]
+    coolant: Coolant = Coolant.OFF
+    coolant_origin: Origin | None = None
+    """Where COOLANT comes from if it is not typed."""
     pieces: tuple[tuple[int, Piece], ...] = ()
     """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
     runs: tuple[SolvedRun, ...] = ()

@@ -12,6 +12,7 @@ from core.program.model import (
     BlendSegment,
     Block,
     ChamferSegment,
+    Coolant,
     CutterComp,
     Direction,
     LineSegment,
@@ -128,21 +129,27 @@ def segments(unit: Unit) -> st.SearchStrategy[Segment]:
     return st.one_of(lines, arcs, blends, st.builds(ChamferSegment, **_entries(Form.CHAMFER, unit)))
 
 
+coolants = st.one_of(st.none(), st.sampled_from(Coolant))
+
+
 def blocks(unit: Unit) -> st.SearchStrategy[Block]:
     """A random block."""
     return st.builds(
         Block,
         **_entries(Form.START, unit),
         cutter_comp=st.sampled_from(CutterComp),
+        coolant=coolants,
         segments=st.lists(segments(unit), max_size=3).map(tuple),
     )
 
 
 def _programs(unit: Unit) -> st.SearchStrategy[Program]:
     names = st.text(st.characters(codec="utf-8"), max_size=8).filter(str.isprintable)
-    diameter = typed(TABLES[Form.TOOL][-1], unit)
+    numbers = _entries(Form.TOOL, unit, "number")
     tools = st.lists(
-        st.builds(Tool, st.integers(1, 9999), names, diameter), max_size=2, unique_by=lambda one: one.number
+        st.builds(Tool, st.integers(1, 9999), names, **numbers, coolant=coolants),
+        max_size=2,
+        unique_by=lambda one: one.number,
     )
     return st.builds(
         Program,
