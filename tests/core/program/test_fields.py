@@ -73,6 +73,7 @@ def test_start_reads_as_on_the_control():
         "SPEED (RPM)",
         "PECK DEPTH",
         "CUTCOMP LOOKAHEAD",
+        "COOLANT",
     ]
     assert field_of(Form.START, "cutter_comp").choices == ("ON", "LEFT", "RIGHT", "PROFILE LEFT", "PROFILE RIGHT")
 
