@@ -56,6 +56,9 @@ def _parsed(given: list[str]) -> int:
 
 def screens(file: Path | None, *, example: str | None = None, characters: str = "") -> int:
     """The screens on a program or on an NC file, an example part, or the start screen; returns the exit status."""
+    if file is not None and file.suffix.lower() == ".dxf" and file.is_file():
+        say(f"{file} is a drawing: cutcomp import {file} --list shows its contours.")
+        return UNUSABLE
     # before these imports already, not only before those of the screens
     prepare()
     from app.cli.screens import run

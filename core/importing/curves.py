@@ -61,52 +61,43 @@ GRID: Final = 32
 class Curve(Protocol):
     """A smooth curve over a parameter."""
 
-    def points(self, at: Floats) -> Points:
-        """(n,) points at these parameters."""
-
-    def tangents(self, at: Floats) -> Points:
-        """(n,) derivatives there, not unit vectors."""
+    def at(self, parameters: Floats) -> tuple[Points, Points]:
+        """(n,) points at these parameters, and (n,) derivatives there, which are no unit vectors."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _EllipseCurve:
     shape: EllipseArc
 
-    def points(self, at: Floats) -> Points:
-        return self.shape.center + np.cos(at) * self.shape.first + np.sin(at) * self.shape.second
-
-    def tangents(self, at: Floats) -> Points:
-        return np.cos(at) * self.shape.second - np.sin(at) * self.shape.first
+    def at(self, parameters: Floats) -> tuple[Points, Points]:
+        ahead, across = np.cos(parameters), np.sin(parameters)
+        first, second = self.shape.first, self.shape.second
+        return self.shape.center + ahead * first + across * second, ahead * second - across * first
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _SplineCurve:
-    """Bezier spans of one degree: `control` (spans, degree + 1, 3) homogeneous x, y, w; the parameter counts spans."""
+    """Bezier spans of one degree: `control` (spans, degree + 1, 2) of x + iy times its weight, and the weight.
 
-    control: Floats
+    The parameter counts spans.
+    """
 
-    def points(self, at: Floats) -> Points:
-        x, y, w = self._values(self.control, at).T
-        points: Points = (x + 1j * y) / w
-        return points
+    control: Points
 
-    def tangents(self, at: Floats) -> Points:
-        degree = self.control.shape[1] - 1
-        x, y, w = self._values(self.control, at).T
-        dx, dy, dw = self._values(degree * np.diff(self.control, axis=1), at).T
-        tangents: Points = ((dx + 1j * dy) * w - (x + 1j * y) * dw) / (w * w)
-        return tangents
-
-    @staticmethod
-    def _values(control: Floats, at: Floats) -> Floats:
-        """(n, 3) values of Bezier spans by repeated interpolation (de Casteljau)."""
-        span = np.clip(at.astype(int), 0, len(control) - 1)
-        share = (at - span)[:, None, None]
-        rows = control[span]
-        while rows.shape[1] > 1:
-            rows = rows[:, :-1] * (1.0 - share) + rows[:, 1:] * share
-        values: Floats = rows[:, 0]
-        return values
+    def at(self, parameters: Floats) -> tuple[Points, Points]:
+        """By repeated interpolation (de Casteljau); the last two points but one give the derivative."""
+        span = np.minimum(np.maximum(parameters.astype(int), 0), len(self.control) - 1)
+        share = (parameters - span)[:, None, None]
+        rows = self.control[span]
+        degree = rows.shape[1] - 1
+        while rows.shape[1] > 2:
+            rows = rows[:, :-1] + (rows[:, 1:] - rows[:, :-1]) * share
+        ahead = rows[:, 1] - rows[:, 0]
+        value = rows[:, 0] + ahead * share[:, 0]
+        point, weight = value[:, 0], value[:, 1]
+        # the derivative of a quotient
+        tangents = degree * (ahead[:, 0] * weight - point * ahead[:, 1]) / (weight * weight)
+        return point / weight, tangents
 
 
 def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
@@ -124,7 +115,7 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
 
 def _circle(shape: EllipseArc) -> Arc:
     turn = Turn.CCW if (shape.first.conjugate() * shape.second).imag > 0.0 else Turn.CW
-    start, end = _EllipseCurve(shape).points(np.array([shape.begin, shape.end])).tolist()
+    start, end = _EllipseCurve(shape).at(np.array([shape.begin, shape.end]))[0].tolist()
     center = (shape.center.real, shape.center.imag)
     first = (start.real, start.imag)
     whole = shape.end - shape.begin >= tau * (1.0 - ROUND)
@@ -140,7 +131,7 @@ def _flattened(shape: EllipseArc) -> list[Piece]:
     turning = atan2((second * along.conjugate()).real, abs(first)) if first is shape.first else pi / 2
     steps = range(ceil((shape.begin - turning) / pi), int((shape.end - turning) // pi) + 1)
     stations = np.array([shape.begin, *(turning + step * pi for step in steps), shape.end])
-    points = _EllipseCurve(shape).points(stations).tolist()
+    points = _EllipseCurve(shape).at(stations)[0].tolist()
     return [Line((p.real, p.imag), (q.real, q.imag)) for p, q in pairwise(points) if p != q]
 
 
@@ -159,22 +150,24 @@ def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
     curve = _SplineCurve(_bezier_spans(shape))
     pieces: list[Piece] = []
     for first, last in _smooth_runs(curve):
-        whole = _fitted(curve, [first, last], fit)
-        divided = _fitted(curve, _extremes(curve, first, last), fit)
+        stations = _extremes(curve, first, last)
+        divided = _fitted(curve, stations, fit)
+        whole = _fitted(curve, [first, last], fit) if len(stations) > 2 else divided
         pieces += divided if len(divided) <= len(whole) else whole
     return pieces
 
 
-def _bezier_spans(shape: BSpline) -> Floats:
-    """(spans, degree + 1, 3) control points of every span that has a length, by blossoming."""
+def _bezier_spans(shape: BSpline) -> Points:
+    """(spans, degree + 1, 2) control points of every span that has a length, by blossoming."""
     degree, knots = shape.degree, shape.knots
-    rows = np.column_stack((shape.points.real, shape.points.imag, np.ones(len(shape.points)))) * shape.weights[:, None]
+    plain = np.column_stack((shape.points, np.ones(len(shape.points))))
+    rows: Points = (plain * shape.weights[:, None]).astype(np.complex128)
     size = float(knots[-1] - knots[0])
     spans = [k for k in range(degree, len(shape.points)) if knots[k + 1] - knots[k] > 1e-12 * size]
     return np.array([[_blossom(rows, knots, degree, k, j) for j in range(degree + 1)] for k in spans])
 
 
-def _blossom(rows: Floats, knots: Floats, degree: int, k: int, j: int) -> Floats:
+def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points:
     """Control point j of the span from knot k: the blossom at degree - j times its begin and j times its end."""
     values = rows[k - degree : k + 1]
     arguments = [knots[k]] * (degree - j) + [knots[k + 1]] * j
@@ -183,15 +176,15 @@ def _blossom(rows: Floats, knots: Floats, degree: int, k: int, j: int) -> Floats
         high = knots[k + 1 : k + 1 + degree - level + 1]
         share = ((at - low) / (high - low))[:, None]
         values = values[:-1] * (1.0 - share) + values[1:] * share
-    first: Floats = values[0]
+    first: Points = values[0]
     return first
 
 
 def _smooth_runs(curve: _SplineCurve) -> list[tuple[float, float]]:
     """The stretches between the corners, as spans; spans without length belong to none."""
     count = len(curve.control)
-    flat = curve.control[:, :, :2] / curve.control[:, :, 2:]
-    spread = np.ptp(flat, axis=1).max(axis=1)
+    flat = curve.control[:, :, 0] / curve.control[:, :, 1]
+    spread = np.maximum(np.ptp(flat.real, axis=1), np.ptp(flat.imag, axis=1))
     runs: list[tuple[float, float]] = []
     for span in range(count):
         if spread[span] <= STRAIGHT * 1e-3:
@@ -205,7 +198,7 @@ def _smooth_runs(curve: _SplineCurve) -> list[tuple[float, float]]:
 
 def _is_smooth(curve: _SplineCurve, span: int) -> bool:
     near = np.array([span - 1e-6, span + 1e-6])
-    before, after = curve.tangents(near).tolist()
+    before, after = curve.at(near)[1].tolist()
     turned = before.conjugate() * after
     return abs(atan2(turned.imag, turned.real)) <= CORNER and abs(turned) > 0.0
 
@@ -213,7 +206,7 @@ def _is_smooth(curve: _SplineCurve, span: int) -> bool:
 def _extremes(curve: Curve, first: float, last: float) -> list[float]:
     """A stretch's ends, and where between them its curvature is extreme or changes its sign."""
     at = np.linspace(first, last, max(int(last - first) * GRID, GRID) + 1)
-    tangents = curve.tangents(at)
+    _, tangents = curve.at(at)
     size = np.abs(tangents)
     size[size == 0.0] = 1.0
     direction = np.unwrap(np.angle(tangents))
@@ -283,7 +276,7 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
 def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
     """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
     at = np.linspace(first, last, SAMPLES + 1)
-    points, tangents = curve.points(at), curve.tangents(at)
+    points, tangents = curve.at(at)
     size = np.abs(tangents)
     start, end = complex(points[0]), complex(points[-1])
     if size.min() <= 0.0:

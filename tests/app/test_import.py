@@ -124,3 +124,8 @@ def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
     assert main([*command, "--side", "right", "--diameter", "0.5"]) == 0
     original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
     assert [segment.x_end for segment in back.segments] == [segment.x_end for segment in original.segments]
+
+
+def test_a_drawing_as_the_only_argument_is_told_where_it_goes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([str(DATA / "d01-square.dxf")]) == 2
+    assert "is a drawing: cutcomp import" in capsys.readouterr().err
