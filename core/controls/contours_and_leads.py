@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Path
+from core.geometry.path import Floats, Path
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -47,6 +47,39 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
     places = _places(path)
     open_rows = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
     return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
+
+
+def split_where_it_closes(path: Path) -> Path:
+    """The path with the line split in two that runs on over the point at which a blend led in.
+
+    A control that allows no two moves on one line has such contours: they close within their last line.
+    """
+    if contours_of(path) != ((0, len(path)),):
+        return path
+    for lead in range(min(MAX_LEAD_MOVES, len(path) - 2)):
+        if not _blends(path, range(lead + 1, lead - 1, -1)):
+            continue
+        point, way = path.ends[lead], path.start_directions[lead + 1]
+        for row in range(lead + 2, len(path)):
+            if not path.turns[row] and _runs_over(path, row, point, way):
+                return _split(path, row, point)
+    return path
+
+
+def _runs_over(path: Path, row: int, point: Floats, way: Floats) -> bool:
+    """Whether a line runs over a point, in a direction, with both ends away from it."""
+    step, along = point - path.starts[row], path.start_directions[row]
+    reach, off = float(step @ along), float(abs(step[0] * along[1] - step[1] * along[0]))
+    inside = CLOSED < reach < float(path.lengths[row]) - CLOSED
+    return inside and off <= CLOSED and float(along @ way) > cos(BLEND)
+
+
+def _split(path: Path, row: int, point: Floats) -> Path:
+    """The path with a line in two pieces of its number."""
+    points = np.insert(path.points, row + 1, point, axis=0)
+    centers = np.insert(path.centers, row + 1, point, axis=0)
+    turns, numbers = np.insert(path.turns, row + 1, 0), np.insert(path.numbers, row + 1, path.numbers[row])
+    return Path.of(points, centers, turns, numbers)
 
 
 def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:

@@ -9,7 +9,14 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import MAX_LEAD_MOVES, RowRange, blend_leads, contours_of, open_contours
+from core.controls.contours_and_leads import (
+    MAX_LEAD_MOVES,
+    RowRange,
+    blend_leads,
+    contours_of,
+    open_contours,
+    split_where_it_closes,
+)
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
@@ -112,14 +119,16 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
     the side changes it is not judged, and a finding says so.
     """
-    whole = programmed_surface(stretch)
+    whole, parts = programmed_surface(stretch), stretch.parts()
+    if len(parts) == 1:
+        whole = split_where_it_closes(whole)
     contours = contours_of(whole)
     open_lines = open_contours(whole, contours)
-    parts, results, row = stretch.parts(), list[Judged](), 0
+    results, row = list[Judged](), 0
     unjudged: list[Judged] = []
     sides_change = any(part.side is not parts[0].side for part in parts)
     for part in parts:
-        surface = programmed_surface(part)
+        surface = programmed_surface(part) if len(parts) > 1 else whole
         begin, row = row, row + len(surface)
         inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
         inside = [first < last for first, last in inner]

@@ -9,7 +9,7 @@ from typing import Final
 LINUXCNC: Final = "LinuxCNC"
 ROSETTACNC: Final = "RosettaCNC"
 NINE_SERIES: Final = "Allen-Bradley 9/Series"
-THREEBLOCK: Final = "threeblock"
+THREEBLOCK: Final = "three-block"
 FANUC: Final = "Fanuc"
 HAAS: Final = "Haas"
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from core.controls.compared_controls import compare
-from core.controls.contours_and_leads import contour_of, contours_of, open_contours
+from core.controls.contours_and_leads import contour_of, contours_of, open_contours, split_where_it_closes
 from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
 from core.units import Unit
 from tests.core.controls.hand import ran
 from tests.tool_tables import end_mills
@@ -32,6 +35,26 @@ def test_one_or_two_pieces_next_to_a_closed_contour_are_leads() -> None:
     assert contours_of(path) == ((1, 4),)
     assert contour_of(path) == (1, 4)
     assert contour_of(path.part(0, 2)) == (0, 2)
+
+
+def blended(*, tangent: bool) -> Path:
+    """A square that its last line closes on the way, an arc leading in to the middle of that side."""
+    lead = Arc((-0.5, 1.0 - 0.5), (0.0, 1.0), (-0.5, 1.0), Turn.CCW) if tangent else Line((-0.5, 0.5), (0.0, 1.0))
+    corners = ((0.0, 1.0), (0.0, 2.0), (2.0, 2.0), (2.0, 0.0), (0.0, 0.0), (0.0, 1.2), (-1.0, 1.5))
+    return Path.from_pieces([lead, *(Line(start, end) for start, end in pairwise(corners))])
+
+
+def test_a_contour_that_closes_within_its_last_line_is_split_there() -> None:
+    path = split_where_it_closes(blended(tangent=True))
+    assert len(path) == len(blended(tangent=True)) + 1
+    assert contours_of(path) == ((1, 6),)
+    assert np.allclose(path.points[6], (0, 1))
+    assert path.numbers[5] == path.numbers[6]
+
+
+def test_nothing_is_split_without_a_blend_or_where_the_contour_closes() -> None:
+    for path in (blended(tangent=False), lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0))):
+        assert len(split_where_it_closes(path)) == len(path)
 
 
 def test_more_pieces_next_to_a_closed_contour_are_a_contour() -> None:

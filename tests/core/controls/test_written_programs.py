@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
+from core.controls.judged_runs import judge_run, judged_findings
 from core.controls.write.contour_pass import path_begin, path_finish, programmed_elements
 from core.controls.write.written_program import WrittenProgram
 from core.finding import Finding
@@ -17,6 +18,7 @@ from tests.core.controls.written_programs import (
     INCH,
     SQUARE,
     cut,
+    made_by,
     outline,
     refused,
     squared,
@@ -150,3 +152,13 @@ def test_ends_of_a_path_without_blends() -> None:
     assert first.off == pytest.approx((0.0, -1.0))
     assert last.way == pytest.approx((1.0, 0.0))
     assert np.array(last.corner) / INCH == pytest.approx([1.0, 0.0])
+
+
+@pytest.mark.parametrize("control", EVERY)
+@pytest.mark.parametrize("overlap", [0.0, 0.1])
+def test_a_clean_program_of_ours_is_clean_to_the_judge_of_programs(control: str, overlap: float) -> None:
+    one = cut(squared(Side.RIGHT, overlap=overlap))
+    done = made_by(control, text_of(control, one), one)
+    codes = {one.code for one in judged_findings(judge_run(done))}
+    assert done.stretches
+    assert not codes & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE", "CROSSES", "UNCUT"}
