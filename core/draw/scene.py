@@ -197,11 +197,10 @@ def contour_scene(
 ) -> Scene:
     """Everything one contour shows, lengths in millimeters.
 
-    `sketches` are segments not determined yet; `further` the center path's other loops; `leads` the blend moves,
-    the blend-in first; `over_run` the ends of the surface that are lead-in and lead-out; `rough` further center paths;
-    `deleted` pieces of the contour that the look-ahead deletes and `meetings` the points where the deleting pieces
-    meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (center, radius); `current` the
-    segment under the cursor; `start` the contour's START.
+    `sketches` are segments not determined yet; `further` the center path's other loops; `leads` the blend moves, the
+    blend-in first; `over_run` the ends of the surface that are leads; `rough` further center paths; `deleted` pieces
+    of the contour that the look-ahead deletes, `meetings` where the deleting pieces meet; `gouges` the spots cut into;
+    `cutter` (center, radius); `current` the segment under the cursor; `start` the contour's START.
     """
     stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
     layers = (

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from core.controls.iso.arcs import center_by_radius
 from core.controls.registry import arc_radii
 from core.finding import Severity
 from core.units import Unit
@@ -81,3 +82,13 @@ def test_where_papers_are_silent_no_radius_lets_the_radii_differ_more_than_three
     for unit in Unit:
         allowed = [limit.largest_difference(radius, unit) for radius in (1.0, 50.0, 100.0, 3000.0)]
         assert allowed == pytest.approx([0.0127, 0.05, 0.0762, 0.0762])
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
+@pytest.mark.parametrize("turn", [1, -1])
+def test_an_arc_of_a_positive_radius_turns_at_most_half_a_turn_and_one_of_a_negative_radius_more(
+    size: float, turn: int
+) -> None:
+    start, end = (0.0, 0.0), (1.6 * size, 0.0)
+    assert center_by_radius(start, end, size, turn) == pytest.approx((0.8 * size, 0.6 * size * turn))
+    assert center_by_radius(start, end, -size, turn) == pytest.approx((0.8 * size, -0.6 * size * turn))

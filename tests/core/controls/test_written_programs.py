@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,6 +87,25 @@ def test_each_control_gets_the_stock_in_its_words() -> None:
     assert "G42 D1 I-0.05 " in text_of("rosettacnc:normal", wide)
     assert "G42 D51 " in text_of("nine-series:a", wide)
     assert "TOOL CALL 1 Z S300 DR+0.05\n" in text_of("klartext", wide)
+
+
+@pytest.mark.parametrize("control", EVERY)
+def test_another_speed_of_the_same_tool_is_written_and_the_same_one_only_once(control: str) -> None:
+    one = cut(squared(Side.RIGHT))
+    same, faster = text_of(control, one, one), text_of(control, one, replace(one, speed=900.0))
+    speeds = [re.findall(r"(?<![A-Z])S(\d+)", text) for text in (same, faster)]
+    assert speeds == [["300"], ["300", "900"]]
+
+
+DECIMALS = {"threeblock": 4, "rosettacnc": 6, "nine-series": 4, "fanuc": 4, "haas": 4, "klartext": 5, "linuxcnc": 6}
+
+
+@pytest.mark.parametrize("control", EVERY)
+def test_coordinates_in_inches_have_the_decimals_that_the_control_reads(control: str) -> None:
+    third = outline((1 / 3, 0), (2 / 3, 0), (2 / 3, 2), (-4 / 3, 2), (-4 / 3, 0), (1 / 3, 0))
+    text = text_of(control, cut(compensate(third, Side.RIGHT, 0.25 * INCH, 4, closed=True, blend=0.125 * INCH)))
+    decimals = [len(digits) for digits in re.findall(r"[XY][-+]?\d*\.(\d*)", text)]
+    assert max(decimals) == DECIMALS[control.partition(":")[0]]
 
 
 def test_lines_on_one_line_are_one_block_for_threeblock() -> None:
