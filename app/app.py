@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from textual import on, work
 from textual.binding import Binding, BindingType
@@ -18,6 +18,7 @@ from app.documents.document import ContourDocument, NcDocument
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.file_actions import FileActions
+from app.nc_proof.screen import ProofScreen
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
@@ -73,7 +74,7 @@ class CutcompApp(FileActions):
         light: bool = False,
         character_sets: tuple[str, ...] = ("braille", "block", "ascii"),
         service: DocumentService | None = None,
-        opened: Opened[ContourDocument] | None = None,
+        opened: Opened[Any] | None = None,
         settings_file: SettingsFile | None = None,
         home: bool = False,
     ) -> None:
@@ -82,7 +83,8 @@ class CutcompApp(FileActions):
         self.service, self._opened, self._home = service, opened, home
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
-        self.document = ContourDocument.of(session.program) if opened is None else opened.document
+        held = None if opened is None else opened.document
+        self.document = held if isinstance(held, ContourDocument) else ContourDocument.of(session.program)
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self._wanted: Request | None = None
@@ -105,6 +107,8 @@ class CutcompApp(FileActions):
         if self._home:
             self.action_home()
         if self._opened is not None:
+            if isinstance(self._opened.document, NcDocument):
+                self.show_nc(self._opened.document)
             self.tell(self._opened.notice)
             if self._opened.offer is not None:
                 self._ask_offer(self._opened.document, self._opened.offer)
@@ -128,6 +132,8 @@ class CutcompApp(FileActions):
 
     def action_undo(self) -> None:
         """Take one edit back; what is half-typed is forgotten."""
+        if isinstance(self.screen, BaseScreen) and self.screen.take_over("undo"):
+            return
         self._forget_typed()
         label = self.session.history.undo_label
         if label is None:
@@ -138,6 +144,8 @@ class CutcompApp(FileActions):
 
     def action_redo(self) -> None:
         """Make one undone edit again; what is half-typed is forgotten."""
+        if isinstance(self.screen, BaseScreen) and self.screen.take_over("redo"):
+            return
         self._forget_typed()
         label = self.session.history.redo_label
         if label is None:
@@ -332,7 +340,21 @@ class CutcompApp(FileActions):
 
     def show_nc(self, document: NcDocument) -> None:
         """NC PROOF on a text."""
-        self.say(f"{document.file.path} is an NC program.")
+        self.push_screen(ProofScreen(document, self.keep_nc))
+
+    @property
+    def proof(self) -> ProofScreen | None:
+        """NC PROOF, where it is in front."""
+        return self.screen if isinstance(self.screen, ProofScreen) else None
+
+    @property
+    def proofs(self) -> list[ProofScreen]:
+        """Every NC PROOF that is open."""
+        return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
+
+    def action_nc_proof(self) -> None:
+        """Ask for the path of an NC program."""
+        self.action_open_path()
 
     def show_folder(self, folder: Path) -> None:
         """HOME with the files of a folder."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from textual import work
 from textual.app import App
 
-from app.documents.document import ContourDocument, NcDocument
+from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.folders import chosen
 from app.documents.naming import typed
 from app.documents.questions import DISCARD, GO_BACK, SAVE, Ask, held_sentence, leaving
@@ -23,6 +23,7 @@ from app.session.session import SEGMENT, Session
 from core.units import Unit
 
 if TYPE_CHECKING:
+    from app.nc_proof.screen import ProofScreen
     from app.screens.base import BaseScreen
 
 
@@ -51,6 +52,16 @@ class FileActions(App[int]):
 
     def show_nc(self, document: NcDocument) -> None:
         """NC PROOF on a text."""
+        raise NotImplementedError
+
+    @property
+    def proof(self) -> ProofScreen | None:
+        """NC PROOF, where it is in front."""
+        raise NotImplementedError
+
+    @property
+    def proofs(self) -> list[ProofScreen]:
+        """Every NC PROOF that is open."""
         raise NotImplementedError
 
     def show_screen(self, screen: BaseScreen) -> None:
@@ -83,6 +94,11 @@ class FileActions(App[int]):
         self.settings = settings
         if text := self.settings_file.keep(settings):
             self.say(text, Tone.WARNING)
+
+    def keep_nc(self, document: NcDocument) -> None:
+        """Put what was edited in an NC text on the disk."""
+        if self.service is not None:
+            self.tell(self.service.keep(document))
 
     # ---- open
 
@@ -154,8 +170,10 @@ class FileActions(App[int]):
     # ---- save
 
     def action_save(self) -> None:
-        """Save under the name the program has, or ask for one."""
-        if self.document.file.path is None:
+        """Save under the name the program, or the NC text in front, has, or ask for one."""
+        if self.proof is not None:
+            self._save_nc(self.proof, None)
+        elif self.document.file.path is None:
             self.action_save_as()
         else:
             self._save(None)
@@ -164,7 +182,7 @@ class FileActions(App[int]):
         """Ask for a name."""
         from app.screens.file_names import SaveAsScreen
 
-        path = self.document.file.path
+        path = self.document.file.path if self.proof is None else self.proof.document.file.path
         name = str(path) if path is not None else f"{self.document.title or 'part'}.toml"
         self.show_screen(SaveAsScreen(name))
 
@@ -177,7 +195,56 @@ class FileActions(App[int]):
 
     def save_as(self, text: str) -> None:
         """Save under a typed name."""
-        self._save(typed(text))
+        if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:]:
+            self._save_nc(self.proofs[-1], typed(text))
+        else:
+            self._save(typed(text))
+
+    @work(exclusive=True, group="question")
+    async def _save_nc(self, proof: ProofScreen, path: Path | None) -> None:
+        if proof.document.file.path is None and path is None:
+            self.action_save_as()
+        elif await self.saved_nc(proof, path) and path is not None:
+            await self.run_action("app.back")
+
+    async def saved_nc(self, proof: ProofScreen, path: Path | None) -> bool:
+        """Save an NC text, asking what is to be asked; whether it was saved."""
+        if self.service is None or not proof.take_lines():
+            return False
+        result = await self._written(proof.document, path)
+        if isinstance(result, Saved):
+            proof.saved(result.document)
+            self.notify(result.notice.text, timeout=4)
+        return isinstance(result, Saved)
+
+    def close_nc(self, document: NcDocument) -> None:
+        """Leave an NC text; changes that are not saved are asked about."""
+        self._close_nc(document)
+
+    @work(exclusive=True, group="question")
+    async def _close_nc(self, document: NcDocument) -> None:
+        ask = leaving("LEAVE?", [document])
+        word = DISCARD if ask is None else await self.ask(ask)
+        if word == SAVE and self.proof is not None and not await self.saved_nc(self.proof, None):
+            return
+        if word != GO_BACK:
+            if self.service is not None and self.proof is not None:
+                self.service.close(self.proof.document)
+            await self.run_action("app.back")
+
+    async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
+        """Save a document, asking what is to be asked; None where it was not saved."""
+        assert self.service is not None
+        agreed: frozenset[str] = frozenset()
+        while isinstance(result := self.service.save(document, path, agreed), Ask):
+            word = await self.ask(result)
+            if word == GO_BACK:
+                return None
+            agreed |= {word}
+        if isinstance(result, Trouble):
+            self.say(result.text, Tone.ERROR)
+            return None
+        return result
 
     @work(exclusive=True, group="question")
     async def _save(self, path: Path | None) -> None:
@@ -188,21 +255,15 @@ class FileActions(App[int]):
         """Save, asking what is to be asked; whether it was saved."""
         if self.service is None:
             return False
-        agreed: frozenset[str] = frozenset()
-        while isinstance(result := self.service.save(self.document, path, agreed), Ask):
-            word = await self.ask(result)
-            if word == GO_BACK:
-                return False
-            agreed |= {word}
-        if isinstance(result, Saved):
-            self.document = result.document
-            self.begin(session_of(result.document, self.current_session))
-            if result.document.file.path is not None:
-                self.keep_settings(self.settings.using(result.document.file.path))
-            self.notify(result.notice.text, timeout=4)
-            return True
-        self.say(result.text, Tone.ERROR)
-        return False
+        result = await self._written(self.document, path)
+        if result is None:
+            return False
+        self.document = result.document
+        self.begin(session_of(result.document, self.current_session))
+        if result.document.file.path is not None:
+            self.keep_settings(self.settings.using(result.document.file.path))
+        self.notify(result.notice.text, timeout=4)
+        return True
 
     @property
     def current_session(self) -> Session:
@@ -217,11 +278,26 @@ class FileActions(App[int]):
 
     @work(exclusive=True, group="question")
     async def _leave(self) -> None:
-        if not await self.may_leave("QUIT?"):
+        documents: list[Document] = [self.document, *(proof.document for proof in self.proofs)]
+        ask = leaving("QUIT?", documents)
+        word = DISCARD if ask is None else await self.ask(ask)
+        if word == GO_BACK or (word == SAVE and not await self._all_saved()):
             return
-        if self.service is not None:
-            self.service.close(self.document)
+        self._close(self.document)
+        for proof in self.proofs:
+            self._close(proof.document)
         self.exit(0)
+
+    def _close(self, document: Document) -> None:
+        if self.service is not None:
+            self.service.close(document)
+
+    async def _all_saved(self) -> bool:
+        """Save everything that is open; whether all of it was saved."""
+        for proof in self.proofs:
+            if proof.document.unsaved and not await self.saved_nc(proof, None):
+                return False
+        return not self.document.unsaved or await self.saved(None)
 
 
 def session_of(document: ContourDocument, before: Session | None = None) -> Session:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from app.cli.shell import UNUSABLE, say
+from app.documents.document import ContourDocument
 from app.documents.naming import program_named
 from app.documents.service import DocumentService, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
@@ -43,8 +44,9 @@ def run(path: Path | None, *, example: str | None = None, characters: str = "", 
     settings, _ = load_settings(settings_file())
     if settings.characters in character_sets and not characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
+    program = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
     app = CutcompApp(
-        session_of(opened.document),
+        session_of(program),
         character_sets=character_sets,
         few_colors=driver.few_colors(os.environ),
         light=light or settings.theme == "light",

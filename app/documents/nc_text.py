@@ -6,6 +6,7 @@ A line keeps its own line end, so that what nobody touched is written back byte 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -107,6 +108,30 @@ class NcText:
             return self._do(Change(row, self.lines[row : row + 2], (MARK + behind,)))
         return self._do(Change(row, (self.lines[row],), ()))
 
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """The lines without their ends, as an editor shows them: after a last line end there is an empty one."""
+        texts = tuple(self.text(row) for row in range(len(self.lines)))
+        return (*texts, "") if not self.lines or self._end_of(len(self.lines) - 1) else texts
+
+    def with_texts(self, texts: Sequence[str]) -> NcText:
+        """The text with these lines, as `texts` gives them, by one change; lines that stay keep their own ends."""
+        before = self.texts
+        first, behind = _shared(before, texts)
+        moved = len(before) - len(texts)
+        lines = []
+        for row, text in enumerate(texts[:-1]):
+            old = row if row < min(len(texts), len(before)) - behind else row + moved
+            lines.append(text + (self._end_of(old) if 0 <= old < len(self.lines) else ""))
+            if not _END.search(lines[-1]):
+                lines[-1] += self._usual()
+        lines += [text for text in texts[-1:] if text]
+        if self.lines and self.lines[0].startswith(MARK):
+            lines[:1] = [MARK + "".join(lines[:1])]
+        first, behind = _shared(self.lines, lines)
+        removed, inserted = self.lines[first : len(self.lines) - behind], lines[first : len(lines) - behind]
+        return self._do(Change(first, removed, tuple(inserted))) if removed or inserted else self
+
     def _end_of(self, row: int) -> str:
         found = _END.search(self.lines[row])
         return found[0] if found else ""
@@ -155,3 +180,11 @@ class NcText:
 def _with(listing: NcText, change: Change) -> NcText:
     lines, behind = listing.lines, change.row + len(change.removed)
     return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[behind:]))
+
+
+def _shared(before: Sequence[str], after: Sequence[str]) -> tuple[int, int]:
+    """How many lines at the beginning, and behind these at the end, are the same."""
+    most = min(len(before), len(after))
+    first = next((row for row in range(most) if before[row] != after[row]), most)
+    behind = next((row for row in range(most - first) if before[-1 - row] != after[-1 - row]), most - first)
+    return first, behind

@@ -29,6 +29,7 @@ from textual.screen import Screen
 from textual.widget import Widget
 from textual.widgets import Input
 
+from app.documents.document import NcDocument
 from app.session.block_findings import Entry as FindingEntry
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
@@ -80,6 +81,9 @@ class Host(Protocol):
 
     def save_as(self, text: str) -> None:
         """Save the program under a typed name."""
+
+    def close_nc(self, document: NcDocument) -> None:
+        """Leave an NC text; changes that are not saved are asked about."""
 
     def show_folder(self, folder: Path) -> None:
         """HOME with the files of a folder."""
@@ -152,6 +156,10 @@ class BaseScreen(Screen[None]):
         """What the table of fields says of the field with the cursor; None where that is none."""
         return None
 
+    def take_over(self, action: str) -> bool:  # noqa: ARG002  # screens with a document of their own use it
+        """Do undo or redo on what this screen shows, where that is not the program; whether it was done."""
+        return False
+
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
         """Name, action and hint of what can be done on this screen besides its softkeys, for the palette."""
         return ()
@@ -188,7 +196,9 @@ class BaseScreen(Screen[None]):
             self.refresh_frame()
 
     def refresh_frame(self) -> None:
-        """Prompt and softkeys as they are now."""
+        """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
+        if not self.query(Prompt):
+            return
         self.query_exactly_one(Prompt).show(self.said or self.prompt_text())
         self.query_exactly_one(Softkeys).refresh_keys()
 

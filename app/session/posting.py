@@ -30,9 +30,9 @@ class NcText:
 
 def choices() -> tuple[tuple[str, str], ...]:
     """Name and description of each choice: the center path, and every control that posts."""
-    from core.controls.registry import names
+    from core.controls.registry import choices as controls
 
-    own = ((name, "the contour as typed; this control compensates it") for name in names())
+    own = ((choice.control, choice.about) for choice in controls())
     return ((CENTER_PATH, "the tool's center path, without G41 or G42: any control"), *own)
 
 

@@ -1,0 +1,101 @@
+"""Dialogs of NC PROOF: the list of controls, and what every control does with a program."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual import on, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical
+from textual.content import Content
+from textual.screen import ModalScreen
+from textual.widgets import OptionList, Static
+from textual.widgets.option_list import Option
+
+from app.nc_proof.runs import Compared, Question, compare
+
+
+class ChooseControl(ModalScreen[str]):
+    """The controls, each with a line about it; the result is a control's full name, empty for none."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
+
+    def __init__(self, here: str) -> None:
+        super().__init__()
+        self.here = here
+
+    def compose(self) -> ComposeResult:
+        """The list."""
+        from core.controls.registry import choices
+
+        with Vertical(id="controls-box", classes="wide-box"):
+            yield OptionList(
+                *(
+                    Option(Content.assemble(f"{choice.name:<20}", (choice.about, "$c-label")), id=choice.control)
+                    for choice in choices()
+                ),
+                id="controls",
+                compact=True,
+            )
+
+    def on_mount(self) -> None:
+        """The cursor on the control in use."""
+        self.query_exactly_one("#controls-box").border_title = "CONTROL"
+        controls = self.query_exactly_one("#controls", OptionList)
+        rows = [row for row in range(controls.option_count) if controls.get_option_at_index(row).id == self.here]
+        controls.highlighted = rows[0] if rows else 0
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        self.dismiss(event.option_id or "")
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss("")
+
+
+class CompareControls(ModalScreen[str]):
+    """What every control does with a program; Enter takes one, the result is its full name."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
+
+    def __init__(self, question: Question) -> None:
+        super().__init__()
+        self.question = question
+
+    def compose(self) -> ComposeResult:
+        """The list, empty until the controls have answered."""
+        with Vertical(id="compare-box", classes="wide-box"):
+            yield Static("Every control is running the program ...", id="compare-wait")
+            yield OptionList(id="compared", compact=True)
+
+    def on_mount(self) -> None:
+        """Ask all controls."""
+        self.query_exactly_one("#compare-box").border_title = "COMPARE CONTROLS"
+        self._compare()
+
+    @work(thread=True, exclusive=True, group="compare")
+    def _compare(self) -> None:
+        self.post_message(Compared(self.question, compare(self.question)))
+
+    @on(Compared)
+    def _compared(self, event: Compared) -> None:
+        event.stop()
+        self.query_exactly_one("#compare-wait").display = False
+        rows = self.query_exactly_one("#compared", OptionList)
+        for answer in event.answers:
+            role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else "$c-good"
+            lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome, role))]
+            lines += [Content.styled(f"    {answer.parts}", "$c-label")] if answer.parts else []
+            rows.add_option(Option(Content("\n").join(lines), id=answer.control))
+        rows.highlighted = 0
+        rows.focus()
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        self.dismiss(event.option_id or "")
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss("")

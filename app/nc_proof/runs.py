@@ -1,0 +1,113 @@
+"""Runs: what is asked of a control about an NC text, and the answer; worked out in a worker."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from textual.message import Message
+
+from app.documents.nc_text import NcText
+
+if TYPE_CHECKING:
+    from app.cli.checking import Answer
+    from core.controls.control_tools import ToolTable
+    from core.draw.scene import Scene
+    from core.finding import Finding
+    from core.pipeline.proof import Proof
+    from core.units import Unit
+
+MAX_GUESS_LINES: Final = 200
+"""Lines that are looked at to guess which control a program is for."""
+_KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
+_TOOL: Final = re.compile(r"(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Question:
+    """A text on a control with these tools; equal only to itself."""
+
+    text: NcText
+    control: str
+    tools: ToolTable
+    unit: Unit | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Result:
+    """A control's run of a text, in words, as moves and as a drawing; `judged` once the verdicts are in it."""
+
+    question: Question
+    answer: Answer
+    proof: Proof
+    scene: Scene
+    judged: bool
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything found, by line."""
+        return self.answer.findings
+
+
+@dataclass
+class Ran(Message):
+    """A worker has run a text."""
+
+    result: Result
+
+
+@dataclass
+class Compared(Message):
+    """A worker has run a text on every control."""
+
+    question: Question
+    answers: tuple[Answer, ...]
+
+
+def run(question: Question) -> Result:
+    """The program on its control without the verdicts, which take longer than the run."""
+    from core.controls.registry import UnknownControl
+    from core.pipeline.proof import run_program
+
+    proof = run_program(question.text.data, question.control, question.tools, question.unit)
+    assert not isinstance(proof, UnknownControl), proof.text
+    return _result(question, proof, judged=False)
+
+
+def judge(result: Result) -> Result:
+    """The same with the verdicts."""
+    from core.pipeline.proof import with_verdicts
+
+    return _result(result.question, with_verdicts(result.proof), judged=True)
+
+
+def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
+    from app.cli.checking import answered
+    from core.pipeline.proof import fixed_scene
+
+    answer = answered(proof.run, proof.results, question.text.data)
+    return Result(question, answer, proof, fixed_scene(proof), judged)
+
+
+def compare(question: Question) -> tuple[Answer, ...]:
+    """Every control's answer to a text."""
+    from app.cli.checking import Asked, answer_all
+
+    return answer_all(question.text.data, Asked("all", question.tools, shop=False, unit=question.unit))
+
+
+def likely_control(text: NcText) -> str:
+    """The control a text is most likely for: Klartext by its first words, else LinuxCNC, whose rules are checked."""
+    rows = range(min(MAX_GUESS_LINES, len(text)))
+    first = next((line for row in rows if (line := text.text(row)).strip()), "")
+    return "klartext" if _KLARTEXT.match(first) else "linuxcnc"
+
+
+def first_tool(text: NcText) -> int:
+    """The number of the first tool or offset a text names, 1 without any."""
+    for row in range(min(MAX_GUESS_LINES, len(text))):
+        found = _TOOL.search(text.text(row))
+        if found and int(found[1]):
+            return int(found[1])
+    return 1

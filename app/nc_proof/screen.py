@@ -1,0 +1,442 @@
+"""NC PROOF: an NC program's listing, the path that a control makes of it, and what is to be said about it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar, Final
+
+from textual import on, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.widgets import Label, OptionList, Static
+from textual.widgets.option_list import Option
+
+from app.documents.document import NcDocument
+from app.documents.nc_text import NcText
+from app.nc_proof.dialogs import ChooseControl, CompareControls
+from app.nc_proof.listing import Listing
+from app.nc_proof.runs import Question, Ran, Result, first_tool, judge, likely_control, run
+from app.screens.base import BaseScreen
+from app.screens.dialogs import Phrase
+from app.session.messages import Sentence, Tone
+from app.session.session import Session
+from app.widgets.drawing import Drawing
+from app.widgets.softkeys import Softkey
+from app.widgets.verdict import MARKS
+from core.controls.control_tools import CutterTool, ToolTable
+from core.finding import Finding, Severity
+from core.units import Kind, Unit, Unreadable, parse, sentence
+
+if TYPE_CHECKING:
+    from core.draw.view import View
+
+READING: Final = (
+    "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
+)
+EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
+STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
+"""How much < and > change a diameter."""
+ZOOM: Final = 1.25
+"""One press enlarges by this factor."""
+ORDER: Final = tuple(Severity)
+"""The gravest first."""
+_NUMBERED: Final = re.compile(r"\s*(\d{1,4})\s*=(.*)")
+
+
+class ProofScreen(BaseScreen):
+    """One NC text under proof; `keep` puts its edits on the disk, `save` writes it."""
+
+    AUTO_FOCUS: ClassVar[str | None] = "#listing"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter", "edit", "Edit", show=False),
+        Binding("escape", "leave", "Back", show=False),
+        Binding("n", "finding(1)", "Next finding", show=False),
+        Binding("p", "finding(-1)", "Finding before", show=False),
+        Binding("ctrl+n", "finding(1)", "Next finding", show=False),
+        Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
+        Binding("c", "control", "Choose control", show=False),
+        Binding("t", "tool", "Tool diameter", show=False),
+        Binding("v", "compare", "Compare controls", show=False),
+        Binding("less_than_sign", "diameter(-1)", "Smaller", show=False),
+        Binding("greater_than_sign", "diameter(1)", "Larger", show=False),
+        Binding("plus,equals_sign", "zoom(1)", "Zoom in", show=False),
+        Binding("minus", "zoom(-1)", "Zoom out", show=False),
+        Binding("0", "fit", "Whole program", show=False),
+        Binding("m", "app.next_characters", "Characters", show=False),
+        Binding("tab", "other_panel", "Listing or findings", show=False),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("EDIT", "edit", "EDIT"),
+        Softkey("CHOOSE CONTROL", "control", "CONTROL"),
+        Softkey("TOOL DIAMETER", "tool", "TOOL"),
+        Softkey("COMPARE CONTROLS", "compare", "COMPARE"),
+        Softkey("NEXT FINDING", "finding(1)", "NEXT"),
+        Softkey("SAVE", "app.save", "SAVE"),
+        Softkey("DRAW", "large", "DRAW"),
+        Softkey("BACK", "close", "BACK"),
+    )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
+
+    def __init__(self, document: NcDocument, keep: Callable[[NcDocument], None], *, control: str = "") -> None:
+        super().__init__()
+        self.document, self._keep = document, keep
+        text = document.text
+        self.question = Question(text, control or likely_control(text), ToolTable())
+        self.tool = first_tool(text)
+        self.result: Result | None = None
+        self.view_of: View | None = None
+
+    def compose_body(self) -> ComposeResult:
+        """Titles, listing, drawing, findings."""
+        with Vertical(id="proof-title"):
+            with Horizontal(classes="head"):
+                yield Label("NC PROOF", classes="head-label")
+                yield Label(id="proof-control", classes="head-kind")
+                yield Label(id="proof-file", classes="head-note")
+            yield Static(id="proof-outcome", classes="head")
+        with Horizontal(id="proof-body"):
+            yield Listing(id="listing")
+            yield Drawing(id="proof-drawing")
+        yield OptionList(id="proof-findings", classes="panel", compact=True)
+
+    def on_mount(self) -> None:
+        """The text, the cursor where it was, and the first run."""
+        self.show_text()
+        self.query_exactly_one(Listing).go_to_row(self.document.row)
+        super().on_mount()
+        self._ask(self.question)
+
+    # ---- the text
+
+    def show_text(self) -> None:
+        """The document's lines in the listing, the cursor in its row."""
+        listing = self.query_exactly_one(Listing)
+        row = listing.row
+        listing.load_text("\n".join(self.document.text.texts))
+        listing.go_to_row(row)
+
+    def take_lines(self) -> bool:
+        """Take what was typed in the listing; False where the file's encoding cannot hold it."""
+        listing = self.query_exactly_one(Listing)
+        text = self.document.text.with_texts(listing.document.lines)
+        if text is self.document.text:
+            return True
+        if not text.takes("".join(listing.document.lines)):
+            self.say(f"The file is written in {text.encoding}, which cannot hold this line.", Tone.ERROR)
+            return False
+        self._change(text, listing.row)
+        return True
+
+    def _change(self, text: NcText, row: int) -> None:
+        self.document = self.document.edited(text, row)
+        self._keep(self.document)
+        self._ask(replace(self.question, text=text))
+
+    def take_over(self, action: str) -> bool:
+        """Undo, redo and save are those of the text here."""
+        match action:
+            case "undo":
+                self._turn(self.document.text.undone(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
+            case "redo":
+                self._turn(self.document.text.redone(), "Done again.", "There is nothing to redo.")
+            case _:
+                return False
+        return True
+
+    def _turn(self, text: NcText, done: str, nothing: str) -> None:
+        if not self.take_lines():
+            return
+        if text is self.document.text:
+            self.say(nothing)
+            return
+        changes = text.future if len(text.future) > len(self.document.text.future) else text.past
+        row = changes[-1].row if changes else 0
+        self._change(text, row)
+        self.show_text()
+        self.query_exactly_one(Listing).go_to_row(row)
+        self.say(done)
+
+    def saved(self, document: NcDocument) -> None:
+        """The text was written."""
+        self.document = document
+        self.question = replace(self.question, text=document.text)
+        if self.result is not None:
+            self.result = replace(self.result, question=self.question)
+        self._show_titles()
+
+    def action_edit(self) -> None:
+        """Type in the listing, or only read it."""
+        listing = self.query_exactly_one(Listing)
+        if self.document.file.holder is not None:
+            self.say("Somebody else has this file open. SAVE AS makes a copy of your own.", Tone.WARNING)
+            return
+        listing.focus()
+        listing.read_only = not listing.read_only
+        if listing.read_only:
+            self.take_lines()
+        self.refresh_frame()
+
+    def action_leave(self) -> None:
+        """Out of editing, out of the large drawing, out of the findings, then out of the screen."""
+        listing = self.query_exactly_one(Listing)
+        if not listing.read_only:
+            self.action_edit()
+        elif self.has_class("-large"):
+            self.action_large()
+        elif not listing.has_focus:
+            listing.focus()
+        else:
+            self.action_close()
+
+    def action_close(self) -> None:
+        """Leave the screen; changes that are not saved are asked about."""
+        if self.take_lines():
+            self.host.close_nc(self.document)
+
+    @on(Listing.SelectionChanged)
+    def _moved(self, event: Listing.SelectionChanged) -> None:
+        """A line is taken when the cursor leaves it; the cutter goes to the line's end."""
+        event.stop()
+        row = self.query_exactly_one(Listing).row
+        if row != self.document.row:
+            self.quiet()
+            if not self.query_exactly_one(Listing).read_only:
+                self.take_lines()
+            self.document = self.document.edited(self.document.text, row)
+            self._draw()
+            self._show_finding_of_row()
+
+    # ---- the control's run
+
+    def _ask(self, question: Question) -> None:
+        self.question = question
+        self._show_titles()
+        self._run(question)
+
+    @work(thread=True, exclusive=True, group="proof")
+    def _run(self, question: Question) -> None:
+        result = run(question)
+        self.post_message(Ran(result))
+        self.post_message(Ran(judge(result)))
+
+    @on(Ran)
+    def _ran(self, event: Ran) -> None:
+        event.stop()
+        if event.result.question is not self.question:
+            return
+        self.result = event.result
+        marks: dict[int, Severity] = {}
+        for finding in event.result.findings:
+            if finding.line is not None:
+                known = marks.get(finding.line, Severity.INFO)
+                marks[finding.line] = min(known, finding.severity, key=ORDER.index)
+        self.query_exactly_one(Listing).marks = marks
+        self._show_findings()
+        self._show_titles()
+        self._draw()
+
+    @property
+    def unit(self) -> Unit:
+        """The program's unit as far as it is known."""
+        return Unit.IN if self.result is None else self.result.answer.unit
+
+    def _show_titles(self) -> None:
+        tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
+        control = f"{shown_control(self.question.control)}   tools {tools or 'none given'}"
+        self.query_exactly_one("#proof-control", Label).update(control)
+        path = self.document.file.path
+        name = "NO NAME" if path is None else path.name
+        self.query_exactly_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
+        self.query_exactly_one("#proof-outcome", Static).update(self._outcome())
+
+    def _outcome(self) -> Content:
+        if self.result is None:
+            return Content(" running ...")
+        answer = self.result.answer
+        role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated else "$c-good"
+        text = f" {answer.outcome}; {answer.count} moves, {answer.stretches} contours"
+        if not self.result.judged:
+            role, text = "$c-warn", " being judged ..."
+        return Content.styled(f"{text}{'' if self.result.question is self.question else ' ...'}", role)
+
+    # ---- findings
+
+    def _show_findings(self) -> None:
+        findings, marks = self.query_exactly_one("#proof-findings", OptionList), MARKS[self.host.characters]
+        found = () if self.result is None else self.result.findings
+        findings.border_title = f"FINDINGS  {len(found)}" if found else "FINDINGS  none"
+        at = findings.highlighted
+        findings.clear_options()
+        findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in found])
+        findings.highlighted = None if not found else min(at or 0, len(found) - 1)
+
+    def _line(self, finding: Finding, error: str, warning: str) -> Content:
+        sign = {Severity.ERROR: error, Severity.WARNING: warning}.get(finding.severity, "i")
+        role = {Severity.ERROR: "$c-err", Severity.WARNING: "$c-warn"}.get(finding.severity, "$c-label")
+        where = f"{finding.line}: " if finding.line is not None else ""
+        return Content.styled(f"{sign} {where}{sentence(finding, self.unit)}", role)
+
+    def _show_finding_of_row(self) -> None:
+        """The gravest finding of the line with the cursor is in hand."""
+        findings = self.query_exactly_one("#proof-findings", OptionList)
+        if self.result is None or findings.has_focus:
+            return
+        here = [at for at, finding in enumerate(self.result.findings) if finding.line == self.document.row + 1]
+        if here and findings.highlighted not in here:
+            findings.highlighted = min(here, key=lambda at: ORDER.index(self.result_findings[at].severity))
+
+    @property
+    def result_findings(self) -> tuple[Finding, ...]:
+        """What was found last."""
+        return () if self.result is None else self.result.findings
+
+    def action_finding(self, by: int) -> None:
+        """The next finding after the line with the cursor, or the one before it."""
+        lines = [(finding.line or 0, at) for at, finding in enumerate(self.result_findings)]
+        findings = self.query_exactly_one("#proof-findings", OptionList)
+        at = findings.highlighted
+        row = self.document.row + 1
+        here = (row, at) if at is not None and lines and lines[at][0] == row else (row, -1 if by > 0 else len(lines))
+        there = [each for each in lines if (each > here if by > 0 else each < here)]
+        if not there:
+            self.say("No further finding." if lines else "There are no findings.")
+            return
+        self._take_finding((there[0] if by > 0 else there[-1])[1])
+
+    def _take_finding(self, at: int) -> None:
+        finding = self.result_findings[at]
+        self.query_exactly_one("#proof-findings", OptionList).highlighted = at
+        if finding.line is not None:
+            self.query_exactly_one(Listing).go_to_row(finding.line - 1)
+        self.call_after_refresh(self.say, sentence(finding, self.unit))
+
+    @on(OptionList.OptionHighlighted, "#proof-findings")
+    def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:
+        event.stop()
+        if event.option_list.has_focus:
+            self._take_finding(event.option_index)
+
+    @on(OptionList.OptionSelected, "#proof-findings")
+    def _finding_selected(self, event: OptionList.OptionSelected) -> None:
+        event.stop()
+        self.query_exactly_one(Listing).focus()
+
+    def action_other_panel(self) -> None:
+        """The cursor to the findings, or back to the listing."""
+        listing = self.query_exactly_one(Listing)
+        other = self.query_exactly_one("#proof-findings", OptionList)
+        (other if listing.has_focus and self.result_findings else listing).focus()
+
+    # ---- the drawing
+
+    def _draw(self) -> None:
+        if self.result is None:
+            return
+        # numpy and shapely are not needed by the first paint
+        from core.pipeline.plot import SceneSubject
+        from core.pipeline.proof import scene_at_line
+
+        drawing = self.query_exactly_one("#proof-drawing", Drawing)
+        drawing.characters, drawing.heading = self.host.characters, f"LINE {self.document.row + 1}"
+        scene = scene_at_line(self.result.scene, self.result.proof, self.document.row + 1)
+        drawing.subject = SceneSubject(scene, self.unit, self.view_of)
+
+    def action_zoom(self, steps: int) -> None:
+        """Enlarge or shrink on the cutter."""
+        from core.pipeline.proof import cutter_at_line
+
+        drawn = self.query_exactly_one("#proof-drawing", Drawing).drawn
+        if drawn is None or self.result is None:
+            return
+        at, _ = cutter_at_line(self.result.proof, self.document.row + 1)
+        self.view_of = drawn.view.zoom(ZOOM**steps, at)
+        self._draw()
+
+    def action_fit(self) -> None:
+        """The whole program."""
+        self.view_of = None
+        self._draw()
+
+    def action_large(self) -> None:
+        """The drawing on the whole width, or beside the listing."""
+        self.toggle_class("-large")
+
+    # ---- control and tools
+
+    @work(exclusive=True, group="question")
+    async def action_control(self) -> None:
+        """Choose the control from a list."""
+        control = await self.app.push_screen_wait(ChooseControl(self.question.control))
+        if control and self.take_lines():
+            self._ask(replace(self.question, control=control))
+
+    @work(exclusive=True, group="question")
+    async def action_compare(self) -> None:
+        """What every control does; one of them can be taken."""
+        if not self.take_lines():
+            return
+        control = await self.app.push_screen_wait(CompareControls(self.question))
+        if control:
+            self._ask(replace(self.question, control=control))
+
+    @work(exclusive=True, group="question")
+    async def action_tool(self) -> None:
+        """Give a tool or an offset another diameter."""
+        lines = [
+            f"Number and diameter in {self.unit}, such as {self.tool}=.5 or 2=12.7mm,",
+            f"or tool {self.tool}'s alone.",
+        ]
+        text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines))
+        if not text.strip():
+            return
+        tool = read_tool(text, self.tool, self.unit)
+        if isinstance(tool, str):
+            self.say(tool, Tone.ERROR)
+        else:
+            self._with_tool(tool)
+
+    def _with_tool(self, tool: CutterTool) -> None:
+        self.tool = tool.number
+        self._ask(replace(self.question, tools=self.question.tools.with_tools(ToolTable.of(tool))))
+
+    def action_diameter(self, by: int) -> None:
+        """The tool a little smaller or larger: the verdict follows."""
+        tool = self.question.tools.get(self.tool)
+        if tool is None:
+            self.say(f"Tool {self.tool} has no diameter yet: T gives it one.")
+            return
+        size = round(tool.diameter + by * STEPS[tool.unit or self.unit], 6)
+        self._with_tool(replace(tool, diameter=size))
+        self.say(f"Tool {tool.number} is {size:g} across.")
+
+    # ---- the frame
+
+    def show_session(self, session: Session) -> None:
+        """Nothing of the contour program stands here."""
+
+    def prompt_text(self) -> Sentence:
+        """What the keys do."""
+        return Sentence(READING if self.query_exactly_one(Listing).read_only else EDITING)
+
+    def help_lines(self) -> tuple[str, ...]:
+        """What the screen is for."""
+        return ("NC PROOF", "The listing, what the control makes of it, and the findings; Tab changes between them.")
+
+
+def read_tool(text: str, number: int, unit: Unit) -> CutterTool | str:
+    """A tool as typed, `2=.5` or a diameter alone, or why it is none."""
+    found = _NUMBERED.fullmatch(text)
+    number, size = (int(found[1]), found[2]) if found else (number, text)
+    value = parse(size, Kind.LENGTH, unit)
+    return value.reason if isinstance(value, Unreadable) else CutterTool(number, value, unit=unit)
+
+
+def shown_control(control: str) -> str:
+    """A control's name as people know it."""
+    from core.controls.control_names import shown_name
+
+    return shown_name(control)

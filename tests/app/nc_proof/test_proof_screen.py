@@ -1,0 +1,152 @@
+"""NC PROOF: keys in, listing, verdict and file out."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+import pytest
+from textual.widgets import Label, OptionList, Static
+
+from app.app import CutcompApp
+from app.documents.service import DocumentService, Opened
+from app.file_actions import session_of
+from app.nc_proof.dialogs import CompareControls
+from app.nc_proof.listing import Listing
+from app.nc_proof.screen import ProofScreen, read_tool
+from app.screens.dialogs import Question
+from core.controls.control_tools import CutterTool
+from core.units import Unit
+from tests.app.widget_pilot import SURROUNDINGS, Operator
+
+PROGRAM = b"G20 G17 F10\r\nG1 X0 Y-1\nG42 D1 X1 Y1;\nX3\nY3\nG40 X0\nM2\n"
+
+
+class Proof(Operator):
+    """Somebody at NC PROOF."""
+
+    async def settle(self) -> None:
+        for _ in range(3):
+            working = [
+                worker
+                for worker in self.app.workers
+                if worker.group in ("proof", "compare", "derive", "table", "drawing")
+            ]
+            if working:
+                await self.app.workers.wait_for_complete(working)
+            await self.pilot.pause()
+
+    @property
+    def proof(self) -> ProofScreen:
+        assert isinstance(self.app.screen, ProofScreen)
+        return self.app.screen
+
+    @property
+    def outcome(self) -> str:
+        return str(self.proof.query_one("#proof-outcome", Static).content)
+
+    @property
+    def line(self) -> int:
+        return self.proof.query_one(Listing).row + 1
+
+    def findings(self) -> list[str]:
+        listed = self.proof.query_one("#proof-findings", OptionList)
+        return [str(listed.get_option_at_index(row).prompt) for row in range(listed.option_count)]
+
+
+@asynccontextmanager
+async def at_proof(tmp_path, data: bytes = PROGRAM) -> AsyncIterator[Proof]:
+    (tmp_path / "p.nc").write_bytes(data)
+    service = DocumentService(own=tmp_path / "own")
+    opened = service.open(tmp_path / "p.nc")
+    assert isinstance(opened, Opened)
+    app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, opened=opened)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Proof(app, pilot)
+        await one.settle()
+        yield one
+        await one.settle()
+    service.stop()
+
+
+async def with_tool(one: Proof, text: str = "1=.25") -> None:
+    await one.press("t")
+    await one.press(*text, "enter")
+    await one.settle()
+
+
+async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_typed(tmp_path):
+    async with at_proof(tmp_path) as one:
+        assert "alarms at line 3" in one.outcome
+        await with_tool(one)
+        assert "gouges by 0.1250" in one.outcome
+        assert "1=0.25" in str(one.proof.query_one("#proof-control", Label).content)
+        await one.press(">")
+        assert "gouges by 0.1255" in one.outcome
+
+
+async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        lines = [int(text.split()[1].rstrip(":")) for text in one.findings()]
+        await one.press("n")
+        assert one.line == lines[0]
+        await one.press("n", "p")
+        assert one.line == lines[0]
+
+
+async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.press("x", "y")
+        assert not one.proof.document.unsaved
+        await one.press("enter", "x")
+        assert not one.proof.document.unsaved
+        await one.press("down")
+        assert one.proof.document.text.text(0) == "xG20 G17 F10"
+        await one.press("ctrl+z")
+        assert one.proof.document.text.data == PROGRAM
+        await one.press("ctrl+y", "escape", "ctrl+s")
+        assert (tmp_path / "p.nc").read_bytes() == b"x" + PROGRAM
+
+
+async def test_an_edited_line_is_on_the_disk_when_the_cursor_has_left_it(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.press("enter", "x", "down")
+        assert (tmp_path / ".p.nc.cutcomp-journal").exists()
+        await one.press("escape", "f8")
+        assert isinstance(one.app.screen, Question)
+        await one.press("d")
+        await one.settle()
+        assert not isinstance(one.app.screen, ProofScreen)
+        assert (tmp_path / "p.nc").read_bytes() == PROGRAM
+        assert not (tmp_path / ".p.nc.cutcomp-journal").exists()
+
+
+async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        await one.press("v")
+        assert isinstance(one.app.screen, CompareControls)
+        await one.settle()
+        rows = one.app.screen.query_one("#compared", OptionList)
+        assert rows.option_count >= 8
+        taken = rows.get_option_at_index(0).id
+        await one.press("enter")
+        await one.settle()
+        assert one.proof.question.control == taken
+
+
+@pytest.mark.parametrize(
+    ("text", "tool"),
+    [
+        ("2=.5", CutterTool(2, 0.5, unit=Unit.IN)),
+        (".5", CutterTool(1, 0.5, unit=Unit.IN)),
+        ("3=12.7mm", CutterTool(3, 0.5, unit=Unit.IN)),
+    ],
+)
+def test_a_tool_is_typed_with_its_number_or_as_a_diameter_alone(text, tool):
+    assert read_tool(text, 1, Unit.IN) == tool
+
+
+def test_a_diameter_that_cannot_be_read_is_a_sentence():
+    assert isinstance(read_tool("2=abc", 1, Unit.IN), str)
