@@ -8,10 +8,12 @@ differs.  Journals of format 1 are read, too: there the two kinds had formats of
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
+from pathlib import Path
 from typing import Final
 
 from app.documents.contour_journal import ContourReplay, DamagedError, text_of, whole_of
@@ -170,7 +172,7 @@ def _head_of(record: Record) -> Head:
 
 def _path_of(file: str | None) -> str | None:
     """A path that the system could have."""
-    if file is not None and (not file or "\0" in file):
+    if file is not None and (not Path(file).name or b"\0" in os.fsencode(file)):
         raise DamagedError
     return file
 

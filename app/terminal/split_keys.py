@@ -28,8 +28,8 @@ TOGETHER: Final = 0.1
 """Seconds within which Esc and a character are one key, as a terminal sends it; fingers take longer."""
 REST: Final = 1.0
 """Seconds a key that has certainly begun waits for its rest."""
-PASTING: Final = 10.0
-"""Seconds in which nothing comes of pasted text behind which its end is not waited for any more."""
+PASTING: Final = 2.0
+"""Seconds after the last byte of pasted text in which its end has to come."""
 MOST: Final = 20_000
 """Characters of pasted text that are held; no field and no line takes as many."""
 LATE: Final = 2.0

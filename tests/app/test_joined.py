@@ -144,14 +144,24 @@ def test_a_paste_comes_whole_however_it_was_split() -> None:
     for place in range(1, len(whole)):
         assert arrived(whole[:place], 0.25, whole[place:], "7") == [whole, "7"]
     for place in range(len(f"{ESC}[200~"), len(whole)):
-        assert arrived(whole[:place], 5.0, whole[place:], "7") == [whole, "7"]
+        assert arrived(whole[:place], 1.9, whole[place:], "7") == [whole, "7"]
 
 
 def test_a_paste_whose_end_does_not_come_is_told_and_keys_work_again() -> None:
     for begun in ("", "1.5", "x" * 40):
         assert arrived(f"{ESC}[200~{begun}", PASTING, "7", f"{ESC}[D") == [UNENDED, "7", f"{ESC}[D"]
-    assert arrived(f"{ESC}[200~1", 8.0, "2", 8.0, f"3{ESC}[201~", "7") == [f"{ESC}[200~123{ESC}[201~", "7"]
+    assert arrived(f"{ESC}[200~1", 1.9, "2", 1.9, f"3{ESC}[201~", "7") == [f"{ESC}[200~123{ESC}[201~", "7"]
     assert arrived(f"{ESC}[200~1", PASTING, f"{ESC}[201~", "7") == [UNENDED, f"{ESC}[201~", "7"]
+
+
+def test_a_paste_without_an_end_ends_two_seconds_after_its_last_byte() -> None:
+    joined = Joined(())
+    assert list(joined.feed(f"{ESC}[200~1.5", 100.0)) == []
+    assert list(joined.feed("2", 101.5)) == []
+    assert joined.due == 103.5
+    assert list(joined.tick(103.4)) == []
+    assert list(joined.tick(103.5)) == [UNENDED]
+    assert list(joined.feed("7", 103.6)) == ["7"]
 
 
 def test_pasted_text_without_an_end_is_said_and_a_half_typed_number_stays() -> None:

@@ -20,7 +20,7 @@ from app.documents.left_overs import kept_copies
 from tests.app.documents.typist import changed_by_another, names, number_in, started
 
 
-def killed_while(file: Path, data: bytes, call: str, instead: Callable[..., object] | None = None) -> None:
+def killed_while(file: Path, data: bytes, call: str, instead: Callable[[int, bytes], object] | None = None) -> None:
     """Write a file in a process that is killed at a call of the module, or that does something else there first."""
 
     def killed(*arguments: Any) -> None:
@@ -94,9 +94,7 @@ def test_killed_while_it_is_written_in_place_the_whole_content_comes_back(own: P
     other.hardlink_to(file)
     data = content(file, 7)
 
-    killed_while(
-        file, data, "_overwrite", lambda handle, whole: (os.write(handle, whole[:30]), os.ftruncate(handle, 30))
-    )
+    killed_while(file, data, "_overwrite", half_overwritten)
     assert len(file.read_bytes()) == 30
     operator = started(own, file)
     assert operator.answer("RESTORE").number == 7
