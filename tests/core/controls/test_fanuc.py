@@ -544,3 +544,24 @@ def test_a_code_of_the_builder_names_the_macro_call() -> None:
 def test_the_corner_of_a_rapid_is_rapid_also_where_it_is_an_arc() -> None:
     done = ran(f"{ENTERED}G0 X10 Y-40\nG40 X0 Y-50\nM30", "fanuc:a-arc")
     assert [(move.rapid, move.turn) for move in list(done.moves) if move.line == 5] == [(True, -1), (True, 0)]
+
+
+def comparable(case: dict[str, Any]) -> bool:
+    variant = case["variant"]
+    usual = variant["read"] == 3 and variant["check"] and variant["corner"] == "linear" and variant["startup"] != "c"
+    return usual and not variant["haas"] and case["id"][0] != "x"
+
+
+PARTED: Final = frozenset({"c09", "i04", "i05", "i07", "m19", "m22", "m25", "m28", "s16"})
+"""D0, R = r and what stands before R < r, dropped vectors, a new D, G41 again, blocks without movement, G39."""
+
+
+def test_the_nine_series_parts_from_fanuc_in_the_listed_cases_alone() -> None:
+    parted = set()
+    for case in filter(comparable, GOLDEN):
+        radii = {int(number): r for number, r in case["offset_radii"].items()}
+        done, other = run_of(case), ran(case["program"], f"nine-series:{case['variant']['startup']}", radii)
+        same = len(flat(done)) == len(flat(other)) and done.stopped_at == other.stopped_at
+        if not same or any(apart(a.end, b.end) > 1e-6 for a, b in zip(flat(done), flat(other), strict=True)):
+            parted.add(case["id"])
+    assert parted == PARTED
