@@ -179,7 +179,7 @@ def test_softkeys_do_what_their_letters_do() -> None:
 def test_the_control_is_changed_and_all_are_compared() -> None:
     prover = Prover.of(CORNER, "rosettacnc:nist").press("v")
     assert isinstance(prover.desk.page, ComparePage)
-    text = "\n".join(prover.screen())
+    text = "\n".join(prover.screen(80, 40))
     assert "> rosettacnc:nist" in text
     assert "by the contour" in text
     prover.press(*["down"] * 4, "enter")
@@ -275,7 +275,7 @@ def test_no_number_is_cut_on_the_table_of_controls_or_in_the_header() -> None:
     told = header.rpartition("  ")[0].removesuffix(" …").split()
     assert told == outcome.split()[: len(told)]
     assert "…" in header
-    seen = " ".join(line.split("│")[0].strip() for line in prover.press("v").screen())
+    seen = " ".join(line.split("│")[0].strip() for line in prover.press("v").screen(80, 40))
     compared = prover.desk.page
     assert isinstance(compared, ComparePage)
     for row in compared.rows:
