@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
+from core.comp.best_path.prepared_contour import Walls
 from core.comp.best_path.raw_offset import raw_offset
 from core.comp.best_path.slices import Slices
 from core.comp.best_path.stitch import stitch
@@ -106,6 +107,6 @@ def test_any_number_of_tiny_slices_in_a_row_that_lead_nowhere_is_taken_away(coun
     points, outer = np.append(0.0, ends) + 5.0j, np.zeros(count + 2, np.bool_)
     turning = np.full(count + 1, -1)
     cut = Slices(piece, piece, ends - size, ends, size, row, row + 1, never, turning, points, outer)
-    made = stitch(raw, cut, 1, surface, 5.0)
+    made = stitch(raw, cut, 1, Walls.of(surface), 5.0)
     assert made.cut.size.tolist() == [10.0]
     assert (made.following.tolist(), made.loose_end.tolist(), made.loose_begin.tolist()) == ([-1], [True], [True])
