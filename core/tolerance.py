@@ -16,7 +16,7 @@ CLOSED: Final = 0.00254 + ROUNDING
 ARC_RADII: Final = 0.00254 + ROUNDING
 """May an arc's radii at its start and its end differ so much (0.0001 in)?  Beyond it the arc is refused."""
 
-GRAZE: Final = 1e-5
+GRAZE: Final = 1e-7
 """Do a line and a circle that cross in two points touch in one?  They do when they overlap by no more than this."""
 
 ON_PATH: Final = 1e-9

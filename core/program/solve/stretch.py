@@ -68,20 +68,30 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
     chosen_by_next = len(own.shape.choices) > 1 and _tied(contour, _next(contour, index))
     tied = _relational(contour, index)
     undetermined = own.shape.end is None and not own.shape.choices
-    contradicted = undetermined and not own.shape.missing and bool(own.shape.findings)
+    contradicted = undetermined and any(finding.code != "MISSING" for finding in own.shape.findings)
     if not (tied or chosen_by_next or undetermined) or (contradicted and not tied):
         return None
     if _tied(contour, index) and own.before.heading is None:
         # nothing can be said before the segment to which it is tied is determined
         return Stretch((drafted(segment, contour.readings[index], own.before, Shape(), contour.unit),), None)
     attempt = _solved(contour, index, own.before, 1 if tied else 2)
-    if chosen_by_next and not tied and (attempt is None or len(attempt.search.answers) != 1):
+    if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own)):
         return None
+    alone = None if tied or chosen_by_next else _attempt(contour, [index], own.before)
+    if alone is not None and alone.search.stuck is None and alone.search.answers:
+        # its own data give it, though the rules for a segment by itself do not
+        attempt = _narrowed(contour, alone, own.before)
     if attempt is None:
         attempt = _natural(contour, index, own.before)
         if len(attempt.indices) == 1 and not tied:
             return None
     return _result(contour, attempt, own)
+
+
+def _decides(attempt: _Attempt, own: Draft) -> bool:
+    """Whether a longer stretch leaves fewer solutions of its first segment than that has by itself."""
+    left = {_rounded(answer.pieces[:1]) for answer in attempt.search.answers}
+    return 0 < len(left) < len(own.shape.choices)
 
 
 # which segments

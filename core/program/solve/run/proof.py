@@ -13,7 +13,7 @@ from typing import Final
 from core.finding import Finding
 from core.geometry import construct
 from core.geometry.oriented import direction
-from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece import SLIVER, Arc, Line, Piece, Point
 from core.program.fields import FARTHEST
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
@@ -99,7 +99,7 @@ def _full(element: Element, start: Point) -> bool:
     """Whether an arc that ends where it starts is typed as the full circle: by SWEEP ANGLE, or with center and end."""
     known = element.known
     if "sweep" in known:
-        return known["sweep"] >= tau - AGREES
+        return known["sweep"] >= tau - SLIVER
     typed = all(name in known for name in ("x_end", "y_end", "x_center", "y_center"))
     return typed and dist(start, (known["x_end"], known["y_end"])) <= JOINED
 

@@ -1,0 +1,331 @@
+"""The calculator behind a length or an angle: the shop's usual cases, from what a drawing gives to the missing number.
+
+Each case takes texts as a field takes them (`1 1/2`, `25.4/2`, `12.7mm`), so that what was typed stays as it was
+typed, and yields every answer in an order that stays.  Lengths are in program units, angles in degrees,
+counterclockwise from +X.  Formulas: the right triangle; the tangent from a point to a circle at sqrt(d^2 - r^2); the
+division of a circle; the meetings of lines and circles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import acos, asin, atan, atan2, cos, degrees, hypot, inf, radians, sin, sqrt, tan, tau
+from typing import Final
+
+from core.geometry.oriented import Circle, Locus, headings_at_distances, line_through, meeting
+from core.geometry.piece import Point
+from core.units import KEPT_DECIMALS, Kind, Unit, Unreadable, from_mm, parse, to_mm
+
+Numbers = Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One number of a case: its name, what the operator reads, and its kind."""
+
+    name: str
+    label: str
+    kind: Kind
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why there is no answer: the sentence, and the input that it belongs to, None for all of them."""
+
+    text: str
+    name: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    """Every answer of a case: each the outputs by name, in program units and degrees."""
+
+    answers: tuple[Numbers, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case: what is typed, what comes out, and how."""
+
+    name: str
+    inputs: tuple[Quantity, ...]
+    outputs: tuple[Quantity, ...]
+    solve: Callable[[Numbers], Results | Refusal]
+    """From millimeters and radians to millimeters and radians."""
+    optional: bool = False
+    """Whether some inputs may stay blank: of a triangle and of an arc any two are typed."""
+
+
+def _length(name: str, label: str) -> Quantity:
+    return Quantity(name, label, Kind.LENGTH)
+
+
+def _angle(name: str, label: str) -> Quantity:
+    return Quantity(name, label, Kind.ANGLE)
+
+
+def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Results | Refusal:
+    """What comes out of a case with these texts in its inputs; blanks may be left out."""
+    known: dict[str, float] = {}
+    for quantity in case.inputs:
+        text = typed.get(quantity.name, "")
+        if not text.strip():
+            if not case.optional:
+                return Refusal(f"{quantity.label} is blank: enter it.", quantity.name)
+            continue
+        value = parse(text, quantity.kind, unit)
+        if isinstance(value, Unreadable):
+            return Refusal(f"{quantity.label}: {value.reason}", quantity.name)
+        known[quantity.name] = _inside(value, quantity.kind, unit)
+    results = case.solve(known)
+    if isinstance(results, Refusal):
+        return results
+    return Results(tuple(_outside(case, answer, unit) for answer in results.answers))
+
+
+def _inside(value: float, kind: Kind, unit: Unit) -> float:
+    return to_mm(value, unit) if kind is Kind.LENGTH else radians(value) if kind is Kind.ANGLE else value
+
+
+def _outside(case: Case, answer: Numbers, unit: Unit) -> Numbers:
+    kinds = {quantity.name: quantity.kind for quantity in case.outputs}
+    return {
+        name: from_mm(value, unit) if kinds[name] is Kind.LENGTH else degrees(value)
+        for name, value in answer.items()
+        if name in kinds
+    }
+
+
+def field_text(value: float, unit: Unit) -> str:
+    """An answer as the text that goes into a field: with as many decimals as a conversion keeps, none of them 0."""
+    text = f"{value:.{KEPT_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+# the right triangle and the arc
+
+
+def _triangle(known: Numbers) -> Results | Refusal:
+    """Any two of both legs, the hypotenuse and the angle between the first leg and the hypotenuse."""
+    fault = _two_of("Enter two of the four: two sides, or a side and the angle.", known)
+    if fault is not None:
+        return fault
+    if known.get("angle", 0.0) >= tau / 4.0:
+        return Refusal("The angle of a right triangle is below 90.", "angle")
+    if max(known.get("adjacent", 0.0), known.get("opposite", 0.0)) >= known.get("hypotenuse", inf):
+        return Refusal("The hypotenuse is the longest side.", "hypotenuse")
+    a, b = _legs(known)
+    return Results(({"adjacent": a, "opposite": b, "hypotenuse": hypot(a, b), "angle": atan2(b, a)},))
+
+
+def _two_of(advice: str, known: Numbers) -> Refusal | None:
+    if len(known) != 2:
+        return Refusal(advice)
+    return Refusal("Each must be above 0.") if min(known.values()) <= 0.0 else None
+
+
+def _legs(known: Numbers) -> tuple[float, float]:
+    """The legs of a right triangle at and across the angle, from two of its four numbers."""
+    match known:
+        case {"adjacent": a, "opposite": b}:
+            return a, b
+        case {"hypotenuse": c, "adjacent": a}:
+            return a, sqrt((c - a) * (c + a))
+        case {"hypotenuse": c, "opposite": b}:
+            return sqrt((c - b) * (c + b)), b
+        case {"adjacent": a, "angle": t}:
+            return a, a * tan(t)
+        case {"opposite": b, "angle": t}:
+            return b / tan(t), b
+        case _:
+            return known["hypotenuse"] * cos(known["angle"]), known["hypotenuse"] * sin(known["angle"])
+
+
+def _arc(known: Numbers) -> Results | Refusal:
+    """Any two of radius, chord, height over the chord, and sweep; a radius and a chord leave two arcs."""
+    fault = _two_of("Enter two of the four: radius, chord, height, sweep.", known)
+    if fault is not None:
+        return fault
+    if known.get("sweep", 0.0) >= tau:
+        return Refusal("The sweep is below 360.", "sweep")
+    diameter = 2.0 * known.get("radius", inf)
+    if known.get("chord", 0.0) > diameter:
+        return Refusal("The chord is longer than the diameter.", "chord")
+    if known.get("height", 0.0) >= diameter:
+        return Refusal("The height is below the diameter.", "height")
+    return Results(tuple(_arc_numbers(radius, sweep) for radius, sweep in dict.fromkeys(_radii_and_sweeps(known))))
+
+
+def _radii_and_sweeps(known: Numbers) -> tuple[tuple[float, float], ...]:
+    """Radius and sweep of an arc from two of its four numbers."""
+    match known:
+        case {"radius": r, "chord": c}:
+            half = asin(c / (2.0 * r))
+            return (r, 2.0 * half), (r, tau - 2.0 * half)
+        case {"radius": r, "height": h}:
+            return ((r, 2.0 * acos(1.0 - h / r)),)
+        case {"chord": c, "height": h}:
+            return ((h / 2.0 + c * c / (8.0 * h), 4.0 * atan(2.0 * h / c)),)
+        case {"radius": r, "sweep": s}:
+            return ((r, s),)
+        case {"chord": c, "sweep": s}:
+            return ((c / (2.0 * sin(s / 2.0)), s),)
+        case _:
+            return ((known["height"] / (1.0 - cos(known["sweep"] / 2.0)), known["sweep"]),)
+
+
+def _arc_numbers(radius: float, sweep: float) -> Numbers:
+    half = sweep / 2.0
+    chord, height = 2.0 * radius * sin(half), radius * (1.0 - cos(half))
+    return {"radius": radius, "chord": chord, "height": height, "sweep": sweep, "length": radius * sweep}
+
+
+# points
+
+
+def _tangent(known: Numbers) -> Results | Refusal:
+    """The two tangents from a point to a circle: that which leaves the circle on its left first."""
+    point, center, radius = _point(known, "x", "y"), _point(known, "x_center", "y_center"), known["radius"]
+    if radius <= 0.0:
+        return Refusal("RADIUS must be above 0.", "radius")
+    answers = []
+    for rho in (radius, -radius):
+        headings, _ = headings_at_distances(point, 0.0, center, rho)
+        if not headings:
+            return Refusal("The point lies inside the circle: no line from it is tangent.", "x")
+        heading = headings[0]
+        x, y = center[0] + rho * sin(heading), center[1] - rho * cos(heading)
+        length = hypot(x - point[0], y - point[1])
+        answers.append({"x_touch": x, "y_touch": y, "angle": heading % tau, "length": length})
+    return Results(tuple(answers))
+
+
+def _polar(known: Numbers) -> Results | Refusal:
+    """The point at a length in a direction."""
+    x, y = _point(known, "x", "y")
+    angle, length = known["angle"], known["length"]
+    return Results(({"x_end": x + length * cos(angle), "y_end": y + length * sin(angle)},))
+
+
+def _bolt_circle(known: Numbers) -> Results | Refusal:
+    """One hole of a bolt circle; hole 1 stands at the start angle, the others follow counterclockwise."""
+    count, hole = known["count"], known["hole"]
+    if not 1 <= count <= 9999:
+        return Refusal("HOLES must be from 1 to 9999.", "count")
+    if not 1 <= hole <= count:
+        return Refusal(f"HOLE must be from 1 to {count:.0f}.", "hole")
+    if known["diameter"] <= 0.0:
+        return Refusal("DIAMETER must be above 0.", "diameter")
+    angle = known["start_angle"] + tau * (hole - 1.0) / count
+    x, y = _point(known, "x_center", "y_center")
+    radius = known["diameter"] / 2.0
+    return Results(({"x_hole": x + radius * cos(angle), "y_hole": y + radius * sin(angle), "angle": angle % tau},))
+
+
+def _two_lines(known: Numbers) -> Results | Refusal:
+    first = line_through(_point(known, "x", "y"), known["angle"])
+    return _meetings(first, line_through(_point(known, "x2", "y2"), known["angle2"]))
+
+
+def _line_and_circle(known: Numbers) -> Results | Refusal:
+    if known["radius"] <= 0.0:
+        return Refusal("RADIUS must be above 0.", "radius")
+    circle = Circle(_point(known, "x_center", "y_center"), known["radius"])
+    return _meetings(line_through(_point(known, "x", "y"), known["angle"]), circle)
+
+
+def _two_circles(known: Numbers) -> Results | Refusal:
+    if known["radius"] <= 0.0 or known["radius2"] <= 0.0:
+        return Refusal("RADIUS must be above 0.", "radius")
+    first = Circle(_point(known, "x_center", "y_center"), known["radius"])
+    return _meetings(first, Circle(_point(known, "x_center2", "y_center2"), known["radius2"]))
+
+
+def _point(known: Numbers, x: str, y: str) -> Point:
+    return known[x], known[y]
+
+
+def _meetings(first: Locus, second: Locus) -> Results | Refusal:
+    met = meeting(first, second)
+    if met.coincident:
+        return Refusal("Both are the same: they meet everywhere.")
+    if not met.points:
+        return Refusal("They never meet.")
+    return Results(tuple({"x_meet": x, "y_meet": y} for x, y in met.points))
+
+
+_MEET: Final = (_length("x_meet", "X"), _length("y_meet", "Y"))
+_LINE: Final = (_length("x", "X OF A POINT"), _length("y", "Y OF A POINT"), _angle("angle", "XY ANGLE"))
+_CIRCLE: Final = (_length("x_center", "X CENTER"), _length("y_center", "Y CENTER"), _length("radius", "RADIUS"))
+_TRIANGLE: Final = (
+    _length("adjacent", "SIDE AT THE ANGLE"),
+    _length("opposite", "SIDE ACROSS"),
+    _length("hypotenuse", "HYPOTENUSE"),
+    _angle("angle", "ANGLE"),
+)
+_ARC: Final = (
+    _length("radius", "RADIUS"),
+    _length("chord", "CHORD"),
+    _length("height", "HEIGHT"),
+    _angle("sweep", "SWEEP ANGLE"),
+)
+
+CASES: Final = (
+    Case("RIGHT TRIANGLE", _TRIANGLE, _TRIANGLE, _triangle, optional=True),
+    Case("ARC", _ARC, (*_ARC, _length("length", "ARC LENGTH")), _arc, optional=True),
+    Case(
+        "TANGENT FROM A POINT",
+        (_length("x", "X OF THE POINT"), _length("y", "Y OF THE POINT"), *_CIRCLE),
+        (
+            _length("x_touch", "X"),
+            _length("y_touch", "Y"),
+            _angle("angle", "XY ANGLE"),
+            _length("length", "XY LENGTH"),
+        ),
+        _tangent,
+    ),
+    Case(
+        "POINT ON A BOLT CIRCLE",
+        (
+            _length("x_center", "X CENTER"),
+            _length("y_center", "Y CENTER"),
+            _length("diameter", "DIAMETER"),
+            Quantity("count", "HOLES", Kind.COUNT),
+            _angle("start_angle", "ANGLE OF HOLE 1"),
+            Quantity("hole", "HOLE", Kind.COUNT),
+        ),
+        (_length("x_hole", "X"), _length("y_hole", "Y"), _angle("angle", "ANGLE")),
+        _bolt_circle,
+    ),
+    Case(
+        "POINT BY ANGLE AND LENGTH",
+        (*_LINE, _length("length", "XY LENGTH")),
+        (_length("x_end", "X"), _length("y_end", "Y")),
+        _polar,
+    ),
+    Case(
+        "TWO LINES MEET",
+        (*_LINE, _length("x2", "X ON THE SECOND"), _length("y2", "Y ON THE SECOND"), _angle("angle2", "ITS XY ANGLE")),
+        _MEET,
+        _two_lines,
+    ),
+    Case("LINE MEETS CIRCLE", (*_LINE, *_CIRCLE), _MEET, _line_and_circle),
+    Case(
+        "TWO CIRCLES MEET",
+        (
+            *_CIRCLE,
+            _length("x_center2", "X CENTER OF THE SECOND"),
+            _length("y_center2", "Y CENTER OF THE SECOND"),
+            _length("radius2", "ITS RADIUS"),
+        ),
+        _MEET,
+        _two_circles,
+    ),
+)
+"""The cases, in the order in which a screen lists them."""
+
+
+def outputs_for(case: Case, kind: Kind) -> tuple[Quantity, ...]:
+    """The outputs of a case that a field of this kind takes: lengths for a length, angles for an angle."""
+    return tuple(quantity for quantity in case.outputs if quantity.kind is kind)
