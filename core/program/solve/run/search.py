@@ -11,6 +11,7 @@ from core.finding import Finding
 from core.geometry.piece import Piece, Point
 from core.program.solve.run.branch import Branch, DeadEnd
 from core.program.solve.run.element import Run
+from core.program.solve.run.problem import polished
 from core.program.solve.run.proof import Chain, chain_of
 from core.program.solve.run.steps import next_branches
 
@@ -71,7 +72,8 @@ def search(run: Run) -> Search:
         else:
             chain, objections = chain_of(branch)
             if chain is not None and not objections:
-                _add(answers, branch, chain)
+                exact = run.missing == 0 and not any(branch.grazes)
+                _add(answers, branch, polished(run, chain) if exact else chain)
             else:
                 dropped.append((0 if chain is not None else 1, len(objections), objections[0]))
     if waiting:
