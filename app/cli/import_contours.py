@@ -154,8 +154,7 @@ def _print_list(listed: ContourList, unit: Unit) -> None:
     known = "" if drawing.unit is None else " ($INSUNITS)"
     print(f"{listed.options.unit}{known}, layers {', '.join(drawing.layers)}")
     print(*table(rows_of(listed.contours), unit), sep="\n")
-    for text in sentences(listed, unit):
-        say(text)
+    print(*sentences(listed, unit), sep="\n")
 
 
 def _chosen(listed: ContourList, chain: str | None, unit: Unit) -> tuple[Contour, ...]:
@@ -164,7 +163,7 @@ def _chosen(listed: ContourList, chain: str | None, unit: Unit) -> tuple[Contour
         if len(contours) == 1:
             return contours
         _print_list(listed, unit)
-        raise Unusable(f"The drawing has {len(contours)} contours: add --chain N, --chain 1,2 or --chain all.")
+        raise Unusable(f"The drawing has {len(contours)} chains: add --chain N, --chain 1,2 or --chain all.")
     if chain.strip().lower() == "all":
         return contours
     wanted = _numbers(chain, len(contours), "drawing")
@@ -176,7 +175,7 @@ def _numbers(chain: str, count: int, what: str) -> set[int]:
     numbers = [part.strip() for part in chain.split(",")]
     wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= count), None)
     if wrong is not None:
-        raise Unusable(f"--chain {wrong}: the {what} has contours 1 to {count}.")
+        raise Unusable(f"--chain {wrong}: the {what} has chains 1 to {count}.")
     return {int(part) for part in numbers}
 
 
@@ -207,7 +206,7 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
     for block, contour in zip(made, contours, strict=True):
         x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in contour.start)
         way = f", {contour.turn.name}" if contour.closed else ""
-        say(f"contour {contour.number}: {len(block.block.segments)} segments from X {x} Y {y}{way}.")
+        say(f"chain {contour.number}: {len(block.block.segments)} segments from X {x} Y {y}{way}.")
         for note in block.notes:
             say(note)
 
@@ -243,7 +242,7 @@ def import_nc(options: argparse.Namespace) -> None:
     program, made = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
     _write_program(options, program, comment(options.file.name, ()))
     for number, block in enumerate(made, 1):
-        say(f"contour {number}: {len(block.block.segments)} segments.")
+        say(f"chain {number}: {len(block.block.segments)} segments.")
         for note in (*chosen.notes, *block.notes):
             say(note)
 
@@ -264,7 +263,7 @@ def _chosen_nc(read: NcProgram, options: argparse.Namespace) -> NcProgram | None
     if options.list or (options.chain is None and count > 1):
         if not options.list:
             print(*_nc_rows(read), sep="\n")
-            raise Unusable(f"The program has {count} contours: add --chain N, --chain 1,2 or --chain all.")
+            raise Unusable(f"The program has {count} chains: add --chain N, --chain 1,2 or --chain all.")
         return None
     if options.chain is None or options.chain.strip().lower() == "all":
         return read

@@ -16,7 +16,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Final, Generic, TypeVar, cast
 
-from core.importing.drawing import MAX_BYTES, DrawingError
+from core.importing.contours import ContourList, ImportOptions, contours_of
+from core.importing.contours import Progress as ReportProgress
+from core.importing.drawing import MAX_BYTES, Drawing, DrawingError
+from core.importing.dxf import read_dxf
 from core.program.file.read import StoreError
 
 Result = TypeVar("Result")
@@ -98,6 +101,24 @@ class Worker(Generic[Result]):
             self.cancel()
             raise
         return message.value
+
+
+def drawing_reader(data: bytes, name: str, *, damaged: bool = False) -> Worker[Drawing]:
+    """Reads a drawing; `damaged` is the operator's answer that what can be read of it is to be taken."""
+    return Worker(_read, data, name, damaged)
+
+
+def _read(data: bytes, name: str, damaged: bool, *, progress: ReportProgress) -> Drawing:
+    return read_dxf(data, name, damaged=damaged, progress=progress)
+
+
+def contour_finder(drawing: Drawing, options: ImportOptions) -> Worker[ContourList]:
+    """Makes the list of a drawing's contours; again after another unit, layer, tolerance or fit."""
+    return Worker(_find, drawing, options)
+
+
+def _find(drawing: Drawing, options: ImportOptions, *, progress: ReportProgress) -> ContourList:
+    return contours_of(drawing, options, progress)
 
 
 def _work(there: Connection, function: Callable[..., object], arguments: tuple[object, ...]) -> None:

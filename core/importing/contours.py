@@ -190,7 +190,7 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     for row in order:
         parent, depth = direct[row], len(inside[row])
         contour = _directed(replace(closed[row], kind=_kind(depth), depth=depth))
-        problems = (f"touches or crosses contour {numbers[met[row]]}",) if row in met else ()
+        problems = (f"touches or crosses chain {numbers[met[row]]}",) if row in met else ()
         number = numbers[row]
         listed.append(
             replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=problems)
@@ -250,7 +250,7 @@ def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> li
 def _with_gap(contour: Contour, gap: float, other: int, contours: Sequence[Contour], unit: Unit) -> Contour:
     number = contours[other].number
     length = show(from_mm(gap, unit), Kind.LENGTH, unit)
-    to = "its other end" if number == contour.number else f"contour {number}"
+    to = "its other end" if number == contour.number else f"chain {number}"
     text = f"gap {length} to {to}: TOLERANCE {_rounded_up(gap, unit)} would join it"
     return replace(contour, open_gap=gap, open_gap_to=number, problems=(*contour.problems, text))
 

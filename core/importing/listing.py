@@ -70,7 +70,7 @@ def cells_of(row: Row, unit: Unit) -> tuple[str, ...]:
     )
 
 
-HEADINGS: Final = ("contour", "kind", "layer", "pieces", "length", "size", "")
+HEADINGS: Final = ("chain", "kind", "layer", "pieces", "length", "size", "")
 
 
 def size_of(contour: Contour, unit: Unit) -> str:

@@ -32,7 +32,7 @@ from core.importing.joints import carriers_meet, joined_chain
 from core.importing.segments import ImportedBlock, block_of
 from core.program.edit import set_tool
 from core.program.model import Block, CutterComp, Number, Program, Tool
-from core.tolerance import CLOSED
+from core.tolerance import CLOSED, JOINED
 from core.units import Unit, from_mm, sentence, to_mm
 
 SAME_CONTOUR: Final = 0.001
@@ -413,6 +413,9 @@ def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
     """Two pieces up to the corner between them, and the lines that lead there where they do not reach it."""
     one, other = first.piece, second.piece
     here, there = one.end, other.start
+    if min(one.length, other.length) <= JOINED:
+        # cut away by the corner before it
+        raise NcError(f"Line {second.line}: no contour has this path.")
     meetings = carriers_meet(one, other)
     reach = 4.0 * dist(here, there) + SAME_CONTOUR
     near = [point for point in meetings if max(dist(point, here), dist(point, there)) <= reach]

@@ -58,7 +58,7 @@ def block_of(contour: Contour, program: Program) -> ImportedBlock:
         if moved is not None:
             notes = _notes(contour, decimals, usual)
             return ImportedBlock(block, decimals, moved, notes)
-    raise NotTaken(f"Contour {contour.number} cannot be written as segments: its arcs are too flat or too short.")
+    raise NotTaken(f"Chain {contour.number} cannot be written as segments: its arcs are too flat or too short.")
 
 
 def taken(
@@ -89,7 +89,7 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
         if abs(worst) > FARTHEST:
             most = from_mm(FARTHEST, unit)
             raise NotTaken(
-                f"Contour {contour.number} reaches {from_mm(worst, unit):.3f} {unit}: "
+                f"Chain {contour.number} reaches {from_mm(worst, unit):.3f} {unit}: "
                 f"the form takes at most {most:g}. Move the drawing to its origin."
             )
 
@@ -97,13 +97,13 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
 def _notes(contour: Contour, decimals: int, usual: int) -> tuple[str, ...]:
     notes = []
     if decimals != usual:
-        notes.append(f"Contour {contour.number} has {decimals} decimals: with {usual} it would move too far.")
+        notes.append(f"Chain {contour.number} has {decimals} decimals: with {usual} it would move too far.")
     if len(contour.pieces) > MAX_SEGMENTS:
         notes.append(
             f"{len(contour.pieces):,} segments: the form shows them, the look-ahead of a control may not. FIT ARCS?"
         )
     if not contour.closed:
-        notes.append(f"Contour {contour.number} is open: choose CUTTER COMP. on START.")
+        notes.append(f"Chain {contour.number} is open: choose CUTTER COMP. on START.")
     return tuple(notes)
 
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.documents.drawing_files import Worker
+from app.documents.drawing_files import Worker, contour_finder, drawing_bytes, drawing_reader
 from app.documents.files import load
 from app.documents.programs import example
+from core.importing.contours import ImportOptions
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
 from core.program.solve.block import solve_block
@@ -41,7 +42,7 @@ def test_contours_become_blocks_that_close_on_their_start(tmp_path: Path) -> Non
 def test_one_of_several_contours_is_chosen_or_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, out = str(DATA / "d14-layers.dxf"), tmp_path / "part.toml"
     assert main(["import", source, "-o", str(out)]) == 2
-    assert "The drawing has 2 contours: add --chain N" in capsys.readouterr().err
+    assert "The drawing has 2 chains: add --chain N" in capsys.readouterr().err
     assert not out.exists()
     assert main(["import", source, "--chain", "2", "-o", str(out)]) == 0
     assert len(load(out).blocks) == 1
@@ -129,3 +130,14 @@ def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
 def test_a_drawing_as_the_only_argument_is_told_where_it_goes(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([str(DATA / "d01-square.dxf")]) == 2
     assert "is a drawing: cutcomp import" in capsys.readouterr().err
+
+
+def test_a_screen_reads_and_lists_a_drawing_in_workers() -> None:
+    path = DATA / "d14-layers.dxf"
+    drawing = drawing_reader(drawing_bytes(path), path.name).result()
+    assert drawing.unit is not None
+    listed = contour_finder(drawing, ImportOptions.usual(drawing.unit)).result()
+    assert [contour.kind.value for contour in listed.contours] == ["OUTSIDE", "HOLE"]
+    with pytest.raises(DrawingError) as refused:
+        drawing_reader(drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf").result()
+    assert refused.value.readable == 1

@@ -127,7 +127,7 @@ def test_reversing_turns_left_into_right() -> None:
 def test_two_squares_that_touch_in_a_corner_are_two_contours() -> None:
     contours = listed(dxf(*square(0, 0, 10), *square(10, 10, 10))).contours
     assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (True, 4)]
-    assert contours[0].problems == ("touches or crosses contour 2",)
+    assert contours[0].problems == ("touches or crosses chain 2",)
 
 
 def test_a_dividing_line_stays_an_open_contour() -> None:

@@ -14,6 +14,7 @@ from core.controls.registry import names
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
 from core.importing.nc import CenterPath, NcError, NcProgram, nc_blocks, read_nc
+from core.importing.segments import NotTaken
 from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
@@ -186,6 +187,27 @@ def test_an_arc_smaller_than_the_tool_is_refused_by_its_line() -> None:
     text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
     with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
         read_nc(text, "linuxcnc", ToolTable(), center=CenterPath(Side.LEFT, 10.0))
+
+
+DATA = Path(__file__).parents[2] / "data"
+PROGRAMS = sorted(path for path in DATA.rglob("*") if path.suffix.lower() in (".nc", ".ngc", ".h"))
+SIZES = ToolTable.of(*(CutterTool(number, 10.0, unit=Unit.MM) for number in range(1, 60)))
+
+
+@pytest.mark.parametrize("center", [None, CenterPath(Side.LEFT, 2.0), CenterPath(None, 2.0)], ids=["own", "left", "on"])
+def test_any_program_gives_contours_or_a_sentence(center: CenterPath | None) -> None:
+    taken, refusals = 0, list[str]()
+    for path in PROGRAMS[::3]:
+        text = path.read_bytes()
+        for control in ("linuxcnc", "klartext", "nine-series:a"):
+            try:
+                nc_blocks(Program(), read_nc(text, control, SIZES, center=center))
+            except (NcError, NotTaken) as error:
+                refusals.append(str(error))
+            else:
+                taken += 1
+    assert taken >= 5
+    assert all(refusals)
 
 
 def test_an_alarm_names_the_line() -> None:

@@ -124,7 +124,7 @@ def test_arcs_too_small_for_the_digits_of_the_form_have_more_and_say_so() -> Non
     item = block_of(contour, Program(unit=Unit.IN))
     assert item.decimals == 6
     assert item.moved <= 0.0001
-    assert item.notes == ("Contour 1 has 6 decimals: with 4 it would move too far.",)
+    assert item.notes == ("Chain 1 has 6 decimals: with 4 it would move too far.",)
 
 
 @pytest.mark.parametrize(
