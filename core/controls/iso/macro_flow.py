@@ -167,6 +167,9 @@ class MacroFlow(Flow):
     def blocks(self, line: int) -> Iterator[Block]:
         """The blocks of words of a row; a macro statement is run, and has none."""
         row = line - 1
+        if row in self.plain_blocks or self._read_plain(row):
+            yield from self._run_block(self.plain_blocks[row], row)
+            return
         statement = self.statements.get(row)
         if statement is None:
             statement = self.statements[row] = self._statement(row)
@@ -183,6 +186,23 @@ class MacroFlow(Flow):
         if statement.keyword == "[":
             yield from self._words(row, statement)
 
+    def _read_plain(self, row: int) -> bool:
+        """Reads a row that holds nothing but letters with numbers, as most do; it is read once."""
+        text = self.lines[row]
+        bare = without_comments(capitals(text))
+        if row in self.statements or not is_words(bare):
+            return False
+        self._note_points(bare, row)
+        block = Block(self.numbers[row], text, self.starts[row])
+        self.plain_blocks[row] = fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
+        return True
+
+    def _note_points(self, bare: str, row: int) -> None:
+        """Remembers coordinates without a decimal point."""
+        if not _NO_LENGTHS.search(bare):
+            places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
+            self.no_point.extend((self.numbers[row], column) for column in places)
+
     def _tell_unset(self, row: int) -> None:
         """Reports common variables that the program calculates with before it sets them."""
         unset, self.variables.unset = self.variables.unset, []
@@ -196,9 +216,8 @@ class MacroFlow(Flow):
         text = self.lines[row]
         bare = without_comments(capitals(text), GAP)
         line = CompactText.of(bare, self.starts[row])
-        if not _EXPRESSIONS.intersection(bare) and not _NO_LENGTHS.search(bare):
-            places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
-            self.no_point.extend((self.numbers[row], column) for column in places)
+        if not _EXPRESSIONS.intersection(bare):
+            self._note_points(bare, row)
         found = _KEYWORD.match(line.text)
         if found:
             return Statement(found[1] or "[", line, found.end())
@@ -352,7 +371,10 @@ class MacroFlow(Flow):
         """The block of a row, macro calls followed."""
         kept = self.statements.get(-1 - row)
         line, start = (kept.line, kept.at) if kept else (statement.line, statement.at)
-        block = self._block(row, line, start)
+        yield from self._run_block(self._block(row, line, start), row)
+
+    def _run_block(self, block: Block | None, row: int) -> Iterator[Block]:
+        """A block to be run, with the macro it calls."""
         if block is None:
             return
         if 650 in block.g or 660 in block.g:
@@ -369,14 +391,6 @@ class MacroFlow(Flow):
 
     def _block(self, row: int, line: CompactText, start: int) -> Block | None:
         number, text = self.numbers[row], self.lines[row]
-        if row in self.plain_blocks:
-            return self.plain_blocks[row]
-        bare = without_comments(capitals(text))
-        if start == 0 and is_words(bare):
-            block = Block(number, text, self.starts[row])
-            filled = fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
-            self.plain_blocks[row] = filled
-            return filled
         if _SKIP.match(text):
             said = "Block skip is assumed off, so this block runs."
             self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)
@@ -398,10 +412,13 @@ class MacroFlow(Flow):
     def _following(self, row: int) -> Block | None:
         """The next block of words, for a corner to be rounded; None where a macro statement comes first."""
         for other in range(row + 1, self.program[1]):
-            statement = self._statement(other)
-            if statement.keyword:
-                return None
-            block = self._block(other, statement.line, 0)
+            if other in self.plain_blocks or self._read_plain(other):
+                block = self.plain_blocks[other]
+            else:
+                statement = self._statement(other)
+                if statement.keyword:
+                    return None
+                block = self._block(other, statement.line, 0)
             if block is not None:
                 return block
         return None
