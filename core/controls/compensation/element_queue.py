@@ -101,6 +101,10 @@ NOSE_DIRECTIONS: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
 
 NO_FIT: Final = "The cutter does not fit into this corner without gouging. Use a smaller cutter or open the corner."
 
+ARC_RUN_AT_STOP: Final = (
+    "The stop let the arc before this block run to its end, into this inside corner. Move the stop."
+)
+
 
 @dataclass(frozen=True, slots=True)
 class AlarmCodes:
@@ -249,11 +253,13 @@ class OneMoveQueue(ElementQueue):
         """A further move in the plane, against the one that is held; no trim, no look at its direction."""
         self._check_radius(element)
         joint = self.joint(held, element)
+        if self.ran and held.turn and joint.corner is CornerKind.INSIDE:
+            self.log.stop(self.alarms.concave, ARC_RUN_AT_STOP, element.line, 1, at=element.start)
         if joint.missed:
             self.log.stop(self.alarms.concave, NO_FIT, element.line, 1, at=element.start)
         if joint.corner is CornerKind.INSIDE or (joint.corner is CornerKind.OUTSIDE and not element.turn):
             self._check(held, joint.end, element.line)
-        unchecked = self.ran and joint.corner is CornerKind.INSIDE
+        unchecked = self.ran and not self.standing and joint.corner is CornerKind.INSIDE
         self.run_held(joint.end)
         self.run_joint(joint, element, self.offset)
         self.note(element)

@@ -36,6 +36,7 @@ from tests.core.controls.programs import (
     long_klartext,
     long_threeblock,
     program,
+    stopped,
     turned_to_zx,
 )
 from tests.core.controls.rs274 import Witnessed, difference, printed, table_text, witness
@@ -167,21 +168,28 @@ KINDS: dict[str, tuple[int, Callable[[int], str]]] = {
 """Generated programs beside the contours: how many, and what makes them."""
 
 
+def _code_cases() -> Iterable[tuple[str, str, dict[int, float], Unit]]:
+    """Every code around compensation, and programs of stops, tool data and shifts."""
+    for frame, text in FRAMES.items():
+        for code in (*CODES, *EXPLAINED_CODES):
+            yield f"a code {frame}, {code}", text.format(code), MODAL_TOOLS, Unit.IN
+    for name, body in PROGRAMS.items():
+        yield f"written by hand, {name}", whole(body), MODAL_TOOLS, Unit.IN
+
+
 def _cases(count: int) -> Iterable[tuple[str, str, dict[int, float], Unit]]:
     """Kind and number, text, tools and unit of each program."""
     for name, text in programs(count):
         yield f"contour {name.removeprefix('seed ')}", text, DIAMETERS, Unit.MM
+    for seed in range(min(count, 150)):
+        yield f"a stop under compensation {seed}", stopped(seed), DIAMETERS, Unit.MM
     for kind, (number, make) in KINDS.items():
         for seed in range(min(number, count)):
             text = make(seed)
             yield f"{kind} {seed}", text, MODAL_TOOLS, Unit.MM if "G21" in text else Unit.IN
     for name, body in (*MODAL.items(), *((name, whole(body)) for name, body in SAME.items())):
         yield f"written by hand, {name}", body, MODAL_TOOLS, Unit.IN
-    for frame, text in FRAMES.items():
-        for code in (*CODES, *EXPLAINED_CODES):
-            yield f"a code {frame}, {code}", text.format(code), MODAL_TOOLS, Unit.IN
-    for name, body in PROGRAMS.items():
-        yield f"written by hand, {name}", whole(body), MODAL_TOOLS, Unit.IN
+    yield from _code_cases()
     for name in LIBRARY if SAMPLES.is_dir() else ():
         yield f"the distribution's {name}", called(name), TOOLS, Unit.IN
     for name in COMPENSATED if SAMPLES.is_dir() else ():

@@ -42,7 +42,7 @@ PROGRAMS = {
     "a stop before an arc": "G41.1 D.5\nG1 X1\nX3\nM0\nG3 X5 Y2 J2\nG1 X9\nG40\nX10",
     "a stop before a move shorter than the radius": "G41.1 D.5\nG1 X1\nX3\nM0\nY.1\nX9\nG40\nX10",
     "a stop before a tangent move that is too short": "G41.1 D.5\nG1 X1\nX3\nM0\nX3.1\nX4 Y9\nG40\nX10",
-    "a stop after an arc": "G41.1 D.5\nG1 X1\nG3 X3 Y2 J2\nM0\nG1 X0\nX9\nG40\nX10",
+    "a stop after an arc at an outside corner": "G41.1 D.5\nG1 X1\nG3 X3 Y2 J2\nM0\nG1 X6 Y3\nX9\nG40\nX10",
     "stops among moves of z": "G41.1 D.5\nM0\nG1 X1\nM0\nX3\nZ1\nM0\nM0\nZ2\nM0\nY3\nM0\nG40\nM0\nX10",
     "a radius set before its use": "T1 M6\nG10 L1 P1 R.1\nG41\nG1 X1\nX3\nG40\nX4",
     "a radius set meanwhile": "T1 M6\nG41 D1\nG1 X1\nG10 L1 P1 R.1\nX3\nY3\nG40\nX4\nG41 D1 X2\nX0\nG40\nX-3",

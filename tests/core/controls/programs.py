@@ -112,6 +112,14 @@ def program(seed: int) -> str:
     return "\n".join((*head, *entry, *body, *tail)) + "\n"
 
 
+def stopped(seed: int) -> str:
+    """One of these programs with a program stop somewhere under compensation."""
+    random, lines = Random(seed), program(seed).split("\n")
+    on = next(index for index, line in enumerate(lines) if line.startswith(("G41", "G42")))
+    lines.insert(random.randint(on + 2, lines.index("G40")), random.choice(("M0", "M1", "M60")))
+    return "\n".join(lines)
+
+
 def turned_to_zx(text: str) -> str:
     """The same program in the plane G18: X is written Z, Y is X, Z is Y, I is K and J is I."""
     words = str.maketrans({"X": "Z", "Y": "X", "Z": "Y", "I": "K", "J": "I"})

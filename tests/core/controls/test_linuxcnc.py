@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from core.controls import registry
+from core.controls.compensation.element_queue import ARC_RUN_AT_STOP
 from core.controls.control_tools import read_table
 from core.controls.moves import Plane
 from core.units import Unit, from_mm
@@ -16,7 +17,7 @@ from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROG
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
 from tests.core.controls.hand import ran, same, shape, told
 from tests.core.controls.macro_programs import whole
-from tests.core.controls.programs import MODAL
+from tests.core.controls.programs import MODAL, stopped
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
 from tests.rs274 import WITNESS
 
@@ -100,6 +101,16 @@ def test_every_code_fares_around_compensation_as_with_the_interpreter_itself(fra
 def test_stops_tool_data_and_shifts_move_as_with_the_interpreter_itself(name: str, tmp_path: Path) -> None:
     fared, apart = outcome(whole(PROGRAMS[name]), tmp_path, DIAMETERS, Unit.IN)
     assert fared.startswith("same moves" if name != _REFUSED_TOO else "both refuse"), apart
+
+
+@needs_witness
+def test_random_stops_move_as_with_the_interpreter_itself_or_are_refused(tmp_path: Path) -> None:
+    fared = {seed: outcome(stopped(seed), tmp_path) for seed in range(60)}
+    accepted = ("same moves", "both refuse")
+    assert not {
+        seed: what for seed, what in fared.items() if not what[0].startswith(accepted) and what[1] != ARC_RUN_AT_STOP
+    }
+    assert sum(what[0] == "same moves" for what in fared.values()) >= 25
 
 
 _REFUSED_TOO = "a stop before a tangent move that is too short"
