@@ -24,11 +24,13 @@ from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
 from app.screens.help import HelpScreen
 from app.screens.home import HomeScreen
+from app.screens.import_tools import ImportToolsScreen
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Actions, Palette
 from app.screens.parameters import ParametersScreen, PartSetupScreen
 from app.screens.post import PostScreen
 from app.screens.program import ProgramScreen
+from app.screens.sheet import SheetScreen
 from app.screens.tools import ToolsScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request, derived, lookahead_table
@@ -288,6 +290,15 @@ class CutcompApp(FileActions):
         """POST NC, with the program's name."""
         file = self.session.file
         self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
+
+    def action_sheet(self) -> None:
+        """SETUP SHEET, with the program's name."""
+        file = self.session.file
+        self.push_screen(SheetScreen("part.html" if file is None else str(file.with_suffix(".html"))))
+
+    def action_import_tools(self) -> None:
+        """IMPORT TOOL TABLE, in the program's unit."""
+        self.push_screen(ImportToolsScreen("tool.tbl", self.session.program.unit))
 
     def action_help(self) -> None:
         """HELP for what has the cursor."""

@@ -6,21 +6,21 @@ import argparse
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
-from typing import Final
 
 from app.cli.commands import DASH
 from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from app.documents import times
-from app.documents.files import TooLargeError, load, read_file, save, why, write_output
+from app.documents.files import load, save, write_output
 from app.documents.lock import Held, myself, release, take
+from app.documents.tool_tables import merged, read_table, tool_line
 from app.painted.keeping import holder
 from core.finding import Finding
 from core.program.file.read import StoreError
-from core.program.model import Number, Program, Tool
-from core.program.tools import ImportedTools, decode_table, read_tool_table, table_faults
-from core.units import Kind, Unit, show
+from core.program.model import Program
+from core.program.tools import table_faults
+from core.units import Unit
 
 
 def shop(given: list[str]) -> int:
@@ -58,11 +58,11 @@ def _port(text: str) -> int:
 
 def sheet(options: argparse.Namespace) -> int:
     """`cutcomp sheet`: the setup sheet; status 1 while it says DO NOT RUN."""
-    from app.cli.sheets import sheet_for
+    from app.session.posting import setup_sheet
     from core.output.sheet import NOT_READY
 
     program = load(options.file)
-    text = sheet_for(program, options.output or Path("-"), name=options.file.stem)
+    text = setup_sheet(program, options.output or Path("-"), datetime.now().astimezone(), name=options.file.stem)
     if options.output in (None, Path(DASH)):
         sys.stdout.write(text)
     else:
@@ -103,41 +103,13 @@ def _imported(options: argparse.Namespace) -> int:
 
 def _listed(program: Program) -> int:
     for tool in program.tools:
-        print(told(tool, program.unit))
+        print(tool_line(tool, program.unit))
     return CLEAN
-
-
-def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
-    """A table's file; StoreError when it cannot be read."""
-    try:
-        data, _ = read_file(path, MAX_TABLE_BYTES)
-    except TooLargeError as error:
-        raise StoreError(f"{path} is too large for a tool table.") from error
-    except (OSError, ValueError) as error:
-        raise StoreError(f"{path} cannot be read: {why(error)}") from error
-    return read_tool_table(decode_table(data), unit, program)
-
-
-MAX_TABLE_BYTES: Final = 1_000_000
-"""Bytes of the largest tool table."""
 
 
 def _warn(path: Path, findings: Iterable[Finding]) -> None:
     for one in findings:
         say(f"{path}, line {one.line}, column {one.column}: warning: {one.text}")
-
-
-def merged(program: Program, tools: Iterable[Tool]) -> Program:
-    """The program with these tools in its table, in place of those of the same number."""
-    table = {tool.number: tool for tool in (*program.tools, *tools)}
-    return replace(program, tools=tuple(table[number] for number in sorted(table)))
-
-
-def told(tool: Tool, unit: Unit) -> str:
-    """One line of the table."""
-    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Number) else "no diameter"
-    kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
-    return f"T{tool.number:<5} {size:>11} {unit}  {kind}"
 
 
 def serve(options: argparse.Namespace) -> int:

@@ -25,6 +25,8 @@ from core.units import Kind
 
 AT: Final = "@"
 """Between a field's name and the row of its tool in the name of a widget."""
+HEADINGS: Final = {"diameter": "DIAMETER", "speed": "SPEED", "plunge_feed": "PLUNGE"}
+"""Headings of columns where the field's label is too wide."""
 EMPTY: Final = "The tool table is empty. F2 adds a tool."
 
 
@@ -94,7 +96,7 @@ class ToolsScreen(FormScreen):
                 yield Label("TOOL SETUP", classes="head-title")
             with Horizontal(id="tool-headings"):
                 for field in TOOL:
-                    yield Label(field.label.removeprefix("TOOL ") or field.label, classes=f"tool-{field.name}")
+                    yield Label(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}")
             with VerticalScroll(id="tool-rows", can_focus=False):
                 yield from self._rows(self.host.session)
                 yield Static(EMPTY, id="no-tools")

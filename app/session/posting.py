@@ -1,9 +1,11 @@
-"""Posting: a program's NC text for a choice of control, with what stands against it in sentences."""
+"""Posting: a program's NC text for a choice of control, what stands against it in sentences, and its setup sheet."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
 from typing import Final
 
 from app.session.words import length, segment_name, segment_numbers
@@ -93,3 +95,12 @@ def deleted_segments(block: DerivedBlock) -> str:
     if paths is None or paths.compensated is None or paths.best is not None:
         return ""
     return segment_numbers(paths.compensated.deleted.segments.tolist())
+
+
+def setup_sheet(program: Program, path: Path, now: datetime, *, name: str = "") -> str:
+    """The sheet as its file's ending asks: .html a page, anything else text; everything is derived anew."""
+    from core.pipeline.derive import derive
+    from core.pipeline.setup_sheet import sheet_page, sheet_text
+
+    write = sheet_page if path.suffix.lower() in (".html", ".htm") else sheet_text
+    return write(derive(program), name=name or path.stem, day=f"{now:%Y-%m-%d}")

@@ -104,7 +104,7 @@ def importing(name: str, unit: Unit) -> Callable[[Desk], Desk]:
     """What reads the table and asks before anything changes."""
 
     def work(desk: Desk) -> Desk:
-        from app.cli.shop import merged, read_table
+        from app.documents.tool_tables import merged, read_table
 
         program = desk.session.program
         try:
@@ -123,7 +123,7 @@ def importing(name: str, unit: Unit) -> Callable[[Desk], Desk]:
 
 def _changes(program: Program, tools: tuple[Tool, ...]) -> tuple[str, ...]:
     """What the import does to the table, in a few lines."""
-    from app.cli.shop import told
+    from app.documents.tool_tables import tool_line as told
 
     known = {tool.number: tool for tool in program.tools}
     new = [tool for tool in tools if tool.number not in known]

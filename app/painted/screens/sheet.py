@@ -100,9 +100,11 @@ def writing(name: Path, *, agreed: bool = False) -> Callable[[Desk], Desk]:
     """What writes the sheet, asking first where a file is in its place, or where that is in another folder."""
 
     def work(desk: Desk) -> Desk:
-        from app.cli.sheets import sheet_for
+        from datetime import datetime
+
         from app.documents.folders import chosen, outside, written_at
         from app.painted.saving import asking
+        from app.session.posting import setup_sheet
 
         file = desk.session.file
         path = with_suffix(chosen(name, file), ".html")
@@ -117,7 +119,7 @@ def writing(name: Path, *, agreed: bool = False) -> Callable[[Desk], Desk]:
             lines = (f"{printable(str(path))} exists already. Its content is replaced.",)
             return desk.take(Open(Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", (Close(), again)),))))
         try:
-            write_output(path, sheet_for(desk.session.program, path))
+            write_output(path, setup_sheet(desk.session.program, path, datetime.now().astimezone()))
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         return desk.take(Close()).take(Say(f"Setup sheet: {written_at(path)}"))

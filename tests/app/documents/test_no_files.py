@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from app.cli.control_options import Unusable, bytes_of
-from app.cli.shop import read_table
 from app.documents.files import load, write_output
 from app.documents.journal_file import journal_path
 from app.documents.programs import is_nc
 from app.documents.service import Opened, Trouble
 from app.documents.settings import load_settings
+from app.documents.tool_tables import read_table
 from core.program.file.read import StoreError
 from core.units import Unit
 from tests.app.documents.things import THINGS, put_something

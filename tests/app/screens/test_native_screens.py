@@ -101,7 +101,7 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
         await everything(one)
         assert [tool.number for tool in one.session.program.tools] == [1, 2]
         assert one.session.program.tools[1].diameter == Number(0.25)
-        assert one.at == "diameter@1"
+        assert one.at == "speed@1"
         assert "No block calls it" in str(one.screen.query_one("#tool-use", Static).content)
         await one.press("f1")
         await everything(one)
@@ -184,3 +184,27 @@ async def test_every_screen_opens_at_every_size(name, size):
         await run(one, f"app.{name}")
         assert load(example("pocket")) == one.session.program
         assert one.screen.query("#softkeys")
+
+
+async def test_the_setup_sheet_is_shown_and_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with operator() as one:
+        await run(one, "app.sheet")
+        shown = str(one.screen.query_one("#sheet-text", Static).content)
+        assert "POCKET" in shown
+        await one.press("f3", "enter")
+        await everything(one)
+        assert (tmp_path / "part.txt").read_text().splitlines()[5:] == shown.splitlines()[5:]
+
+
+async def test_a_tool_table_is_read_in_its_own_unit_and_asked_about(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tool.tbl").write_text("T7 P7 D6.35 ;slot drill\n")
+    async with operator() as one:
+        await run(one, "app.import_tools")
+        await one.press("f2", "enter")
+        assert one.app.screen.query("#question")
+        await one.press("i")
+        await everything(one)
+        assert [tool.number for tool in one.session.program.tools] == [1, 7]
+        assert one.session.program.tools[1].diameter == Number(0.25)

@@ -1,0 +1,41 @@
+"""Tool tables of LinuxCNC: read from a file, and merged into a program's own table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from app.documents.files import TooLargeError, read_file, why
+from core.program.file.read import StoreError
+from core.program.model import Number, Program, Tool
+from core.program.tools import ImportedTools, decode_table, read_tool_table
+from core.units import Kind, Unit, show
+
+MAX_TABLE_BYTES: Final = 1_000_000
+"""Bytes of the largest tool table."""
+
+
+def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
+    """A table's file; StoreError when it cannot be read."""
+    try:
+        data, _ = read_file(path, MAX_TABLE_BYTES)
+    except TooLargeError as error:
+        raise StoreError(f"{path} is too large for a tool table.") from error
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} cannot be read: {why(error)}") from error
+    return read_tool_table(decode_table(data), unit, program)
+
+
+def merged(program: Program, tools: Iterable[Tool]) -> Program:
+    """The program with these tools in its table, in place of those of the same number."""
+    table = {tool.number: tool for tool in (*program.tools, *tools)}
+    return replace(program, tools=tuple(table[number] for number in sorted(table)))
+
+
+def tool_line(tool: Tool, unit: Unit) -> str:
+    """One line of the table."""
+    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Number) else "no diameter"
+    kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
+    return f"T{tool.number:<5} {size:>11} {unit}  {kind}"

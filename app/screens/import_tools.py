@@ -1,0 +1,104 @@
+"""IMPORT TOOL TABLE: the file of a LinuxCNC tool table, what is wrong with it, and what it would change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+from textual import work
+from textual.app import ComposeResult
+from textual.content import Content
+from textual.widgets import Static
+
+from app.documents.naming import typed
+from app.documents.tool_tables import merged, read_table, tool_line
+from app.screens.dialogs import Answer, Question
+from app.screens.entry_screen import EntryScreen
+from app.session.messages import Sentence, Tone
+from app.widgets.softkeys import Softkey
+from core.finding import Finding, Severity
+from core.program.file.read import StoreError
+from core.program.model import Program, Tool
+from core.units import Unit
+
+MAX_LISTED: int = 2
+"""Tools that would change and are listed."""
+
+
+class ImportToolsScreen(EntryScreen):
+    """The table's name and the unit its lengths are in; a table does not say it itself."""
+
+    TITLE: ClassVar[str] = "IMPORT TOOL TABLE"
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("IMPORT", "enter", "IMPORT"),
+        Softkey("TABLE UNITS: OTHER", "other_unit", "UNITS"),
+        *(None,) * 5,
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def __init__(self, text: str, unit: Unit) -> None:
+        super().__init__(text)
+        self.unit = unit
+
+    def compose_rest(self) -> ComposeResult:
+        """The unit, then the faults."""
+        yield Static(id="table-unit")
+        yield Static(id="table-faults", markup=False)
+
+    def on_mount(self) -> None:
+        """The unit."""
+        super().on_mount()
+        self._show_unit()
+
+    def _show_unit(self) -> None:
+        name = "INCH" if self.unit is Unit.IN else "MM"
+        self.query_exactly_one("#table-unit", Static).update(Content(f" TABLE UNITS: {name}"))
+
+    def action_other_unit(self) -> None:
+        """The table's lengths are in the other unit."""
+        self.unit = Unit.MM if self.unit is Unit.IN else Unit.IN
+        self._show_unit()
+
+    def entered(self, text: str) -> None:
+        """Read the table; ask before anything changes."""
+        self._import(text)
+
+    @work(exclusive=True, group="question")
+    async def _import(self, text: str) -> None:
+        program, faults = self.current_session.program, self.query_exactly_one("#table-faults", Static)
+        try:
+            table = read_table(typed(text), self.unit, program.unit)
+        except StoreError as error:
+            self.say(str(error), Tone.ERROR)
+            return
+        faults.update(Content("\n").join([_fault(finding) for finding in table.findings]))
+        if table.errors:
+            self.say("Nothing was imported. Mend the lines that are listed.", Tone.ERROR)
+            return
+        ask = Question("IMPORT?", list(changes(program, table.tools)), [Answer("IMPORT")], "GO BACK")
+        if await self.app.push_screen_wait(ask) == "IMPORT":
+            self.host.apply(merged(program, table.tools), "IMPORT TOOL TABLE")
+            self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4)
+            self.app.call_later(self.app.run_action, "app.back")
+
+    def prompt_text(self) -> Sentence:
+        """What to type."""
+        return Sentence("Name of a LinuxCNC tool table, Enter reads it. F2 changes the units of its lengths.")
+
+
+def _fault(finding: Finding) -> Content:
+    role = "$c-err" if finding.severity is Severity.ERROR else "$c-warn"
+    return Content.styled(f" line {finding.line}, column {finding.column}: {finding.text}", role)
+
+
+def changes(program: Program, tools: tuple[Tool, ...]) -> Iterator[str]:
+    """What the import does to the table, in a few lines."""
+    known = {tool.number: tool for tool in program.tools}
+    new = [tool for tool in tools if tool.number not in known]
+    other = [tool for tool in tools if tool.number in known and known[tool.number] != tool]
+    yield f"Tools: {len(tools)}. New: {len(new)}. In place of one that differs: {len(other)}."
+    for tool in other[:MAX_LISTED]:
+        before, after = tool_line(known[tool.number], program.unit), tool_line(tool, program.unit)
+        yield f"{' '.join(before.split())} becomes {' '.join(after.split()[1:])}"
+    if len(other) > MAX_LISTED:
+        yield f"{len(other) - MAX_LISTED} more change."

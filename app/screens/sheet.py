@@ -1,0 +1,92 @@
+"""SETUP SHEET: the file of the sheet that goes to the machine with the program, and what stands on it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+from textual import work
+from textual.app import ComposeResult
+from textual.content import Content
+from textual.widgets import Static
+
+from app.documents.files import refuse_program, write_output
+from app.documents.folders import chosen, outside, told_path, written_at
+from app.documents.naming import typed, with_suffix
+from app.screens.dialogs import Answer, Question
+from app.screens.entry_screen import EntryScreen
+from app.session.messages import Sentence, Tone
+from app.session.posting import setup_sheet
+from app.session.session import Session
+from app.widgets.softkeys import Softkey
+from core.program.file.read import StoreError
+from core.program.model import Program
+
+PAGES = (".html", ".htm")
+"""Endings of sheets that are pages with the drawing; any other is text."""
+
+
+class SheetScreen(EntryScreen):
+    """The name of the sheet's file, and the sheet as text."""
+
+    TITLE: ClassVar[str] = "SETUP SHEET"
+    LABEL: ClassVar[str] = "FILE"
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("WRITE", "enter", "WRITE"),
+        Softkey("PAGE WITH DRAWING", "ending('.html')", "PAGE"),
+        Softkey("AS TEXT", "ending('.txt')", "TEXT"),
+        *(None,) * 4,
+        Softkey("BACK", "app.back", "BACK"),
+    )
+
+    def compose_rest(self) -> ComposeResult:
+        """The sheet."""
+        yield Static(id="sheet-text", markup=False)
+
+    def show_session(self, session: Session) -> None:
+        """The sheet of the program as it is now."""
+        self._make(session.program)
+
+    @work(thread=True, exclusive=True, group="sheet")
+    def _make(self, program: Program) -> None:
+        text = setup_sheet(program, Path("sheet.txt"), self.host.now())
+        self.app.call_from_thread(self._show, text)
+
+    def _show(self, text: str) -> None:
+        self.query_exactly_one("#sheet-text", Static).update(Content(text))
+
+    def action_ending(self, ending: str) -> None:
+        """Give the name another ending."""
+        if self.text:
+            self.text = str(Path(self.text).with_suffix(ending))
+
+    def entered(self, text: str) -> None:
+        """Write the sheet; asks before a file is replaced."""
+        self._write(with_suffix(chosen(typed(text), self.current_session.file), ".html"))
+
+    @work(exclusive=True, group="question")
+    async def _write(self, path: Path) -> None:
+        session = self.current_session
+        try:
+            refuse_program(path)
+        except StoreError as error:
+            self.say(str(error), Tone.ERROR)
+            return
+        word, title, line = "", "", told_path(path)
+        if outside(path, session.file):
+            word, title = "WRITE THERE", "WRITE IN ANOTHER FOLDER?"
+        elif path.exists():
+            word, title, line = "REPLACE", "REPLACE THE FILE?", f"{line} exists."
+        if word and await self.app.push_screen_wait(Question(title, [line], [Answer(word)], "GO BACK")) != word:
+            return
+        try:
+            write_output(path, setup_sheet(session.program, path, self.host.now()))
+        except StoreError as error:
+            self.say(str(error), Tone.ERROR)
+            return
+        self.notify(f"Setup sheet: {written_at(path)}", timeout=4)
+        self.app.call_later(self.app.run_action, "app.back")
+
+    def prompt_text(self) -> Sentence:
+        """What to type."""
+        return Sentence("Name of the sheet, Enter writes it: .html is a page with the drawing, .txt is text.")
