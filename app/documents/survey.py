@@ -10,7 +10,11 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final
 
+from app.documents.document import ContourDocument
 from app.documents.files import load
+from app.documents.journal import Journal, Kind
+from app.documents.left_overs import left_by_dead, left_of, never_saved, state_folder
+from app.documents.lock import alive, user
 from app.documents.patience import FILE, FOLDER, within
 from app.documents.programs import examples, is_program
 from core.finding import Severity
@@ -23,8 +27,10 @@ MAX_LISTED: Final = 500
 
 
 class Outcome(StrEnum):
-    """The verdict on a file in one word, the gravest first."""
+    """The verdict on a file in one word, the gravest first; work that was not saved comes before it."""
 
+    NOT_SAVED = "not saved"
+    OPEN = "open"
     GOUGE = "gouge"
     NOT_READY = "not ready"
     UNREADABLE = "unreadable"
@@ -61,16 +67,43 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     try:
         status = path.stat()
     except (OSError, ValueError):
-        text = "This file is not there any more, or its folder cannot be read."
-        return Facts(path, outcome=Outcome.UNREADABLE, trouble=text), None
+        return _without_file(path), None
     stamp = (status.st_mtime_ns, status.st_size)
-    if known is not None and known.stamp == stamp:
+    left = [journal for _, journal in left_by_dead(path, Kind.CONTOUR, state_folder(), user())]
+    if known is not None and known.stamp == stamp and not left and known.outcome is not Outcome.NOT_SAVED:
         return known, None
     facts = Facts(path, stamp, datetime.fromtimestamp(status.st_mtime).astimezone())
     try:
-        return facts, load(path)
+        program = load(path)
     except StoreError as error:
-        return replace(facts, outcome=Outcome.UNREADABLE, trouble=str(error)), None
+        return _not_saved(facts) if left else replace(facts, outcome=Outcome.UNREADABLE, trouble=str(error)), None
+    saved = ContourDocument.of(program)
+    if any(journal.damaged or not saved.holds(journal) for journal in left):
+        return _not_saved(replace(facts, blocks=str(len(program.blocks)), tools=_tools(program))), None
+    return facts, program
+
+
+def _without_file(path: Path) -> Facts:
+    """The facts of a program that is not there: it was never saved, or it is lost."""
+    gone = Facts(path, outcome=Outcome.UNREADABLE)
+    try:
+        left = [journal for _, journal in left_of(path, Kind.CONTOUR, state_folder())]
+    except (OSError, ValueError):
+        left = []
+    journals = [journal for journal in left if isinstance(journal, Journal)]
+    if any(not alive(journal.head.owner) for journal in journals):
+        return _not_saved(gone)
+    if journals:
+        text = "This program is open and has not been saved yet."
+        return replace(gone, outcome=Outcome.OPEN, trouble=text)
+    if left:
+        return replace(gone, trouble="Unsaved work on this program is damaged. It is kept; opening it says where.")
+    return replace(gone, trouble="This file is not there any more, or its folder cannot be read.")
+
+
+def _not_saved(facts: Facts) -> Facts:
+    text = "There is unsaved work on this program. Opening it asks whether you want it back."
+    return replace(facts, outcome=Outcome.NOT_SAVED, trouble=text)
 
 
 def _judged(facts: Facts, program: Program) -> Facts:
@@ -143,8 +176,8 @@ def _inside(folder: Path) -> Iterator[Listed]:
         inside = sorted(found, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
     folders = [each for each in inside if not each.name.startswith(".") and each.is_dir()]
-    for each in programs[:MAX_LISTED]:
-        if is_program(Path(each.path)):
-            yield Listed(Path(each.path), each.name.removesuffix(".toml"))
+    saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
+    for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
+        yield Listed(path, path.name.removesuffix(".toml"))
     for each in folders[:MAX_LISTED]:
         yield Listed(Path(each.path), f"{each.name}/", folder=True)

@@ -35,6 +35,8 @@ NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 
 
 OUTCOME_ROLES: Final = {
+    Outcome.NOT_SAVED: "$c-warn",
+    Outcome.OPEN: "$c-label",
     Outcome.GOUGE: "$c-gouge",
     Outcome.NOT_READY: "$c-warn",
     Outcome.UNREADABLE: "$c-err",

@@ -1,0 +1,101 @@
+"""What the list of files tells of a program: what was not saved comes before the verdict on what was."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from threading import Event
+
+import pytest
+
+from app.documents import survey
+from app.documents.journal_file import SUFFIX, journal_path
+from app.documents.survey import Outcome, facts_of, programs_of
+from tests.app.documents.typist import ELSEWHERE, started
+
+
+@pytest.fixture(autouse=True)
+def person(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(survey, "state_folder", lambda: own)
+    monkeypatch.setattr(survey, "user", lambda: "ann")
+
+
+def names(folder: Path) -> list[str]:
+    return [each.name for each in programs_of(folder) if not (each.folder or each.example)]
+
+
+def test_a_saved_program_has_its_verdict(part: Path) -> None:
+    facts = facts_of(part)
+    assert (facts.outcome, facts.blocks, facts.tools, facts.trouble) == (Outcome.UNCUT, "1", "1", "")
+    assert facts_of(part, facts) is facts
+
+
+def test_unsaved_work_comes_before_the_verdict(own: Path, part: Path) -> None:
+    known = facts_of(part)
+    started(own, part).type(7).killed()
+    facts = facts_of(part, known)
+    assert (facts.outcome, facts.blocks) == (Outcome.NOT_SAVED, "1")
+    assert "Opening it asks whether you want it back." in facts.trouble
+    started(own, part).answer("RESTORE").save().left()
+    assert facts_of(part, facts).outcome is not Outcome.NOT_SAVED
+
+
+def test_work_that_says_nothing_new_is_none(own: Path, part: Path) -> None:
+    operator = started(own, part).type(7)
+    operator.killed()
+    part.write_bytes(operator.document.data())
+    assert facts_of(part).outcome is not Outcome.NOT_SAVED
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_program_that_was_never_saved_stands_in_the_list(
+    own: Path, part: Path, monkeypatch: pytest.MonkeyPatch, *, closed: bool
+) -> None:
+    if closed:
+        monkeypatch.setattr(os, "access", lambda *_: False)
+    started(own, part.with_name("flap.toml")).type(7).killed()
+    part.with_name(f".lost.nc{SUFFIX}").write_text("an NC text's own")
+    assert names(part.parent) == ["flap", "part"]
+    assert facts_of(part.with_name("flap.toml")).outcome is Outcome.NOT_SAVED
+
+
+def test_damaged_work_on_a_program_that_was_never_saved_is_told(part: Path) -> None:
+    journal_path(part.with_name("flap.toml")).write_bytes(b"?" * 300)
+    facts = facts_of(part.with_name("flap.toml"))
+    assert facts.outcome is Outcome.UNREADABLE
+    assert "is damaged. It is kept" in facts.trouble
+    journal_path(part.with_name("flap.toml")).write_bytes(b"")
+    assert names(part.parent) == ["part"]
+
+
+def test_a_program_that_somebody_types_and_has_not_saved_is_open(own: Path, part: Path) -> None:
+    started(own, part.with_name("flap.toml"), ELSEWHERE).type(7)
+    assert facts_of(part.with_name("flap.toml")).outcome is Outcome.OPEN
+    assert names(part.parent) == ["flap", "part"]
+
+
+def test_a_file_that_does_not_answer_does_not_hold_up_the_others(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    never, real = Event(), Path.stat
+    monkeypatch.setattr(survey, "FILE", 0.05)
+    monkeypatch.setattr(
+        Path, "stat", lambda path, **rest: never.wait(5) if path.name == "a.toml" else real(path, **rest)
+    )
+    facts = facts_of(part.with_name("a.toml"))
+    assert facts.outcome is Outcome.UNREADABLE
+    assert "no answer" in facts.trouble
+    never.set()
+    assert facts_of(part.with_name("b.toml")).trouble.startswith("This file is not there any more")
+
+
+def test_opening_a_file_that_does_not_answer_is_told(own: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from app.documents import service as module
+    from app.documents.service import Trouble
+    from tests.app.documents.typist import service
+
+    never = Event()
+    monkeypatch.setattr(module, "FILE", 0.05)
+    monkeypatch.setattr(module, "read_file", lambda *_: never.wait(5))
+    opened = service(own).open(part)
+    never.set()
+    assert isinstance(opened, Trouble)
+    assert "cannot be opened: no answer" in opened.text
