@@ -36,6 +36,9 @@ RELATIONS = ("point_x", "point_y", "point_dist", "parallel", "offset", "start_an
 SKETCHED = 0.2
 """The part of a run's size that is drawn of an element of which only the heading is known."""
 
+ENDING = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
+"""Data that say where along its line or circle an element ends; the last one of a stretch has one of them."""
+
 KEPT = ("x_end_inc", "y_end_inc")
 """What a LINE that stays on a coordinate says, by axis."""
 
@@ -182,8 +185,10 @@ def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attem
 
 def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Attempt | None:
     """The answers of a stretch, None where too few data are typed."""
+    if not contour.readings[indices[-1]].known.keys() & ENDING:
+        return None
     run = _run(contour, indices, before)
-    return None if run.missing > 0 else _Attempt(tuple(indices), run, search(run))
+    return _Attempt(tuple(indices), run, search(run)) if run.enough else None
 
 
 def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:

@@ -234,6 +234,8 @@ class Branch:
             self.put(self.heading_in, index, atan2(-turn * dx, turn * dy))
 
     def _line(self, index: int) -> None:
+        if self.length[index] is not None and self.offset[index] is not None:
+            return
         known = self.run.elements[index].known
         start, end, heading = self.joint(index), self.joint(index + 1), self.heading_in[index]
         if start is not None and end is not None:
@@ -254,6 +256,9 @@ class Branch:
     def _arc(self, index: int) -> None:
         center, rho = self.center(index), self.rho[index]
         element = self.run.elements[index]
+        known = (rho, self.sweep[index], self.heading_in[index], self.heading_out[index])
+        if center is not None and None not in known:
+            return
         if center is not None and rho is None:
             for point in (self.joint(index), self.joint(index + 1), element.point):
                 if point is not None:
@@ -289,6 +294,9 @@ class Branch:
         Anchors that lengths have carried along are left out unless `carried`.
         """
         last = len(self.run.elements)
+        both = (self.heading_out[index - 1], 0.0 if index == last else self.heading_in[index])
+        if self.joint(index) is not None and None not in both:
+            return
         sides = [(self.heading_out, index - 1, self.arriving(index))]
         if index < last:
             sides.append((self.heading_in, index, self.departing(index)))

@@ -74,7 +74,7 @@ class Element:
         """How many numbers determine it once its start is known."""
         return 3 if self.turn else 2
 
-    @property
+    @cached_property
     def data(self) -> tuple[str, ...]:
         """What is typed of it, each of which counts as one."""
         present = set(self.known) & set(COUNTED)
@@ -95,6 +95,16 @@ class Run:
     def missing(self) -> int:
         """How many more data it takes at least; 0 or less where there are enough."""
         return sum(element.unknowns - len(element.data) for element in self.elements)
+
+    @property
+    def enough(self) -> bool:
+        """Whether there may be enough data: for the whole run, and for its end whatever comes before that."""
+        rest = 0
+        for element in reversed(self.elements):
+            rest += element.unknowns - len(element.data)
+            if rest > 0:
+                return False
+        return True
 
     @property
     def size(self) -> float:

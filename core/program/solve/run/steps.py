@@ -11,6 +11,7 @@ from math import dist, pi
 from typing import Final
 
 from core.geometry.oriented import OrientedLine, headings_at_distances, meeting
+from core.geometry.piece import Point
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch, DeadEnd
 from core.program.solve.run.circle import Circles, circles
@@ -117,30 +118,47 @@ def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
     return ways
 
 
+def _plain_headings(branch: Branch) -> Ways | None:
+    """The headings of all LINEs that run from one known point or circle to another: one root each."""
+    way: Branch | None = None
+    for index, first, second in _tied_lines(branch):
+        if (first[2], second[2]) != ("start", "end"):
+            continue
+        headings, _ = headings_at_distances(first[0], first[1], second[0], second[1])
+        if not headings:
+            raise DeadEnd(reasons.no_tangent(branch, index, first, second))
+        way = way or branch.copy()
+        way.put_heading(index, headings[0])
+        way.changed = True
+    return None if way is None else [way]
+
+
 def _heading(branch: Branch) -> Ways | None:
     """A LINE's heading from two points that it passes at known distances."""
+    for index, first, second in _tied_lines(branch):
+        headings, grazing = headings_at_distances(first[0], first[1], second[0], second[1])
+        if not headings:
+            raise DeadEnd(reasons.no_tangent(branch, index, first, second))
+        ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
+        for way, heading in zip(ways, headings, strict=True):
+            way.put_heading(index, heading)
+        return ways
+    return None
+
+
+Tie = tuple[Point, float, str]
+
+
+def _tied_lines(branch: Branch) -> Iterator[tuple[int, Tie, Tie]]:
+    """The LINEs of unknown heading with two points at known distances."""
     for index, element in enumerate(branch.run.elements):
         if element.turn or branch.heading_in[index] is not None:
             continue
         ties = list(branch.line_ties(index))
         pairs = ((a, b) for at, a in enumerate(ties) for b in ties[at + 1 :] if dist(a[0], b[0]) > JOINED)
         pair = next(pairs, None)
-        if pair is None:
-            continue
-        (first, r, foot), (second, s, other) = pair
-        headings, grazing = headings_at_distances(first, r, second, s)
-        if not headings:
-            raise DeadEnd(reasons.no_tangent(branch, index, pair[0], pair[1]))
-        if (foot, other) == ("start", "end"):
-            way = branch.copy()
-            way.put_heading(index, headings[0])
-            way.changed = True
-            return [way]
-        ways = [branch.chosen(root, grazing=grazing) for root in range(len(headings))]
-        for way, heading in zip(ways, headings, strict=True):
-            way.put_heading(index, heading)
-        return ways
-    return None
+        if pair is not None:
+            yield index, *pair
 
 
 def _point_side(branch: Branch) -> Ways | None:
@@ -187,4 +205,13 @@ def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float
     return ways
 
 
-STEPS: Final[tuple[Step, ...]] = (_parallel, _single_circle, _heading, _joint, _circle, _point_side, _offset_side)
+STEPS: Final[tuple[Step, ...]] = (
+    _parallel,
+    _single_circle,
+    _plain_headings,
+    _heading,
+    _joint,
+    _circle,
+    _point_side,
+    _offset_side,
+)
