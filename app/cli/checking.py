@@ -180,8 +180,8 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
         )
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
-        told_here = _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
-        return replace(told_here, parting=row.parts, parting_of=row.of)
+        compared_row = _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
+        return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
     text = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
     told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)

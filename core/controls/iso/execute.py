@@ -54,7 +54,7 @@ def execute(
     flow.finish()
     unit = machine.first_unit or machine.unit
     made = ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
-    return _by_own_lines(made, flow) if isinstance(flow, MacroFlow) else made
+    return _by_main_lines(made, flow) if isinstance(flow, MacroFlow) else made
 
 
 def _run(flow: Flow, machine: Machine) -> None:
@@ -73,7 +73,7 @@ def _run(flow: Flow, machine: Machine) -> None:
     machine.control.close()
 
 
-def _by_own_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
+def _by_main_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
     """The run with the lines of called files told as the lines that call them, and its variables."""
     made = replace(made, variables=dict(flow.variables.common))
     if not flow.called_from:
@@ -83,20 +83,20 @@ def _by_own_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
         line, place = flow.origin_of(finding.line or 0)
         text = f"{place}: {finding.text}" if place else finding.text
         findings.append(replace(finding, text=text, line=line or None, column=1 if place else finding.column))
-    stretches = tuple(_stretch_by_own_lines(stretch, flow) for stretch in made.stretches)
+    stretches = tuple(_stretch_by_main_lines(stretch, flow) for stretch in made.stretches)
     stopped_at = None if made.stopped_at is None else flow.origin_of(made.stopped_at)[0]
     return replace(
         made,
         findings=tuple(findings),
-        moves=_moves_by_own_lines(made.moves, flow),
+        moves=_moves_by_main_lines(made.moves, flow),
         stretches=stretches,
         stopped_at=stopped_at,
     )
 
 
-def _moves_by_own_lines(moves: Moves, flow: MacroFlow) -> Moves:
+def _moves_by_main_lines(moves: Moves, flow: MacroFlow) -> Moves:
     return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))
 
 
-def _stretch_by_own_lines(stretch: Stretch, flow: MacroFlow) -> Stretch:
-    return replace(stretch, programmed=_moves_by_own_lines(stretch.programmed, flow))
+def _stretch_by_main_lines(stretch: Stretch, flow: MacroFlow) -> Stretch:
+    return replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow))

@@ -181,7 +181,7 @@ class MacroFlow(Flow):
         except FaultError as fault:
             self._fault(fault, row, statement.line)
         except AlarmByProgramError as alarm:
-            self._own_alarm(alarm.number, row)
+            self._program_alarm(alarm.number, row)
         self._tell_unset(row)
         if statement.keyword == "[":
             yield from self._words(row, statement)
@@ -218,9 +218,9 @@ class MacroFlow(Flow):
         line = CompactText.of(bare, self.starts[row])
         if not _EXPRESSIONS.intersection(bare):
             self._note_points(bare, row)
-        found = _KEYWORD.match(line.text)
-        if found:
-            return Statement(found[1] or "[", line, found.end())
+        keyword = _KEYWORD.match(line.text)
+        if keyword:
+            return Statement(keyword[1] or "[", line, keyword.end())
         if _EXTERNAL.match(line.text):
             return Statement("OUT", line, 0)
         return Statement("", line, 0)
@@ -228,7 +228,7 @@ class MacroFlow(Flow):
     def _fault(self, fault: FaultError, row: int, line: CompactText) -> NoReturn:
         self.log.stop(fault.code, fault.text, self.numbers[row], line.column(fault.at))
 
-    def _own_alarm(self, number: int, row: int) -> NoReturn:
+    def _program_alarm(self, number: int, row: int) -> NoReturn:
         comment = re.search(r"\(([^)]*)", self.lines[row])
         said = f': "{quoted(comment[1])}"' if comment else ""
         text = f"The program stops itself here with alarm {3000 + number}{said}."

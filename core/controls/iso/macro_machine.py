@@ -137,7 +137,9 @@ class MacroMachine(Machine):
     """Runs the blocks of a Fanuc or Haas program.
 
     `unknown` are the axes whose place is not known; `in_force` the code of each group; `last_words` the values of the
-    block before that variables read; `polar` the radius and the angle last programmed under G16, None without it.
+    block before that variables read; `start_unknown`: the block's move starts at a place of the machine; `polar` the
+    radius and the angle last programmed under G16, None without it.  `following` is the next block, where a corner
+    before it is to be rounded, and `corner_point` that corner, once it is.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
@@ -149,12 +151,13 @@ class MacroMachine(Machine):
         self.last_words: dict[str, float] = {}
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
+        self.start_unknown = False
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
 
     def step(self, block: Block) -> None:
         """Runs one block; variables of the block before change only behind it."""
-        self.current = block
+        self.current, self.start_unknown = block, False
         super().step(block)
         for letter in _LAST_WORDS.values():
             if letter in block.words:
@@ -187,6 +190,7 @@ class MacroMachine(Machine):
                     text = f"Where {letter} stands after the move to the machine's point is not known. Write G90."
                     self.log.stop("FN-WHERE", text, self.current.line, self.current.column(letter))
                 self.unknown.discard(axis)
+                self.start_unknown = True
         if self.polar is not None:
             return self.transform.applied(self._polar_target(words))
         if not self.transform:
@@ -491,7 +495,7 @@ class MacroMachine(Machine):
         if key in _LAST_WORDS:
             return self.last_words.get(_LAST_WORDS[key], VACANT)
         if key in _CLOCKS or 1000 <= key <= 1135:
-            self._told_as_zero(key)
+            self._tell_unknown_value(key)
             return 0.0
         if key in _NO_EFFECT or 3000 <= key <= 3999:
             return 0.0
@@ -500,11 +504,11 @@ class MacroMachine(Machine):
         if 5041 <= key <= 5043:
             return self._in_work(self.control.tape.last, key - 5041)
         if 5021 <= key <= 5023 or 5061 <= key <= 5083:
-            self._told_as_zero(key)
+            self._tell_unknown_value(key)
             return VACANT
         return self._origin_variable(key)
 
-    def _told_as_zero(self, key: int) -> None:
+    def _tell_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
         self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.current.line, 1)
 

@@ -311,7 +311,17 @@ class Fanuc(VectorQueue, Control):
             super().travel(element)
             return
         self._tell_parameters(element.line)
+        if self.machine.start_unknown:
+            self._start_from_the_machine(element.line)
         self.start_up(element)
+
+    def _start_from_the_machine(self, line: int) -> None:
+        """The start-up comes from a place of the machine: type B needs to know it, the others do not."""
+        text = "Where this move starts is not known after the move to the machine's point."
+        if not self.vector_rules.type_a:
+            self.log.stop("FN-WHERE", f"{text} Write a rapid to a point before it.", line, 1)
+        text = f"{text} What it cuts on its way is not judged. Write a rapid to a point before it."
+        self.log.tell(Severity.WARNING, "FN-WHERE", text, line, 1)
 
     def _in_place(self, element: Element) -> None:
         """A move across the plane, or one of no length."""

@@ -292,14 +292,14 @@ class VectorQueue(Recorder):
             return
         dropped = False
         while _crosses(held.element, held.vectors[-1], ahead[0]):
-            before, behind = len(held.vectors) > 1, len(ahead) > 1
-            if not before and not behind:
+            at_start, at_end = len(held.vectors) > 1, len(ahead) > 1
+            if not at_start and not at_end:
                 self._crossing(held.element)
-            if before:
+            if at_start:
                 held.vectors.pop()
                 held.center = None
             held.straightened = True
-            if behind:
+            if at_end:
                 ahead.pop(0)
             dropped = True
         if dropped:

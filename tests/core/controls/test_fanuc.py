@@ -565,3 +565,10 @@ def test_the_nine_series_parts_from_fanuc_in_the_listed_cases_alone() -> None:
         if not same or any(apart(a.end, b.end) > 1e-6 for a, b in zip(flat(done), flat(other), strict=True)):
             parted.add(case["id"])
     assert parted == PARTED
+
+
+def test_a_start_up_from_the_machines_point_is_told_or_stops() -> None:
+    program = f"{HEAD}G28 X0 Y0\nG90 G1 G41 D1 X50 Y0\nY40\nG40 X0\nM30"
+    assert told(ran(program), "FN-WHERE")
+    assert ends(ran(program))[0] == (45.0, 0.0)
+    assert alarms(ran(program, "fanuc:b")) == [("FN-WHERE", 3)]
