@@ -19,6 +19,7 @@ from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from statistics import median
 from subprocess import DEVNULL
 
+from core.controls.compensation.element_queue import ARC_RUN_AT_STOP
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
@@ -196,6 +197,14 @@ def _cases(count: int) -> Iterable[tuple[str, str, dict[int, float], Unit]]:
         yield f"the distribution's {name}", sample(name), TOOLS, Unit.IN
 
 
+def _explanation(name: str, apart: str) -> str:
+    """Why a program fares differently, empty where nobody knows."""
+    if apart == ARC_RUN_AT_STOP:
+        return "the interpreter cuts into the corner after a stop, in a way that depends on what it ran before"
+    of_code = EXPLAINED_CODES.get(name.rpartition(", ")[2], "")
+    return EXPLAINED.get(name) or of_code or COMPENSATED.get(name.removeprefix("the distribution's "), "")
+
+
 def main(arguments: list[str]) -> int:
     """Prints the table, and each program that fares differently."""
     parser = argparse.ArgumentParser("tests.core.controls.compare_rs274", description=__doc__)
@@ -211,11 +220,7 @@ def main(arguments: list[str]) -> int:
             fared, apart = outcome(text, Path(folder), tools, unit)
             counts[fared] += 1
             if apart:
-                why = (
-                    EXPLAINED.get(name)
-                    or EXPLAINED_CODES.get(name.rpartition(", ")[2])
-                    or COMPENSATED.get(name.removeprefix("the distribution's "), "")
-                )
+                why = _explanation(name, apart)
                 print(f"{name}: {fared}: {why or apart}")
                 left += not why
     for fared, count in counts.most_common():
