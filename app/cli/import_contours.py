@@ -20,7 +20,8 @@ from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, 
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import rows_of, sentences, table, unit_question
-from core.importing.nc import CenterPath, NcContour, NcError, NcProgram, nc_blocks, read_nc
+from core.importing.nc import read_nc
+from core.importing.nc_contour import CenterPath, NcContour, NcError, NcProgram, nc_blocks
 from core.importing.segments import NotTaken, comment, taken
 from core.program.file.read import StoreError
 from core.program.file.write import dumps

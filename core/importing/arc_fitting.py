@@ -123,7 +123,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     ends = np.concatenate((points[1:], points[:1]))
     off = max(float(np.abs(away - radius).max()), _sagitta(points, ends, middle + center, radius))
     turned = np.angle((np.roll(local, -1) - center) * (local - center).conj())
-    if off > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _one_way(turned):
+    if off > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _turns_one_way(turned):
         return None
     at = middle + center
     start = at + (points[0] - at) / abs(points[0] - at) * radius
@@ -131,7 +131,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     return _Fit(Arc(begin, begin, _pair(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
 
 
-def _one_way(turned: NDArray[np.float64]) -> bool:
+def _turns_one_way(turned: NDArray[np.float64]) -> bool:
     return bool((turned > 0.0).all() or (turned < 0.0).all())
 
 
@@ -200,7 +200,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
         return None
     local = (points - points[0]) * (chord.conjugate() / size) - size / 2.0
     bend = np.angle(np.diff(local)[1:] * np.diff(local)[:-1].conj())
-    if not (_one_way(bend) or np.abs(bend[bend * bend.sum() < 0.0]).max(initial=0.0) < CORNER):
+    if not (_turns_one_way(bend) or np.abs(bend[bend * bend.sum() < 0.0]).max(initial=0.0) < CORNER):
         return None
     turn = 1.0 if bend.sum() > 0.0 else -1.0
     if abs(bend.sum()) > tau * 0.95:

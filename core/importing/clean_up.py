@@ -293,27 +293,27 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] |
     for arc in (first, second):
         if arc.start == arc.end:
             return arc, whole
-    one, other = (arc if arc.turn > 0 else reversed_piece(arc) for arc in (first, second))
-    assert isinstance(one, Arc)
-    assert isinstance(other, Arc)
+    base, after = (arc if arc.turn > 0 else reversed_piece(arc) for arc in (first, second))
+    assert isinstance(base, Arc)
+    assert isinstance(after, Arc)
     reach = slack / first.radius
     # angles from the start of the first, counterclockwise
-    begin = _angle(first.center, one.start, other.start)
-    end = begin + other.sweep
-    behind = begin - tau if tau - begin <= other.sweep - reach else begin
-    if behind < 0.0:
-        begin, end = behind, end - tau
-    if min(one.sweep, end) - max(0.0, begin) <= reach:
+    begin = _angle(first.center, base.start, after.start)
+    end = begin + after.sweep
+    wrapped = begin - tau if tau - begin <= after.sweep - reach else begin
+    if wrapped < 0.0:
+        begin, end = wrapped, end - tau
+    if min(base.sweep, end) - max(0.0, begin) <= reach:
         return None
     ends = [
         [(0, 0), (0, 1)] if first.turn > 0 else [(0, 1), (0, 0)],
         [(1, 0), (1, 1)] if second.turn > 0 else [(1, 1), (1, 0)],
     ]
-    start_at, start_of = (other.start, ends[1][0]) if begin < -reach else (one.start, ends[0][0])
-    end_at, end_of = (other.end, ends[1][1]) if end > one.sweep + reach else (one.end, ends[0][1])
-    if max(one.sweep, end) - min(0.0, begin) >= tau - reach:
-        return Arc(one.start, one.start, one.center, Turn.CCW), whole
-    return Arc(start_at, end_at, one.center, Turn.CCW), (start_of, end_of)
+    start_at, start_of = (after.start, ends[1][0]) if begin < -reach else (base.start, ends[0][0])
+    end_at, end_of = (after.end, ends[1][1]) if end > base.sweep + reach else (base.end, ends[0][1])
+    if max(base.sweep, end) - min(0.0, begin) >= tau - reach:
+        return Arc(base.start, base.start, base.center, Turn.CCW), whole
+    return Arc(start_at, end_at, base.center, Turn.CCW), (start_of, end_of)
 
 
 def _angle(center: Point, first: Point, second: Point) -> float:

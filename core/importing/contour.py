@@ -234,11 +234,11 @@ def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | 
     """Two open contours that end at one branch as one: the operator's answer there.  None where they do not meet."""
     turns = ((False, False), (False, True), (True, False), (True, True))
     for back, forth in turns:
-        one = reversed_pieces(first.pieces) if back else first.pieces
-        other = reversed_pieces(second.pieces) if forth else second.pieces
-        if dist(one[-1].end, other[0].start) <= tolerance:
-            closed = dist(other[-1].end, one[0].start) <= tolerance
-            joined = joined_chain((*one, *other), closed=closed, tolerance=tolerance)
+        before = reversed_pieces(first.pieces) if back else first.pieces
+        after = reversed_pieces(second.pieces) if forth else second.pieces
+        if dist(before[-1].end, after[0].start) <= tolerance:
+            closed = dist(after[-1].end, before[0].start) <= tolerance
+            joined = joined_chain((*before, *after), closed=closed, tolerance=tolerance)
             layers = tuple(dict.fromkeys((*first.layers, *second.layers)))
             kind = ContourKind.OUTSIDE if closed else ContourKind.OPEN
             return replace(

@@ -370,17 +370,17 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
     merged: list[Piece] = []
     for piece in pieces:
         last = merged[-1] if merged else None
-        one = None if last is None else _as_one(last, piece)
-        if one is None:
+        joined = None if last is None else _joined_pair(last, piece)
+        if joined is None:
             merged.append(piece)
         else:
-            merged[-1] = one
-    if len(merged) > 1 and merged[0].start == merged[-1].end and (one := _as_one(merged[-1], merged[0])):
-        merged = [one, *merged[1:-1]] if len(merged) > 2 or one.start != one.end else [one]
+            merged[-1] = joined
+    if len(merged) > 1 and merged[0].start == merged[-1].end and (joined := _joined_pair(merged[-1], merged[0])):
+        merged = [joined, *merged[1:-1]] if len(merged) > 2 or joined.start != joined.end else [joined]
     return merged
 
 
-def _as_one(first: Piece, second: Piece) -> Piece | None:
+def _joined_pair(first: Piece, second: Piece) -> Piece | None:
     if isinstance(first, Line) and isinstance(second, Line):
         points = np.array([complex(*first.start), complex(*first.end), complex(*second.end)])
         return Line(first.start, second.end) if _off_chord(points) <= STRAIGHT else None

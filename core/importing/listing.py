@@ -14,10 +14,13 @@ from core.geometry.piece import Arc, Line
 from core.importing.contour import Contour, ContourKind, fit_sentence
 from core.importing.contours import ContourList
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
-from core.units import Kind, Unit, from_mm, show
+from core.tolerance import JOINED
+from core.units import Kind, Unit, decimals_shown, from_mm, show
 
 SAME_SIZE: Final = 1e-4
 """Millimeters by which the radii of circles in one row may differ."""
+
+MAX_GAP_DECIMALS: Final = 8
 
 SAMPLES: Final = 33
 """Points of a curve by which its size is told where the unit is asked."""
@@ -110,7 +113,7 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
         layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
         yield f"frozen or off, not taken: {layers}."
     tolerance = show(from_mm(options.tolerance, unit), Kind.LENGTH, unit)
-    for count, one, more in (
+    for count, single, several in (
         (
             listed.tiny,
             f"1 piece shorter than TOLERANCE {tolerance} was",
@@ -119,14 +122,22 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
         (listed.duplicates, "1 equal piece was", "equal pieces were"),
     ):
         if count:
-            yield f"{one if count == 1 else f'{count} {more}'} dropped."
+            yield f"{single if count == 1 else f'{count} {several}'} dropped."
     if listed.overlaps:
         yield f"{listed.overlaps} overlapping {'piece was' if listed.overlaps == 1 else 'pieces were'} joined."
-    gap = from_mm(listed.gap, unit)
-    yield f"largest gap {show(gap, Kind.LENGTH, unit) if gap > 1e-9 else 'none'}."
+    yield f"largest gap {_gap_text(listed.gap, unit)}."
     for branch in listed.branches:
         x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in branch.at)
         yield f"branch at X {x} Y {y}: {branch.ways - 1} ways."
+
+
+def _gap_text(gap: float, unit: Unit) -> str:
+    """A gap with as many decimals as it takes to differ from nothing; what a double cannot tell is none."""
+    if gap <= JOINED:
+        return "none"
+    usual = decimals_shown(Kind.LENGTH, unit)
+    texts = (f"{from_mm(gap, unit):.{decimals}f}" for decimals in range(usual, MAX_GAP_DECIMALS + 1))
+    return next((text for text in texts if text.strip("0.")), "none")
 
 
 def unit_question(drawing: Drawing) -> str:

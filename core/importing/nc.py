@@ -10,13 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import dist, pi
-from typing import Final, NamedTuple
+from typing import Final
 
-from core.comp.compensate import compensate
-from core.comp.lookahead import HIGHEST, LOWEST, calculated
-from core.controls.compared_contours import Parting, apart
 from core.controls.contours_and_leads import contours_of
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
@@ -27,18 +23,14 @@ from core.finding import Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.importing.contour import Contour, ContourKind
-from core.importing.joints import carriers_meet, joined_chain
-from core.importing.segments import ImportedBlock, block_of
-from core.program.edit import set_tool
-from core.program.model import Block, CutterComp, Number, Program, Tool
-from core.tolerance import CLOSED, JOINED
-from core.units import Unit, from_mm, sentence, to_mm
+from core.importing.center_path import offset_back
+from core.importing.nc_contour import SAME_HEIGHT, CenterPath, Cut, NcContour, NcError, NcProgram
+from core.tolerance import CLOSED
+from core.units import Unit, sentence, to_mm
 
 SAME_CONTOUR: Final = 0.001
 """Millimeters within which passes are of one contour, and a contour's own path is that of the program."""
 
-SAME_HEIGHT: Final = 1e-4
 LEAD_SLACK: Final = 0.002
 """Millimeters by which the radii of a lead-in and its lead-out may differ."""
 
@@ -47,79 +39,6 @@ QUARTER: Final = 0.01
 
 TANGENT: Final = 0.01
 """Radians by which a lead may differ from the direction of the contour."""
-
-CORNER_RADIUS: Final = 0.002
-"""Millimeters: a contour's arc smaller than that is a corner, about which the tool's center turned."""
-
-
-class NcError(Exception):
-    """An NC program gives no contour; the text says why, with the line.
-
-    `needs_center`: the operator must say side and diameter.
-    """
-
-    def __init__(self, text: str, *, needs_center: bool = False) -> None:
-        super().__init__(text)
-        self.needs_center = needs_center
-
-
-@dataclass(frozen=True, slots=True)
-class CenterPath:
-    """What the operator says of a program of the tool's center: the side of the tool, None for ON, and its diameter.
-
-    The diameter is in the program's unit.
-    """
-
-    side: Side | None
-    diameter: float
-
-
-class Cut(NamedTuple):
-    """A piece with its feed (mm/min), its height at the end, and its line."""
-
-    piece: Piece
-    feed: float
-    z: float
-    line: int
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class NcContour:
-    """A contour of a program.
-
-    `radius` is that of the last pass in millimeters, None where the tool's center runs on the contour; `depths` are
-    those of its passes in their order.  `tool` and `speed` are the last ones named before it.
-    """
-
-    cuts: tuple[Cut, ...]
-    side: Side | None
-    radius: float | None
-    depths: tuple[float, ...]
-    tool: int | None
-    speed: float | None
-    plunge_feed: float | None = None
-    lookahead: int | None = None
-    """The look-ahead that makes the program's path of it, None for the calculated one."""
-    notes: tuple[str, ...] = ()
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The contour."""
-        return tuple(cut.piece for cut in self.cuts)
-
-    @property
-    def closed(self) -> bool:
-        """Whether it ends where it starts."""
-        return dist(self.cuts[0].piece.start, self.cuts[-1].piece.end) <= CLOSED
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class NcProgram:
-    """The contours of a program, in its unit."""
-
-    unit: Unit
-    contours: tuple[NcContour, ...]
-    notes: tuple[str, ...] = ()
 
 
 def read_nc(
@@ -337,135 +256,6 @@ def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:
             begin = None
 
 
-def offset_back(cuts: Sequence[Cut], side: Side, radius: float) -> tuple[list[Cut], int | None]:
-    """The contour whose path at this radius and side the cuts are, and the look-ahead that it needs.
-
-    The look-ahead is None where the calculated one makes the path.  NcError with the line where there is no contour.
-    """
-    kept = [(cut, piece) for cut in cuts if (piece := _shifted(cut, side, radius)) is not None]
-    if not kept:
-        raise NcError(f"Line {cuts[0].line}: the path only turns about a point; there is no contour.")
-    ring = dist(cuts[0].piece.start, cuts[-1].piece.end) <= CLOSED
-    closed = ring or dist(kept[0][1].start, kept[-1][1].end) <= CLOSED
-    extended, corner_at_start = _extended(kept, closed=closed)
-    pieces = joined_chain([cut.piece for cut in extended], closed=closed, tolerance=SAME_CONTOUR).pieces
-    if len(pieces) != len(extended):
-        raise NcError(f"Line {cuts[0].line}: no contour has this path.")
-    contour = [cut._replace(piece=piece) for cut, piece in zip(extended, pieces, strict=True)]
-    if ring and corner_at_start:
-        contour = _from_side(contour)
-    return contour, _proved(contour, cuts, side, radius, closed=closed)
-
-
-def _from_side(contour: list[Cut]) -> list[Cut]:
-    """A ring from the middle of its longest line on: started in an inside corner it would have another path."""
-    lines = [row for row, cut in enumerate(contour) if isinstance(cut.piece, Line)] or list(range(len(contour)))
-    row = max(lines, key=lambda row: contour[row].piece.length)
-    cut = contour[row]
-    middle = cut.piece.point_at(0.5)
-    first, second = replace(cut.piece, end=middle), replace(cut.piece, start=middle)
-    return [cut._replace(piece=second), *contour[row + 1 :], *contour[:row], cut._replace(piece=first)]
-
-
-def _shifted(cut: Cut, side: Side, radius: float) -> Piece | None:
-    """What the path's piece is the offset of; None where that is a corner."""
-    piece = cut.piece
-    if isinstance(piece, Line):
-        dx, dy = piece.direction_at(piece.start)
-        x, y = dy * side.sign * radius, -dx * side.sign * radius
-        return Line((piece.start[0] + x, piece.start[1] + y), (piece.end[0] + x, piece.end[1] + y))
-    size = piece.radius + radius * int(piece.turn) * side.sign
-    if abs(size) <= CORNER_RADIUS:
-        return None
-    if size < 0.0:
-        raise NcError(f"Line {cut.line}: an arc of the path is smaller than the tool and curves around the contour.")
-    factor = size / piece.radius
-    (cx, cy) = piece.center
-    start, end = ((cx + (x - cx) * factor, cy + (y - cy) * factor) for x, y in (piece.start, piece.end))
-    return Arc(start, start if piece.start == piece.end else end, piece.center, piece.turn)
-
-
-def _extended(kept: Sequence[tuple[Cut, Piece]], *, closed: bool) -> tuple[list[Cut], bool]:
-    """The pieces made longer up to the inside corners, and whether there is one at the start.
-
-    Where carriers do not meet the tool has left material: there a line goes on from an arc along its tangent.
-    """
-    made = [cut._replace(piece=piece) for cut, piece in kept]
-    result: list[Cut] = []
-    corner = False
-    for index in range(len(made)):
-        following = (index + 1) % len(made)
-        first, second = made[index], made[following]
-        last = following == 0
-        if (last and (not closed or len(made) == 1)) or dist(first.piece.end, second.piece.start) <= SAME_CONTOUR:
-            result.append(first)
-            continue
-        corner = corner or last
-        before, between, after = _to_corner(first, second)
-        result += [before, *between]
-        made[following] = after
-        if last:
-            result[0] = result[0]._replace(piece=replace(result[0].piece, start=after.piece.start))
-    return result, corner
-
-
-def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
-    """Two pieces up to the corner between them, and the lines that lead there where they do not reach it."""
-    one, other = first.piece, second.piece
-    here, there = one.end, other.start
-    if min(one.length, other.length) <= JOINED:
-        # cut away by the corner before it
-        raise NcError(f"Line {second.line}: no contour has this path.")
-    meetings = carriers_meet(one, other)
-    reach = 4.0 * dist(here, there) + SAME_CONTOUR
-    near = [point for point in meetings if max(dist(point, here), dist(point, there)) <= reach]
-    if near:
-        at = min(near, key=lambda point: dist(point, here) + dist(point, there))
-        return first._replace(piece=replace(one, end=at)), [], second._replace(piece=replace(other, start=at))
-    tangents = [_tangent_line(one, end=True), _tangent_line(other, end=False)]
-    meetings = carriers_meet(*tangents)
-    if not meetings or max(dist(meetings[0], here), dist(meetings[0], there)) > reach:
-        raise NcError(f"Line {second.line}: two pieces of the contour do not meet; no contour has this path.")
-    at = meetings[0]
-    if isinstance(one, Line):
-        first = first._replace(piece=Line(one.start, at))
-        return first, [first._replace(piece=Line(at, there), line=second.line)], second
-    if isinstance(other, Line):
-        return first, [first._replace(piece=Line(here, at))], second._replace(piece=Line(at, other.end))
-    return first, [first._replace(piece=Line(here, at)), second._replace(piece=Line(at, there))], second
-
-
-def _tangent_line(piece: Piece, *, end: bool) -> Line:
-    """A line of length 1 along a piece at its end, or up to its start."""
-    if end:
-        (x, y), (dx, dy) = piece.end, piece.direction_at(piece.end)
-        return Line((x, y), (x + dx, y + dy))
-    (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
-    return Line((x - dx, y - dy), (x, y))
-
-
-def _proved(contour: Sequence[Cut], cuts: Sequence[Cut], side: Side, radius: float, *, closed: bool) -> int | None:
-    """Compensate the contour again and compare with the program's path: the look-ahead that makes it, None for CAL."""
-    surface = Path.from_pieces([cut.piece for cut in contour])
-    path = Path.from_pieces([cut.piece for cut in cuts], [float(cut.line) for cut in cuts])
-    calculated_value = calculated(len(contour), closed=closed)
-    best: Parting | None = None
-    for value in dict.fromkeys((calculated_value, *range(LOWEST, HIGHEST + 1))):
-        again = compensate(surface, side, radius, value, closed=closed).path
-        if not len(again):
-            continue
-        parting = apart(path, again, SAME_CONTOUR) or apart(again, path, SAME_CONTOUR)
-        if parting is None:
-            return None if value == calculated_value else value
-        best = parting if best is None or parting.distance < best.distance else best
-    if best is None:
-        raise NcError(f"Line {cuts[0].line}: no contour has this path.")
-    raise NcError(
-        f"Line {best.line or cuts[0].line}: no contour has this path; the nearest one is {best.distance:.3f} mm off. "
-        "Is the diameter or the side another one?"
-    )
-
-
 def _grouped(passes: Sequence[NcContour]) -> list[NcContour]:
     """Passes of one contour as one: radius, feed, tool and speed are the last pass's, depths are all of them."""
     groups: list[list[NcContour]] = []
@@ -475,22 +265,22 @@ def _grouped(passes: Sequence[NcContour]) -> list[NcContour]:
             groups.append([contour])
         else:
             group.append(contour)
-    return [_one(group) for group in groups]
+    return [_passes_as_one(group) for group in groups]
 
 
 def _same(first: NcContour, second: NcContour) -> bool:
     if first.side is not second.side or len(first.cuts) != len(second.cuts):
         return False
     return all(
-        type(one.piece) is type(other.piece)
-        and dist(one.piece.start, other.piece.start) <= SAME_CONTOUR
-        and dist(one.piece.point_at(0.5), other.piece.point_at(0.5)) <= SAME_CONTOUR
-        and dist(one.piece.end, other.piece.end) <= SAME_CONTOUR
-        for one, other in zip(first.cuts, second.cuts, strict=True)
+        type(first_cut.piece) is type(second_cut.piece)
+        and dist(first_cut.piece.start, second_cut.piece.start) <= SAME_CONTOUR
+        and dist(first_cut.piece.point_at(0.5), second_cut.piece.point_at(0.5)) <= SAME_CONTOUR
+        and dist(first_cut.piece.end, second_cut.piece.end) <= SAME_CONTOUR
+        for first_cut, second_cut in zip(first.cuts, second.cuts, strict=True)
     )
 
 
-def _one(group: Sequence[NcContour]) -> NcContour:
+def _passes_as_one(group: Sequence[NcContour]) -> NcContour:
     last, notes = group[-1], list[str]()
     radii = list(dict.fromkeys(round(contour.radius, 4) for contour in group if contour.radius is not None))
     if len(radii) > 1:
@@ -500,83 +290,3 @@ def _one(group: Sequence[NcContour]) -> NcContour:
         notes.append(f"Tools {', '.join(map(str, tools))} cut one contour: the last one is taken.")
     depths = tuple(contour.depths[0] for contour in group)
     return replace(last, depths=depths, notes=(*last.notes, *notes))
-
-
-def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[ImportedBlock]]:
-    """The program with a block for each contour of an NC program, and the tools that were not in its table.
-
-    Raises `segments.NotTaken`.
-    """
-    made: list[ImportedBlock] = []
-    for number, contour in enumerate(read.contours, 1):
-        program = _with_tool(program, contour)
-        made.append(_block(number, contour, program))
-    return replace(program, blocks=(*program.blocks, *(item.block for item in made))), made
-
-
-def _with_tool(program: Program, contour: NcContour) -> Program:
-    """The tool table with the contour's tool, unless it has one of that number."""
-    if contour.tool is None or contour.radius is None or any(tool.number == contour.tool for tool in program.tools):
-        return program
-    diameter = Number(round(from_mm(2.0 * contour.radius, program.unit), 6))
-    added = set_tool(program, Tool(contour.tool, diameter=diameter))
-    return added if isinstance(added, Program) else program
-
-
-def _block(number: int, contour: NcContour, program: Program) -> ImportedBlock:
-    kind = ContourKind.OUTSIDE if contour.closed else ContourKind.OPEN
-    pieces = contour.pieces
-    plain = Contour(number, pieces, contour.closed, kind, (), len(pieces))
-    item = block_of(plain, program)
-    notes = [*contour.notes, *(note for note in item.notes if "is open" not in note)]
-    block = _with_values(item.block, contour, program.unit, notes)
-    return replace(item, block=block, notes=tuple(notes))
-
-
-def _with_values(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
-    """The block with side, tool, speed, feeds, heights and depths of the program."""
-    side = contour.side
-    comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
-    block = replace(block, cutter_comp=comp)
-    if contour.tool:
-        block = replace(block, tool=Number(float(contour.tool)))
-    if contour.lookahead is not None:
-        block = replace(block, lookahead=Number(float(contour.lookahead)))
-    if contour.speed:
-        block = replace(block, speed=Number(contour.speed))
-    if contour.plunge_feed:
-        block = replace(block, plunge_feed=_typed(contour.plunge_feed, unit, 3))
-    return _with_feeds_and_heights(_with_depths(block, contour, unit, notes), contour, unit)
-
-
-def _typed(value: float, unit: Unit, decimals: int) -> Number:
-    return Number(round(from_mm(value, unit), decimals) + 0.0)
-
-
-def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
-    """Z BOTTOM is the last depth; PECK DEPTH the step between depths, where it is one."""
-    falling = [depth for depth in dict.fromkeys(round(depth, 4) for depth in contour.depths)]
-    bottom = min(falling)
-    block = replace(block, z_bottom=_typed(bottom, unit, 4))
-    steps = [above - below for above, below in pairwise(falling)]
-    if not steps:
-        return block
-    if min(steps) > 0.0 and max(steps) - min(steps) <= 2.0 * SAME_HEIGHT:
-        top = falling[0] + steps[0]
-        return replace(block, peck_depth=_typed(steps[0], unit, 4), z_start=_typed(top, unit, 4))
-    shown = ", ".join(f"{from_mm(depth, unit):.4f}" for depth in falling)
-    notes.append(f"The depths {shown} are not even steps: PECK DEPTH is not set.")
-    return block
-
-
-def _with_feeds_and_heights(block: Block, contour: NcContour, unit: Unit) -> Block:
-    """Each segment with the feed, and the height at its end, where these are others than those before it."""
-    feed, height, segments = None, contour.cuts[0].z, []
-    for segment, cut in zip(block.segments, contour.cuts, strict=True):
-        changes: dict[str, Number] = {}
-        if cut.feed > 0.0 and cut.feed != feed:
-            changes["feed"], feed = _typed(cut.feed, unit, 3), cut.feed
-        if abs(cut.z - height) > SAME_HEIGHT:
-            changes["z_end"], height = _typed(cut.z, unit, 4), cut.z
-        segments.append(replace(segment, **changes))  # type: ignore[arg-type]
-    return replace(block, segments=tuple(segments))

@@ -13,7 +13,8 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.registry import names
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
-from core.importing.nc import CenterPath, NcError, NcProgram, nc_blocks, read_nc
+from core.importing.nc import read_nc
+from core.importing.nc_contour import CenterPath, NcError, NcProgram, nc_blocks
 from core.importing.segments import NotTaken
 from core.output.nc import Posted
 from core.pipeline.derive import derive

@@ -18,7 +18,8 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.contour import Contour, fitted_contour
-from core.importing.nc import nc_blocks, read_nc
+from core.importing.nc import read_nc
+from core.importing.nc_contour import nc_blocks
 from core.importing.segments import block_of, taken
 from core.output.nc import Posted
 from core.pipeline.derive import derive

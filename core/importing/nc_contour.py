@@ -1,0 +1,169 @@
+"""A contour of an NC program, and the block that is made of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import dist
+from typing import Final, NamedTuple
+
+from core.geometry.piece import Piece, Side
+from core.importing.contour import Contour, ContourKind
+from core.importing.segments import ImportedBlock, block_of
+from core.program.edit import set_tool
+from core.program.model import Block, CutterComp, Number, Program, Tool
+from core.tolerance import CLOSED
+from core.units import Unit, from_mm
+
+SAME_HEIGHT: Final = 1e-4
+"""Millimeters by which two heights of one depth may differ."""
+
+
+class NcError(Exception):
+    """An NC program gives no contour; the text says why, with the line.
+
+    `needs_center`: the operator must say side and diameter.
+    """
+
+    def __init__(self, text: str, *, needs_center: bool = False) -> None:
+        super().__init__(text)
+        self.needs_center = needs_center
+
+
+@dataclass(frozen=True, slots=True)
+class CenterPath:
+    """What the operator says of a program of the tool's center: the side of the tool, None for ON, and its diameter.
+
+    The diameter is in the program's unit.
+    """
+
+    side: Side | None
+    diameter: float
+
+
+class Cut(NamedTuple):
+    """A piece with its feed (mm/min), its height at the end, and its line."""
+
+    piece: Piece
+    feed: float
+    z: float
+    line: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NcContour:
+    """A contour of a program.
+
+    `radius` is that of the last pass in millimeters, None where the tool's center runs on the contour; `depths` are
+    those of its passes in their order.  `tool` and `speed` are the last ones named before it.
+    """
+
+    cuts: tuple[Cut, ...]
+    side: Side | None
+    radius: float | None
+    depths: tuple[float, ...]
+    tool: int | None
+    speed: float | None
+    plunge_feed: float | None = None
+    lookahead: int | None = None
+    """The look-ahead that makes the program's path of it, None for the calculated one."""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The contour."""
+        return tuple(cut.piece for cut in self.cuts)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it ends where it starts."""
+        return dist(self.cuts[0].piece.start, self.cuts[-1].piece.end) <= CLOSED
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NcProgram:
+    """The contours of a program, in its unit."""
+
+    unit: Unit
+    contours: tuple[NcContour, ...]
+    notes: tuple[str, ...] = ()
+
+
+def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[ImportedBlock]]:
+    """The program with a block for each contour of an NC program, and the tools that were not in its table.
+
+    Raises `segments.NotTaken`.
+    """
+    made: list[ImportedBlock] = []
+    for number, contour in enumerate(read.contours, 1):
+        program = _with_tool(program, contour)
+        made.append(_block(number, contour, program))
+    return replace(program, blocks=(*program.blocks, *(item.block for item in made))), made
+
+
+def _with_tool(program: Program, contour: NcContour) -> Program:
+    """The tool table with the contour's tool, unless it has one of that number."""
+    if contour.tool is None or contour.radius is None or any(tool.number == contour.tool for tool in program.tools):
+        return program
+    diameter = Number(round(from_mm(2.0 * contour.radius, program.unit), 6))
+    added = set_tool(program, Tool(contour.tool, diameter=diameter))
+    return added if isinstance(added, Program) else program
+
+
+def _block(number: int, contour: NcContour, program: Program) -> ImportedBlock:
+    kind = ContourKind.OUTSIDE if contour.closed else ContourKind.OPEN
+    pieces = contour.pieces
+    plain = Contour(number, pieces, contour.closed, kind, (), len(pieces))
+    item = block_of(plain, program)
+    notes = [*contour.notes, *(note for note in item.notes if "is open" not in note)]
+    block = _with_values(item.block, contour, program.unit, notes)
+    return replace(item, block=block, notes=tuple(notes))
+
+
+def _with_values(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
+    """The block with side, tool, speed, feeds, heights and depths of the program."""
+    side = contour.side
+    comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
+    block = replace(block, cutter_comp=comp)
+    if contour.tool:
+        block = replace(block, tool=Number(float(contour.tool)))
+    if contour.lookahead is not None:
+        block = replace(block, lookahead=Number(float(contour.lookahead)))
+    if contour.speed:
+        block = replace(block, speed=Number(contour.speed))
+    if contour.plunge_feed:
+        block = replace(block, plunge_feed=_typed(contour.plunge_feed, unit, 3))
+    return _with_feeds_and_heights(_with_depths(block, contour, unit, notes), contour, unit)
+
+
+def _typed(value: float, unit: Unit, decimals: int) -> Number:
+    return Number(round(from_mm(value, unit), decimals) + 0.0)
+
+
+def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
+    """Z BOTTOM is the last depth; PECK DEPTH the step between depths, where it is one."""
+    falling = [depth for depth in dict.fromkeys(round(depth, 4) for depth in contour.depths)]
+    bottom = min(falling)
+    block = replace(block, z_bottom=_typed(bottom, unit, 4))
+    steps = [above - below for above, below in pairwise(falling)]
+    if not steps:
+        return block
+    if min(steps) > 0.0 and max(steps) - min(steps) <= 2.0 * SAME_HEIGHT:
+        top = falling[0] + steps[0]
+        return replace(block, peck_depth=_typed(steps[0], unit, 4), z_start=_typed(top, unit, 4))
+    shown = ", ".join(f"{from_mm(depth, unit):.4f}" for depth in falling)
+    notes.append(f"The depths {shown} are not even steps: PECK DEPTH is not set.")
+    return block
+
+
+def _with_feeds_and_heights(block: Block, contour: NcContour, unit: Unit) -> Block:
+    """Each segment with the feed, and the height at its end, where these are others than those before it."""
+    feed, height, segments = None, contour.cuts[0].z, []
+    for segment, cut in zip(block.segments, contour.cuts, strict=True):
+        changes: dict[str, Number] = {}
+        if cut.feed > 0.0 and cut.feed != feed:
+            changes["feed"], feed = _typed(cut.feed, unit, 3), cut.feed
+        if abs(cut.z - height) > SAME_HEIGHT:
+            changes["z_end"], height = _typed(cut.z, unit, 4), cut.z
+        segments.append(replace(segment, **changes))  # type: ignore[arg-type]
+    return replace(block, segments=tuple(segments))
