@@ -34,6 +34,7 @@ from core.geometry.piece import Line, Piece, Point, Side
 from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
+from core.program.solve.solved import SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict
@@ -251,8 +252,11 @@ def _sketches(block: DerivedBlock) -> PathParts:
     """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
     pieces: list[Piece] = []
     for segment in block.solved.segments[block.solved.determined :]:
+        run = block.solved.run_of(segment.number)
         if segment.piece is not None:
             pieces.append(segment.piece)
+        elif run is not None:
+            pieces += _run_sketches(run) if run.first == segment.number else []
         else:
             pieces += segment.choices or ((segment.sketch,) if segment.sketch is not None else ())
     if not pieces:
@@ -262,6 +266,12 @@ def _sketches(block: DerivedBlock) -> PathParts:
         part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))
     ] + pieces[-1:]
     return PathParts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
+
+
+def _run_sketches(run: SolvedRun) -> list[Piece]:
+    """A run that is not determined: all its solutions, or what is known of its pieces."""
+    answers = [piece for answer in run.answers for _, piece in answer.pieces]
+    return answers or list(run.sketch)
 
 
 def _deleted(control: Compensated) -> PathParts:

@@ -84,7 +84,7 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
     contour = Contour(block.segments, readings, drafts, unit)
     while len(drafts) < len(readings):
         index = len(drafts)
-        own = draft(block.segments[index], readings[index], carried, unit)
+        own = draft(block.segments[index], readings[index].copy(), carried, unit)
         stretch = stretch_at(contour, index, own)
         if stretch is None:
             drafts.append(own)

@@ -23,6 +23,10 @@ class Reading:
     known: dict[str, float]
     findings: tuple[Finding, ...]
 
+    def copy(self) -> Reading:
+        """A reading of its own, into which calculated numbers can be put."""
+        return Reading(dict(self.values), dict(self.known), self.findings)
+
     def fill(self, name: str, value: float | None, origin: Origin = Origin.CALCULATED) -> None:
         """Put a number that was not typed, in program units, into a field that is blank."""
         if value is not None and self.values[name] is None:

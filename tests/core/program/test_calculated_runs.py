@@ -12,9 +12,12 @@ from typing import Any
 import pytest
 
 from core.geometry.piece import Arc
+from core.program.edit import FormPlace, delete_segment, insert_segment, take_solution, type_field
 from core.program.file.read import StoreError, loads
 from core.program.file.write import dumps
+from core.program.model import LineSegment, Number, Program, Unread
 from core.program.solve.block import solve_block
+from core.program.solve.solution import solution_at, untaken_pieces
 from core.units import Unit, sentence
 from tests.core.program.run_files import (
     codes,
@@ -196,6 +199,17 @@ def test_an_arc_with_two_centers_is_decided_by_a_tangent_line_after_it() -> None
     assert getattr(block.segments[0].piece, "center", None) == pytest.approx((0.0, 10.0))
 
 
+def test_fields_show_the_solution_of_the_run_and_not_that_of_the_segment_by_itself() -> None:
+    case, truth = random_case(101723)
+    chains, _ = every_chain(case)
+    assert any(apart(chain, truth) < 1e-6 for chain in chains)
+    for choice in (0, 2):
+        for segment in solved(case, {1: choice}).segments:
+            held = segment.values["y_end"]
+            assert segment.end is not None
+            assert getattr(held, "value", None) == pytest.approx(segment.end[1], abs=1e-9)
+
+
 def test_relative_numbers_count_from_the_start_and_from_the_heading_before() -> None:
     block = solved(
         case_of(
@@ -268,6 +282,60 @@ def test_the_picked_answer_never_jumps_under_small_edits() -> None:
                 moved += 1
                 before = after
     assert moved > 200
+
+
+# what a screen and a drawing take from it
+
+
+def test_solution_steps_through_the_answers_the_shortest_first() -> None:
+    case = next(each for each in SOLVED if name(each).startswith("c24"))
+    program = program_of(case)
+    asked = solution_at(solve_block(program.blocks[0], program), 2)
+    assert asked is not None
+    assert (asked.number, asked.label, asked.labels, asked.stepped(1)) == (1, "? of 2", ("1 of 2", "2 of 2"), 0)
+    taken = take_solution(program, FormPlace(1, 3), 1)
+    assert isinstance(taken, Program)
+    block = solve_block(taken.blocks[0], taken)
+    shown = solution_at(block, 1)
+    assert shown is not None
+    assert (shown.label, shown.stepped(1), shown.stepped(-1)) == ("2 of 2", 0, 0)
+    assert block.segments[0].end == pytest.approx((15.925097, 32.099227), abs=1e-6)
+    ((first, *_),) = untaken_pieces(block)
+    assert first.end == pytest.approx((18.413365, 12.193081), abs=1e-6)
+
+
+def test_typing_another_field_of_a_run_drops_the_picked_solution_and_another_number_keeps_it() -> None:
+    case = case_of(line(angle=30), line(x_end=70, y_end=10, length=40))
+    program = program_of(case, {1: 1})
+    again = type_field(program, FormPlace(1, 2), "length", Number(41.0))
+    assert isinstance(again, Program)
+    assert again.blocks[0].segments[0].choice == 1
+    other = type_field(program, FormPlace(1, 2), "angle", Number(300.0))
+    assert isinstance(other, Program)
+    assert other.blocks[0].segments[0].choice is None
+
+
+def test_parallel_to_follows_its_segment_when_others_are_put_in_or_taken_out() -> None:
+    program = program_of(case_of(line(x_end=60, y_end=0), line(angle=70), line(parallel=1, offset=25, x_end=10)))
+    longer = insert_segment(program, FormPlace(1, 1), LineSegment(Number(5.0), Number(-5.0)))
+    assert isinstance(longer, Program)
+    assert longer.blocks[0].segments[3].parallel == Number(2.0)
+    shorter = delete_segment(program, FormPlace(1, 1))
+    assert isinstance(shorter, Program)
+    assert shorter.blocks[0].segments[1].parallel == Unread("1", "Segment 1 was deleted.")
+
+
+def test_a_run_that_lacks_data_is_sketched_as_far_as_it_is_known() -> None:
+    block = solved(case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40)))
+    (run,) = block.runs
+    assert (run.first, run.last, run.missing, run.taken) == (1, 3, 1, None)
+    first, last = block.segments[0].sketch, block.segments[2].sketch
+    assert first is not None
+    assert last is not None
+    assert first.direction_at(first.start) == pytest.approx((1.0, 0.0))
+    assert last.end == (60.0, 40.0)
+    assert (run.sketch[-1].start, run.sketch[-1].end) == ((0.0, 0.0), (60.0, 40.0))
+    assert block.segments[1].missing == ("radius",)
 
 
 # the pick on the drawing
