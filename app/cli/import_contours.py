@@ -70,6 +70,7 @@ def import_contours(arguments: list[str]) -> int:
         return UNUSABLE
     except DrawingError as error:
         more = " Take it all the same with --damaged." if error.readable and not options.damaged else ""
+        more = " Name the layers to take with --layer." if error.code == "NOT_FLAT" else more
         say(f"{error.text}{more}")
         return UNUSABLE
     return CLEAN

@@ -145,7 +145,10 @@ def _scaled(drawn: Drawn, scale: float, fit: float) -> Sequence[Piece]:
         case EllipseArc(center, first, second, begin, end):
             return pieces_of_ellipse(EllipseArc(center * scale, first * scale, second * scale, begin, end), fit)
         case BSpline(degree, points, weights, knots):
-            return pieces_of_spline(BSpline(degree, points * scale, weights, knots), fit)
+            pieces = pieces_of_spline(BSpline(degree, points * scale, weights, knots), fit)
+            at = (float(points[0].real) * scale, float(points[0].imag) * scale)
+            # one without length is counted with what is too short
+            return pieces or [Line(at, at)]
 
 
 def _times(point: Point, scale: float) -> Point:

@@ -384,6 +384,8 @@ class _Reader:
     def spline(self, entity: Spline, matrix: Matrix44 | None) -> Iterator[Shape]:
         """A SPLINE by its control points, or through its fit points where it has no others."""
         tool = entity.construction_tool()
+        if not entity.control_point_count():
+            self.notes["A SPLINE has fit points alone: the curve through them is calculated."] += 1
         points = [_moved(point, matrix) for point in tool.control_points]
         heights = [point.z for point in points]
         self._level(min(heights), max(heights))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import math
 
 import pytest
+from ezdxf.filemanagement import new as ezdxf_new
 
 from core.importing.contour import fit_sentence, fitted_contour
 from core.importing.contours import ContourList, ImportOptions, contours_of
@@ -236,3 +238,42 @@ def test_what_clean_up_did_is_told() -> None:
         "largest gap 0.001.",
     ]
     assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(made("d09-branch.dxf")))
+
+
+def spline(*points: tuple[float, float], fit: bool = False) -> bytes:
+    """A drawing of R2000 with one SPLINE and a LINE, by control points or by fit points."""
+    document = ezdxf_new("R2000", units=4)
+    space = document.modelspace()
+    if fit:
+        space.add_spline(points)
+    else:
+        space.add_open_spline(points)
+    space.add_line((0, 50), (10, 50))
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue().encode()
+
+
+def test_a_spline_of_fit_points_alone_is_calculated_and_told() -> None:
+    data = spline((0, 0), (10, 5), (20, 0), (30, 5), fit=True)
+    assert read(data).notes == ("A SPLINE has fit points alone: the curve through them is calculated.",)
+    curve = max(listed(data).contours, key=lambda contour: contour.length)
+    ends = {tuple(round(value, 6) for value in point) for point in (curve.start, curve.pieces[-1].end)}
+    assert ends == {(0.0, 0.0), (30.0, 5.0)}
+
+
+def test_a_spline_without_length_is_counted_as_too_short() -> None:
+    made_list = listed(spline((5, 5), (5, 5), (5, 5), (5, 5)))
+    assert (made_list.tiny, len(made_list.contours)) == (1, 1)
+
+
+def test_a_spline_in_an_insert_that_stretches_is_stretched() -> None:
+    document = ezdxf_new("R2000", units=4)
+    part = document.blocks.new("PART")
+    part.add_open_spline([(0, 0), (10, 20), (30, -10), (40, 10)])
+    document.modelspace().add_blockref("PART", (0, 0), dxfattribs={"xscale": 2.0, "yscale": 0.5})
+    stream = io.StringIO()
+    document.write(stream)
+    stretched = listed(stream.getvalue().encode()).contours[0]
+    direct = listed(spline((0, 0), (20, 10), (60, -5), (80, 5))).contours[0]
+    assert stretched.length == pytest.approx(direct.length, abs=1e-6)
