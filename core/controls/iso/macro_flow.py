@@ -594,7 +594,10 @@ def _between_percents(lines: Sequence[str]) -> list[str]:
     first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
     if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, signs[0]
-    return [line if first < index < last else "" for index, line in enumerate(lines)]
+    kept = [line if first < index < last else "" for index, line in enumerate(lines)]
+    if first >= 0 and _PROGRAM.match(head := lines[first].lstrip()[1:]):
+        kept[first] = head
+    return kept
 
 
 def _is_remark(text: str) -> bool:

@@ -19,7 +19,7 @@ from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro_b import VACANT
-from core.controls.iso.modal_state import ZERO
+from core.controls.iso.modal_state import EXTERNAL, ZERO
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
@@ -152,6 +152,7 @@ class MacroMachine(Machine):
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
         self.start_unknown = False
+        self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
 
@@ -379,6 +380,13 @@ class MacroMachine(Machine):
         angle = radians(words.get("R", 0.0))
         self.transform = replace(self.transform, angle=angle, center=center, plane=self.plane)
 
+    def _warn_of_axes(self, block: Block) -> None:
+        """An axis that is not followed is told once."""
+        new = {letter: block.words[letter] for letter in "ABCUVW" if letter in block.words} if block.words else {}
+        if new.keys() - self.other_axes:
+            self.other_axes |= new.keys()
+            super()._warn_of_axes(block)
+
     # origins and places of the machine
 
     def _home(self, block: Block) -> None:
@@ -425,7 +433,7 @@ class MacroMachine(Machine):
         if kind in (1, 10, 11, 12, 13):
             self._set_offset(kind, number, block)
         elif kind == 2 and number <= 6:
-            self._set_work_offset(530 + 10 * number if number else 0, block)
+            self._set_work_offset(530 + 10 * number if number else EXTERNAL, block)
         elif kind == 20 and 1 <= number <= 300:
             self._set_work_offset(EXTENDED_SYSTEM + number, block)
         else:
@@ -433,9 +441,6 @@ class MacroMachine(Machine):
             self.log.stop("PS0031", text, block.line, block.column("LP"))
 
     def _set_work_offset(self, code: int, block: Block) -> None:
-        if not code:
-            text = "cutcomp does not follow the shift of all work offsets (P0). Set G54 to G59 themselves."
-            self.log.stop("BEYOND", text, block.line, block.column("P"))
         old = self.origin.systems.get(code, ZERO)
         offset = self.axis_words(block, old)
         if self.incremental:
@@ -543,7 +548,7 @@ class MacroMachine(Machine):
 
     def _origin_variable(self, key: int) -> float | None:
         if 5201 <= key <= 5203:
-            return 0.0
+            return from_mm(self.origin.systems.get(EXTERNAL, ZERO)[key - 5201], self.unit)
         for index in range(6):
             axis = key - 5221 - 20 * index
             if 0 <= axis <= 2:

@@ -21,6 +21,9 @@ from core.units import Unit, from_mm
 ZERO: Final[Point3] = (0.0, 0.0, 0.0)
 G54: Final = 540
 
+EXTERNAL: Final = 0
+"""The key of the offset that shifts all work offsets, on controls that have one."""
+
 INVERSE: Final = 930
 PER_MINUTE: Final = 940
 
@@ -52,8 +55,10 @@ class Origin:
 
     @property
     def base(self) -> Point3:
-        """The work offset in force."""
-        return self.systems.get(self.system, ZERO)
+        """The work offset in force, with the one that shifts all of them."""
+        x, y, z = self.systems.get(self.system, ZERO)
+        dx, dy, dz = self.systems.get(EXTERNAL, ZERO)
+        return x + dx, y + dy, z + dz
 
     @property
     def shift(self) -> Point3:

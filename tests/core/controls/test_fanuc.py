@@ -572,3 +572,15 @@ def test_a_start_up_from_the_machines_point_is_told_or_stops() -> None:
     assert told(ran(program), "FN-WHERE")
     assert ends(ran(program))[0] == (45.0, 0.0)
     assert alarms(ran(program, "fanuc:b")) == [("FN-WHERE", 3)]
+
+
+def test_the_offset_of_all_work_offsets_shifts_them() -> None:
+    assert ends(ran(f"{HEAD}G10 L2 P0 X10.\nG10 L2 P1 X5.\nX1. Y1.\nM30")) == [(16.0, 1.0)]
+
+
+def test_an_axis_that_is_not_followed_is_told_once() -> None:
+    assert len(told(ran("G21 G0 X1. A0.\nX2. A5.\nX3. B1.\nM30"), "AXIS")) == 2
+
+
+def test_the_program_number_may_stand_with_the_percent_sign() -> None:
+    assert ends(ran("%O0012\nG21 G0 X1.\nM98 P12\nM30\n%"))[0] == (1.0, 0.0)
