@@ -36,13 +36,14 @@ from app.session.block_findings import Entry
 from app.session.derivation import Request, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
+from app.transform_actions import TransformActions
 from app.widgets.status import Surroundings
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, FormPlace, Refused
 from core.program.model import Program
 
 
-class CutcompApp(FileActions):
+class CutcompApp(FileActions, TransformActions):
     """The only place where the session changes.
 
     `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session

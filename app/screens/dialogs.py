@@ -9,10 +9,12 @@ from typing import ClassVar
 from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import Vertical
+from textual.containers import Horizontal, Vertical
 from textual.screen import ModalScreen
-from textual.widgets import Input, OptionList, Static
+from textual.widgets import Input, Label, OptionList, Static
 from textual.widgets.option_list import Option
+
+from core.units import Kind, Unit, Unreadable, parse
 
 GO_BACK = "GO BACK"
 """The answer that changes nothing; Esc and F8 give it too."""
@@ -102,3 +104,72 @@ class Phrase(ModalScreen[str]):
     def action_answer(self) -> None:
         """Go back."""
         self.dismiss("")
+
+
+@dataclass(frozen=True, slots=True)
+class NumberEntry:
+    """A line of a small form: its label, what it takes, and the text it begins with."""
+
+    label: str
+    kind: Kind
+    text: str = "0"
+
+
+class NumberForm(ModalScreen[tuple[float, ...]]):
+    """A few numbers; Enter on the last one takes them, the result is empty for none.
+
+    A text that cannot be read keeps the cursor and is said below.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f8,alt+8", "none", "Go back", show=False),
+        Binding("down", "app.focus_next", "Next", show=False),
+        Binding("up", "app.focus_previous", "Before", show=False),
+    ]
+
+    def __init__(self, title: str, lines: Sequence[str], entries: Sequence[NumberEntry], unit: Unit) -> None:
+        super().__init__()
+        self.question, self.lines, self.entries, self.unit = title, tuple(lines), tuple(entries), unit
+
+    def compose(self) -> ComposeResult:
+        """A framed box: what is done, then a line a number."""
+        with Vertical(id="question"):
+            yield Static("\n".join(self.lines), id="loss", markup=False)
+            for number, entry in enumerate(self.entries):
+                with Horizontal(classes="field"):
+                    yield Label(entry.label, classes="label")
+                    yield Input(entry.text, id=f"number-{number}", compact=True, classes="number")
+            yield Static(id="number-trouble", markup=False)
+
+    def on_mount(self) -> None:
+        """The title."""
+        self.query_exactly_one("#question").border_title = self.question
+
+    @on(Input.Submitted)
+    def _submitted(self, event: Input.Submitted) -> None:
+        event.stop()
+        inputs = list(self.query(Input))
+        here = inputs.index(event.input)
+        value = parse(event.value, self.entries[here].kind, self.unit)
+        if isinstance(value, Unreadable):
+            self._say(value.reason)
+        elif here + 1 < len(inputs):
+            inputs[here + 1].focus()
+        else:
+            self._take(inputs)
+
+    def _take(self, inputs: Sequence[Input]) -> None:
+        values = [parse(each.value, entry.kind, self.unit) for each, entry in zip(inputs, self.entries, strict=True)]
+        for each, value in zip(inputs, values, strict=True):
+            if isinstance(value, Unreadable):
+                each.focus()
+                self._say(value.reason)
+                return
+        self.dismiss(tuple(value for value in values if isinstance(value, float)))
+
+    def _say(self, text: str) -> None:
+        self.query_exactly_one("#number-trouble", Static).update(text)
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss(())

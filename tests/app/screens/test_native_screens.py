@@ -208,3 +208,28 @@ async def test_a_tool_table_is_read_in_its_own_unit_and_asked_about(tmp_path, mo
         await everything(one)
         assert [tool.number for tool in one.session.program.tools] == [1, 7]
         assert one.session.program.tools[1].diameter == Number(0.25)
+
+
+async def test_a_block_is_mirrored_from_the_palette_as_one_edit():
+    async with operator() as one:
+        before = one.session.program
+        await one.press("ctrl+k", *"mirror", "space", *"block")
+        await everything(one)
+        await one.press("enter")
+        await one.press("enter", "enter", "enter")
+        await everything(one)
+        assert one.session.block.cutter_comp == "RIGHT"
+        assert one.session.block.x_start == Number(-2.0)
+        await one.press("ctrl+z")
+        assert one.session.program == before
+
+
+async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
+    async with operator() as one:
+        await one.app.run_action("app.shift_block")
+        await one.pilot.pause()
+        await one.press(*"1a5", "enter")
+        assert one.app.screen.query("#number-trouble")
+        assert "type a number" in str(one.app.screen.query_one("#number-trouble", Static).content)
+        await one.press("escape")
+        assert one.session.history.undo_count == 0

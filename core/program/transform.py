@@ -1,0 +1,241 @@
+"""Transform: blocks and segments moved, rotated, mirrored and repeated, as one edit.
+
+Results are typed numbers of six decimals.  What was calculated stays blank where it still follows from them: the new
+contour is solved and held against the old one, and where a blank no longer follows, ends and centers are typed.
+"""
+
+from __future__ import annotations
+
+from cmath import exp, phase
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import dist, pi, radians
+from typing import Final
+
+from core.geometry.piece import Arc, Piece, Point, Turn
+from core.program.edit import Edited, Refused
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    ChamferSegment,
+    CutterComp,
+    Direction,
+    LineSegment,
+    Number,
+    Program,
+    Relative,
+    Segment,
+    Typed,
+)
+from core.program.solve.block import solve_block
+from core.program.solve.solved import SolvedBlock, SolvedSegment
+from core.units import Unit, from_mm, to_mm
+
+DECIMALS: Final = 6
+"""Decimals of the numbers that are typed."""
+SAME_PLACE: Final = 1e-3
+"""Millimeters by which six decimals may move a place: their rounding, grown by what is calculated from them."""
+MAX_COPIES: Final = 400
+OTHER_SIDE: Final = {
+    CutterComp.LEFT: CutterComp.RIGHT,
+    CutterComp.RIGHT: CutterComp.LEFT,
+    CutterComp.PROFILE_LEFT: CutterComp.PROFILE_RIGHT,
+    CutterComp.PROFILE_RIGHT: CutterComp.PROFILE_LEFT,
+}
+OTHER_WAY: Final = {Direction.CW: Direction.CCW, Direction.CCW: Direction.CW}
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A motion of the plane, in millimeters: mirrored in the X axis where `mirrored`, turned, then shifted.
+
+    Points are complex numbers; `turn` is a unit number.
+    """
+
+    turn: complex = 1.0
+    shift: complex = 0.0
+    mirrored: bool = False
+
+    def point(self, at: Point) -> Point:
+        """Where a point goes."""
+        z = complex(*at)
+        moved = self.turn * (z.conjugate() if self.mirrored else z) + self.shift
+        return moved.real, moved.imag
+
+    def angle(self, degrees: float) -> float:
+        """A direction in degrees after the motion, from 0 to 360."""
+        turned = phase(self.turn) * 180.0 / pi
+        return (turned - degrees if self.mirrored else turned + degrees) % 360.0
+
+    def times(self, count: int) -> Motion:
+        """The motion done several times; of one that mirrors only once."""
+        motion = Motion()
+        for _ in range(count):
+            motion = motion.then(self)
+        return motion
+
+    def then(self, other: Motion) -> Motion:
+        """This motion and another one after it."""
+        turn = self.turn.conjugate() if other.mirrored else self.turn
+        shift = self.shift.conjugate() if other.mirrored else self.shift
+        return Motion(other.turn * turn, other.turn * shift + other.shift, self.mirrored is not other.mirrored)
+
+
+def moved(x: float, y: float) -> Motion:
+    """A shift in millimeters."""
+    return Motion(shift=complex(x, y))
+
+
+def rotated(center: Point, degrees: float) -> Motion:
+    """A turn about a point (mm), counter-clockwise."""
+    turn, about = exp(1j * radians(degrees)), complex(*center)
+    return Motion(turn, about - turn * about)
+
+
+def mirrored(point: Point, degrees: float) -> Motion:
+    """A reflection in the line through a point (mm) in this direction."""
+    turn, about = exp(2j * radians(degrees)), complex(*point)
+    return Motion(turn, about - turn * about.conjugate(), mirrored=True)
+
+
+def transform_block(program: Program, number: int, motion: Motion) -> Edited:
+    """A block after a motion; a reflection also turns DIRECTION and CUTTER COMP. round."""
+    block = program.blocks[number - 1]
+    solved = solve_block(block, program)
+    if (refusal := _undetermined(block, solved)) is not None:
+        return refusal
+    assert isinstance(block.x_start, Number)
+    assert isinstance(block.y_start, Number)
+    unit = program.unit
+    x, y = motion.point((to_mm(block.x_start.value, unit), to_mm(block.y_start.value, unit)))
+    side = OTHER_SIDE.get(block.cutter_comp, block.cutter_comp) if motion.mirrored else block.cutter_comp
+    for explicit in (False, True):
+        segments = tuple(_transformed(block.segments, solved.segments, motion, unit, explicit=explicit))
+        made = replace(block, x_start=_typed(x, unit), y_start=_typed(y, unit), cutter_comp=side, segments=segments)
+        if _follows(solve_block(made, program), solved.segments, motion):
+            return _with_block(program, number, made)
+    return Refused("The block cannot be typed at its new place with six decimals.")
+
+
+def repeat_segments(program: Program, number: int, first: int, last: int, motion: Motion, copies: int) -> Edited:
+    """Copies of segments `first` to `last` after the last of them, each moved on from the one before.
+
+    Where a copy does not begin at the end of what stands before it, a LINE leads there.
+    """
+    block = program.blocks[number - 1]
+    if not 1 <= first <= last <= len(block.segments):
+        return Refused(f"Segments {first} to {last} do not exist: this block has 1 to {len(block.segments)}.")
+    if not 1 <= copies <= MAX_COPIES:
+        return Refused(f"Type a number of copies from 1 to {MAX_COPIES}.")
+    if motion.mirrored and copies > 1:
+        return Refused("A mirrored copy is made once.")
+    solved = solve_block(block, program)
+    if (refusal := _undetermined(block, solved)) is not None:
+        return refusal
+    corner = (block.segments[first - 1], block.segments[last - 1])
+    if any(isinstance(segment, BlendSegment | ChamferSegment) for segment in corner):
+        return Refused("Begin and end the copied segments with a LINE or an ARC.")
+    shapes, kept = solved.segments[first - 1 : last], block.segments[first - 1 : last]
+    end, made = _end(shapes[-1]), list[Segment]()
+    for count in range(1, copies + 1):
+        step = motion.times(count)
+        begin = step.point(_begin(shapes[0]))
+        if dist(begin, end) > SAME_PLACE:
+            made.append(LineSegment(_typed(begin[0], program.unit), _typed(begin[1], program.unit)))
+        made += _transformed(kept, shapes, step, program.unit, explicit=True)
+        end = step.point(_end(shapes[-1]))
+    segments = (*block.segments[:last], *made, *block.segments[last:])
+    return _with_block(program, number, replace(block, segments=segments))
+
+
+def _with_block(program: Program, number: int, block: Block) -> Program:
+    return replace(program, blocks=(*program.blocks[: number - 1], block, *program.blocks[number:]))
+
+
+def _undetermined(block: Block, solved: SolvedBlock) -> Refused | None:
+    """Why a block cannot be moved: nobody knows where some of it is."""
+    if not (isinstance(block.x_start, Number) and isinstance(block.y_start, Number)):
+        return Refused("Type X START and Y START first.")
+    if solved.determined < len(block.segments):
+        return Refused(f"Segment {solved.determined + 1} is not determined yet: type it first.")
+    return None
+
+
+def _begin(segment: SolvedSegment) -> Point:
+    assert segment.start is not None
+    return segment.start
+
+
+def _end(segment: SolvedSegment) -> Point:
+    assert segment.end is not None
+    return segment.end
+
+
+def _typed(millimeters: float, unit: Unit) -> Number:
+    # no minus zero
+    return Number(round(from_mm(millimeters, unit), DECIMALS) + 0.0)
+
+
+def _transformed(
+    segments: Sequence[Segment], shapes: Sequence[SolvedSegment], motion: Motion, unit: Unit, *, explicit: bool
+) -> Iterator[Segment]:
+    """The segments after the motion; where `explicit`, every end and center is typed."""
+    for segment, shape in zip(segments, shapes, strict=True):
+        match segment:
+            case LineSegment():
+                yield _line(segment, shape, motion, unit, explicit=explicit)
+            case ArcSegment():
+                yield _arc(segment, shape, motion, unit, explicit=explicit)
+            case _:
+                yield segment
+
+
+def _line(segment: LineSegment, shape: SolvedSegment, motion: Motion, unit: Unit, *, explicit: bool) -> LineSegment:
+    length, angle = segment.length, segment.angle
+    polar = isinstance(length, Number) and isinstance(angle, Number) and not _given(segment.x_end, segment.y_end)
+    if polar and isinstance(angle, Number) and not explicit:
+        turned = Number(round(motion.angle(angle.value), DECIMALS))
+        return LineSegment(length=length, angle=turned, z_end=segment.z_end, feed=segment.feed)
+    x, y = motion.point(_end(shape))
+    return LineSegment(_typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
+
+
+def _arc(segment: ArcSegment, shape: SolvedSegment, motion: Motion, unit: Unit, *, explicit: bool) -> ArcSegment:
+    direction = OTHER_WAY[segment.direction] if motion.mirrored else segment.direction
+    made = ArcSegment(direction, z_end=segment.z_end, feed=segment.feed)
+    ends = explicit or _given(segment.x_end, segment.y_end)
+    centers = explicit or _given(segment.x_center, segment.y_center)
+    whole = isinstance(shape.sharp, Arc) and shape.sharp.start == shape.sharp.end
+    if ends:
+        x, y = motion.point(_end(shape))
+        made = replace(made, x_end=_typed(x, unit), y_end=_typed(y, unit))
+    if centers and isinstance(shape.sharp, Arc):
+        x, y = motion.point(shape.sharp.center)
+        made = replace(made, x_center=_typed(x, unit), y_center=_typed(y, unit))
+    if not (ends and centers) or whole:
+        made = replace(made, radius=None if centers else segment.radius, sweep=segment.sweep)
+    return made
+
+
+def _given(*values: Typed) -> bool:
+    return any(isinstance(value, Number | Relative) for value in values)
+
+
+def _follows(made: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion) -> bool:
+    """Whether a block is the one before after the motion."""
+    pairs = zip(made.segments, before, strict=True)
+    return made.determined == len(before) and all(_same(now.sharp, old.sharp, motion) for now, old in pairs)
+
+
+def _same(now: Piece | None, before: Piece | None, motion: Motion) -> bool:
+    if now is None or before is None:
+        return now is None and before is None
+    places = zip((now.start, now.end), (before.start, before.end), strict=True)
+    if type(now) is not type(before) or any(dist(at, motion.point(old)) > SAME_PLACE for at, old in places):
+        return False
+    if not (isinstance(now, Arc) and isinstance(before, Arc)):
+        return True
+    turn = Turn(-before.turn) if motion.mirrored else before.turn
+    full = (now.start == now.end) is (before.start == before.end)
+    return full and now.turn is turn and dist(now.center, motion.point(before.center)) <= SAME_PLACE

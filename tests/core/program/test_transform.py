@@ -1,0 +1,122 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from math import dist
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.geometry.piece import Arc
+from core.program.edit import Refused
+from core.program.file.read import loads_bytes
+from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program
+from core.program.solve.block import solve_block
+from core.program.transform import Motion, mirrored, moved, repeat_segments, rotated, transform_block
+
+EXAMPLES = Path(__file__).parents[3] / "app" / "examples"
+
+
+def example(name: str) -> Program:
+    return loads_bytes((EXAMPLES / f"{name}.toml").read_bytes(), name)
+
+
+NAMES = ("pocket", "notch", "flange", "plate-mm", "overrun-square")
+
+
+def shapes(program: Program) -> list:
+    return [segment.sharp for segment in solve_block(program.blocks[0], program).segments]
+
+
+def held_against(before: Program, after: Program, motion: Motion) -> None:
+    """Each piece lies where a direct calculation puts it."""
+    for old, new in zip(shapes(before), shapes(after), strict=True):
+        if old is None:
+            continue
+        assert dist(new.start, motion.point(old.start)) < 1e-3
+        assert dist(new.end, motion.point(old.end)) < 1e-3
+        assert new.length == pytest.approx(old.length, abs=1e-3)
+        if isinstance(old, Arc):
+            assert dist(new.center, motion.point(old.center)) < 1e-3
+            assert new.turn == (-old.turn if motion.mirrored else old.turn)
+
+
+def motions():
+    number = st.floats(-50.0, 50.0)
+    point = st.tuples(number, number)
+    angle = st.floats(-180.0, 180.0)
+    return st.one_of(
+        st.builds(moved, number, number), st.builds(rotated, point, angle), st.builds(mirrored, point, angle)
+    )
+
+
+@given(st.sampled_from(NAMES), motions())
+@settings(max_examples=120, derandomize=True, deadline=None)
+def test_every_piece_of_a_block_lies_where_the_motion_puts_it(name, motion):
+    program = example(name)
+    after = transform_block(program, 1, motion)
+    assert not isinstance(after, Refused), after
+    held_against(program, after, motion)
+    assert len(after.blocks[0].segments) == len(program.blocks[0].segments)
+
+
+def test_a_reflection_turns_direction_and_cutter_comp_round():
+    program = example("pocket")
+    after = transform_block(program, 1, mirrored((0.0, 0.0), 90.0))
+    assert isinstance(after, Program)
+    assert after.blocks[0].cutter_comp is CutterComp.RIGHT
+    before = [segment.direction for segment in program.blocks[0].segments if isinstance(segment, ArcSegment)]
+    now = [segment.direction for segment in after.blocks[0].segments if isinstance(segment, ArcSegment)]
+    assert now == [Direction.CCW if way is Direction.CW else Direction.CW for way in before]
+    assert after.blocks[0].x_start == Number(-2.0)
+
+
+def test_calculated_fields_stay_blank_where_they_still_follow():
+    program = example("pocket")
+    segments = (LineSegment(length=Number(1.0), angle=Number(30.0)), ArcSegment(radius=Number(0.5), x_end=Number(4.0)))
+    block = replace(program.blocks[0], segments=(segments[0],))
+    program = replace(program, blocks=(block,))
+    after = transform_block(program, 1, rotated((0.0, 0.0), 15.0))
+    assert isinstance(after, Program)
+    assert after.blocks[0].segments[0] == LineSegment(length=Number(1.0), angle=Number(45.0))
+
+
+def test_numbers_are_typed_with_six_decimals():
+    after = transform_block(example("pocket"), 1, rotated((0.0, 0.0), 10.0))
+    assert isinstance(after, Program)
+    x = after.blocks[0].x_start
+    assert isinstance(x, Number)
+    assert x.value == round(x.value, 6)
+
+
+def test_what_is_not_determined_is_not_moved_and_the_sentence_names_it():
+    program = example("pocket")
+    block = replace(program.blocks[0], segments=(*program.blocks[0].segments[:2], LineSegment()))
+    outcome = transform_block(replace(program, blocks=(block,)), 1, moved(1.0, 0.0))
+    assert isinstance(outcome, Refused)
+    assert "Segment 3" in outcome.text
+
+
+def test_teeth_are_repeated_round_a_center_and_close_the_contour():
+    tooth = (LineSegment(x_end=Number(1.2), y_end=Number(0.0)), LineSegment(x_end=Number(0.5), y_end=Number(0.866025)))
+    block = replace(example("pocket").blocks[0], x_start=Number(1.0), y_start=Number(0.0), segments=tooth)
+    program = replace(example("pocket"), blocks=(block,))
+    after = repeat_segments(program, 1, 1, 2, rotated((0.0, 0.0), 60.0), 5)
+    assert isinstance(after, Program)
+    solved = solve_block(after.blocks[0], after)
+    assert len(after.blocks[0].segments) == 12
+    assert solved.closed
+
+
+def test_a_line_leads_to_a_copy_that_begins_elsewhere():
+    program = example("notch")
+    after = repeat_segments(program, 1, 1, 1, moved(0.0, 10.0), 1)
+    assert isinstance(after, Program)
+    assert len(after.blocks[0].segments) == len(program.blocks[0].segments) + 2
+
+
+@given(motions(), motions(), st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
+@settings(max_examples=200, derandomize=True, deadline=None)
+def test_one_motion_after_another_is_one_motion(first, second, at):
+    assert first.then(second).point(at) == pytest.approx(second.point(first.point(at)), abs=1e-9)
