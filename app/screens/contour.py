@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
 from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
+from app.screens.enter_stops import next_stop, unanswered
 from app.screens.form_screen import FormScreen
 from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
@@ -29,6 +30,7 @@ from core.program import fields as table
 from core.program.edit import (
     Edited,
     FormPlace,
+    Refused,
     choose,
     delete_segment,
     insert_segment,
@@ -37,15 +39,22 @@ from core.program.edit import (
     type_field,
 )
 from core.program.fields import SEGMENT_PROMPT, Field, read_typed
-from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
+from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSegment, Segment
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
 FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
-NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {"l": LineSegment, "a": ArcSegment, "b": BlendSegment}
-"""The letters that make a new segment, and of which kind."""
+NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
+    "l": LineSegment,
+    "a": ArcSegment,
+    "b": BlendSegment,
+    "c": ChamferSegment,
+}
+"""The letters that make a new segment, or another kind of one with nothing typed."""
+KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
+CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
 
 PANELS: Final = ("segments", "findings")
@@ -60,22 +69,20 @@ class SegmentField(NumberField):
         Binding("right", "screen.walk(1)", "Next segment", show=False),
     ]
 
-    class New(Message):
-        """A letter that makes a new segment was typed."""
-
-        def __init__(self, letter: str) -> None:
-            super().__init__()
-            self.letter = letter
+    def __init__(self, name: str, text: str, *, id: str) -> None:
+        super().__init__(name, text, id=id)
+        self.letters = "".join(NEW_SEGMENTS)
 
     def on_key(self, event: events.Key) -> None:
-        """Letters make a new segment; only digits are typed here."""
-        letter = (event.character or "").lower()
-        if letter in NEW_SEGMENTS:
-            self.post_message(self.New(letter))
-        if event.is_printable and not letter.isdigit():
+        """Only digits are typed here, and letters are commands."""
+        character = (event.character or "").lower()
+        if event.is_printable and not character.isdigit() and character not in self.letters:
             event.prevent_default()
-            if letter in NEW_SEGMENTS:
-                event.stop()
+
+
+def is_empty(segment: Segment) -> bool:
+    """Whether nothing is typed in a segment but its feed."""
+    return replace(segment, feed=None) == type(segment)()
 
 
 class ContourScreen(FormScreen):
@@ -173,6 +180,7 @@ class ContourScreen(FormScreen):
             self._switch_form(session, wanted)
         self.form().show(cells_at(session))
         self._show_titles(session)
+        self._offer_letters(session)
         if session.cursor is not self._cursor:
             self._cursor = session.cursor
             self.in_hand = None
@@ -191,8 +199,18 @@ class ContourScreen(FormScreen):
     async def _mount_form(self, form: Form) -> None:
         """A new form, and the cursor on its field: the next key comes when it stands."""
         await self.query_exactly_one("#fields").mount(form)
+        self._offer_letters(self.current_session)
         self.focus_field(self.current_session.cursor.field or "")
         self.refresh_frame()
+
+    def _offer_letters(self, session: Session) -> None:
+        """In a LINE in which nothing is typed letters make it another kind of segment."""
+        letters = (
+            "".join(NEW_SEGMENTS) if isinstance(session.segment, LineSegment) and is_empty(session.segment) else ""
+        )
+        for name in ("x_end", "y_end"):
+            if isinstance(field := self.form().field(name), NumberField):
+                field.letters = letters
 
     def _show_titles(self, session: Session) -> None:
         last, segment = len(session.block.segments), session.place.segment
@@ -353,7 +371,12 @@ class ContourScreen(FormScreen):
         return None
 
     def prompt_text(self) -> Sentence:
-        """On SEGMENT the prompt of SEGMENT."""
+        """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be."""
+        segment, field = self.current_session.segment, self.current_field
+        if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
+            widget = self.current
+            if isinstance(widget, NumberField) and not widget.edited:
+                return Sentence(f"{field.prompt} Or: {KINDS.partition(', ')[2]}.")
         if isinstance(self.current, SegmentField):
             return Sentence(SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT)
         return super().prompt_text()
@@ -376,21 +399,39 @@ class ContourScreen(FormScreen):
         return super().take()
 
     def action_accept(self) -> None:
-        """Take the field and go on; on SEGMENT a typed number goes to that segment."""
-        widget = self.current
-        if isinstance(widget, SegmentField) and widget.edited:
-            self._jump(widget)
-        elif widget is not None and widget.name == self.names()[-1] and self._leads_on():
-            self.quiet()
-            if self.take():
-                self.action_walk(1)
-        else:
-            super().action_accept()
+        """Take the field and go to the next one that needs an answer; after the last one to the next segment.
 
-    def _leads_on(self) -> bool:
-        """Enter on the last field goes to the next segment; on START only while there is none yet."""
+        On SEGMENT a typed number goes to that segment.
+        """
+        widget = self.current
+        if widget is None or (isinstance(widget, SegmentField) and widget.edited):
+            if isinstance(widget, SegmentField):
+                self._jump(widget)
+            return
+        self.quiet()
+        if not self.take():
+            return
+        stop = next_stop(self.current_session, widget.name or "")
+        if stop is not None:
+            self.focus_field(stop)
+        else:
+            self._form_done()
+
+    def _form_done(self) -> None:
+        """After the last field of a form: back to what is still to be answered, else to the next segment."""
         session = self.current_session
-        return session.place.segment > 0 or not session.block.segments
+        missing = unanswered(session)
+        if missing is not None:
+            self.focus_field(missing)
+        elif session.place.segment == 0 and session.block.segments:
+            self.focus_field(SEGMENT)
+        elif session.place.segment < len(session.block.segments):
+            self.go(session.place.segment + 1)
+        elif session.derived_block.solved.closed:
+            self.focus_field(SEGMENT)
+            self.say(CLOSED)
+        else:
+            self._insert(session.place.segment + 1, LineSegment())
 
     def _jump(self, widget: SegmentField) -> None:
         text, session = widget.value.strip(), self.current_session
@@ -423,23 +464,36 @@ class ContourScreen(FormScreen):
         if there < 0:
             self.say("START is the first segment.")
         elif there > len(session.block.segments):
-            self.go(session.place.segment)
-            self.say("New segment: L LINE, A ARC, B BLEND ARC.")
+            self._insert(there, LineSegment())
         else:
             self.go(there)
 
-    @on(SegmentField.New)
-    def _new_segment(self, message: SegmentField.New) -> None:
-        """A new segment after the one with the cursor."""
+    @on(NumberField.Letter)
+    def _letter(self, message: NumberField.Letter) -> None:
+        """A segment in which nothing is typed becomes one of another kind; after any other a new one is made."""
         message.stop()
-        self._insert(self.current_session.place.segment + 1, NEW_SEGMENTS[message.letter]())
+        session, kind = self.current_session, NEW_SEGMENTS[message.letter]
+        segment = session.segment
+        if segment is None or not is_empty(segment):
+            self._insert(session.place.segment + 1, kind())
+            return
+        without = delete_segment(session.program, session.place)
+        outcome = without if isinstance(without, Refused) else insert_segment(without, session.place, kind())
+        form = table.form_of(kind())
+        if self.host.apply(outcome, f"{form} {session.place.segment}, block {session.place.block}"):
+            self.go(session.place.segment, table.TABLES[form][0].name)
 
     def action_insert_segment(self) -> None:
         """A new LINE before the segment with the cursor."""
         self._insert(self.current_session.place.segment, LineSegment())
 
     def _insert(self, number: int, segment: Segment) -> None:
-        place = FormPlace(self.current_session.place.block, number)
+        session = self.current_session
+        if session.segment is not None and is_empty(session.segment) and number > session.place.segment:
+            self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS}.")
+            self.focus_field(self.names()[1])
+            return
+        place = FormPlace(session.place.block, number)
         outcome = insert_segment(self.current_session.program, place, segment)
         form = table.form_of(segment)
         if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):

@@ -18,7 +18,7 @@ from core.units import Kind, Unit, from_mm, show
 
 RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     {
-        Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead"}),
+        Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead", "coolant"}),
         Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent", "choice"}),
         Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent", "choice"}),
         Form.BLEND: frozenset({"feed"}),
@@ -54,17 +54,19 @@ def _visible(session: Session, field: Field) -> bool:
 
 def cells_at(session: Session) -> tuple[Cell, ...]:
     """Every cell of the form there, also those that are not visible just now."""
-    form, unit, missing = form_at(session), session.program.unit, _missing(session)
-    cells = (
+    form, unit, missing = form_at(session), session.program.unit, missing_fields(session)
+    cells = [
         _cell(session, field, int(field.name in RIGHT_COLUMN[form]), unit, needed=field.name in missing)
         for field in _every_field(form)
-    )
-    extra = (
+    ]
+    extra: Iterator[Cell] = (
         _tool_cells(session.derived_block, unit)
         if session.segment is None
         else _end_cells(solved_segment(session), form, unit)
     )
-    return (*cells, *extra)
+    # the lines of START stand as on the control: what the control does not have comes last
+    own = [cell for cell in cells if cell.name == "coolant"]
+    return (*(cell for cell in cells if cell.name != "coolant"), *extra, *own)
 
 
 def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bool) -> Cell:
@@ -74,9 +76,18 @@ def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bo
         text = "" if solution is None or solution.taken is None else solution.label
         labels = () if solution is None else solution.labels
         return Cell("choice", field.label, text, column, choices=labels, visible=visible)
+    if field.name == "coolant":
+        return _coolant_cell(session, field)
     overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
     value = value_at(session, field.name)
     return cell_of(field, value, unit, column, needed=needed, overrides=overrides, visible=visible)
+
+
+def _coolant_cell(session: Session, field: Field) -> Cell:
+    solved = session.derived_block.solved
+    text, origin = str(solved.coolant), solved.coolant_origin
+    state = State.TYPED if origin is None else State.USUAL
+    return Cell("coolant", field.label, text, 1, state, str(origin or ""), choices=field.choices)
 
 
 def _solution(session: Session) -> Solution | None:
@@ -89,6 +100,8 @@ def value_at(session: Session, name: str) -> Value | str:
     typed: Block | Segment = session.block if segment is None else segment
     if name in ("cutter_comp", "direction"):
         return str(getattr(typed, name))
+    if name == "coolant":
+        return str(block.solved.coolant)
     if name == "tangent":
         return "YES" if getattr(typed, name) else "NO"
     if name == "lookahead":
@@ -106,7 +119,7 @@ def _lookahead(block: DerivedBlock) -> Value:
     return Number(value) if block.lookahead.tag is Tag.USR else Solved(value)
 
 
-def _missing(session: Session) -> tuple[str, ...]:
+def missing_fields(session: Session) -> tuple[str, ...]:
     """The blank fields of which the contour needs one more, or all on START."""
     if session.segment is not None:
         return solved_segment(session).missing

@@ -55,9 +55,9 @@ class Session:
 
     @staticmethod
     def of(program: Program, file: Path | None = None, *, saved: Program | None = None, title: str = "") -> Session:
-        """A session that begins with this program, the cursor on SEGMENT of START of block 1."""
+        """A session that begins with this program, the cursor on START of block 1."""
         held = program if saved is None else saved
-        return Session(History(program), held, outline(program), Cursor(), file, title)
+        return Session(History(program), held, outline(program), Cursor(field=_first_field(program)), file, title)
 
     @staticmethod
     def of_history(
@@ -156,6 +156,12 @@ class Session:
         same_form = place == self.place and _kind(history.program, place) is _kind(self.program, place)
         cursor = self.cursor if same_form else Cursor(place)
         return replace(self, history=history, derived=outline(history.program), cursor=cursor)
+
+
+def _first_field(program: Program) -> str:
+    """Where the cursor begins: in TOOL of a new program, else on SEGMENT."""
+    new = len(program.blocks) == 1 and not program.blocks[0].segments and program.blocks[0].x_start is None
+    return "tool" if new else SEGMENT
 
 
 def nearest_place(program: Program, place: FormPlace) -> FormPlace:

@@ -62,6 +62,23 @@ class NumberField(Input):
         super().__init__(text, compact=True, name=name, id=id, max_length=MAX_TYPED)
         self.cursor_blink = False
         self.resting, self.full = text, full or text
+        self.letters = ""
+        """Letters that are no part of a number: as the first character they are commands to the screen."""
+
+    class Letter(Message):
+        """A letter that is a command was typed."""
+
+        def __init__(self, letter: str) -> None:
+            super().__init__()
+            self.letter = letter
+
+    def on_key(self, event: events.Key) -> None:
+        """A letter that is a command is not typed."""
+        letter = (event.character or "").lower()
+        if letter and letter in self.letters and not self.edited:
+            event.stop()
+            event.prevent_default()
+            self.post_message(self.Letter(letter))
 
     @property
     def edited(self) -> bool:

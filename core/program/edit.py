@@ -227,15 +227,21 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
 
 
 def new_block(program: Program) -> Block:
-    """A block as the form offers it: the last block's tool (or 1), usual feeds, its place still blank."""
+    """A block as the form offers it, its place still blank: the first with tool 1 and usual feeds.
+
+    Any other has tool, side, speed, feeds and depths of the block before.  What the tool table proposes stays blank.
+    """
+    if program.blocks:
+        return replace(program.blocks[-1], x_start=None, y_start=None, lookahead=None, segments=())
     zero = Number(0.0)
+    tool = next((tool for tool in program.tools if tool.number == 1), None)
     feed = 20.0 if program.unit is Unit.IN else 500.0
     return Block(
-        tool=program.blocks[-1].tool if program.blocks else Number(1.0),
+        tool=Number(1.0),
         finish_tool=zero,
         z_start=zero,
-        plunge_feed=Number(feed),
-        speed=Number(300.0),
+        plunge_feed=None if tool is not None and tool.plunge_feed is not None else Number(feed),
+        speed=None if tool is not None and tool.speed is not None else Number(300.0),
         peck_depth=zero,
     )
 

@@ -1,0 +1,144 @@
+"""Few keys: a plate typed from its drawing, counted, posted and run by LinuxCNC's interpreter."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from core.pipeline.derive import derive
+from core.pipeline.post import post_center_path
+from core.program.edit import new_block
+from core.program.model import BlendSegment, ChamferSegment, Coolant, LineSegment, Number, Program, Tool
+from core.program.solve.solved import Origin, Solved
+from core.units import Unit
+from tests.app.widget_pilot import Operator, operator
+from tests.rs274 import run
+
+END_MILL = Tool(1, "END MILL", Number(0.5), Number(2400.0), Number(12.0), Number(5.0), Coolant.FLOOD)
+NAMES = {".": "full_stop", "-": "minus"}
+
+PLATE = (
+    "enter", "l", "enter",
+    "'0", "enter", "'0", "enter",
+    "'-.25", "down", "down", "down", "'.1", "enter",
+    "enter", "'4", "enter",
+    "b", "'.5", "enter",
+    "'2.25", "enter", "enter",
+    "a", "c", "enter", "'3.75", "enter", "'4", "enter", "'3", "enter", "'4", "enter",
+    "'6", "enter", "enter",
+    "c", "'.25", "enter",
+    "enter", "'0", "enter",
+    "b", "'.5", "enter",
+    "'0", "enter",
+)  # fmt: skip
+"""6 x 4 outside, clockwise from (0, 0): two radii, a chamfer, a notch about (3, 4)."""
+
+
+def new_program() -> Program:
+    """A new inch program with tool 1 in TOOL SETUP."""
+    program = Program(Unit.IN, tools=(END_MILL,))
+    return Program(Unit.IN, tools=(END_MILL,), blocks=(new_block(program),))
+
+
+def key_presses(keys: tuple[str, ...]) -> list[str]:
+    """A key for every letter of what is typed."""
+    presses: list[str] = []
+    for key in keys:
+        presses += [NAMES.get(letter, letter) for letter in key[1:]] if key.startswith("'") else [key]
+    return presses
+
+
+async def type_keys(one: Operator, keys: tuple[str, ...]) -> int:
+    presses = key_presses(keys)
+    await one.press(*presses)
+    return len(presses)
+
+
+async def test_the_plate_takes_at_most_seventy_keys_and_runs_on_linuxcnc(tmp_path: Path):
+    async with operator(new_program()) as one:
+        assert one.at == "tool"
+        assert await type_keys(one, PLATE) <= 70
+        program = one.session.program
+    kinds = [type(segment) for segment in program.blocks[0].segments]
+    assert kinds.count(BlendSegment) == 2
+    assert kinds.count(ChamferSegment) == 1
+    derived = derive(program)
+    block = derived.block(1)
+    assert [finding.code for finding in block.errors] == []
+    assert block.solved.closed
+    assert block.paths is not None
+    assert block.paths.verdict is not None
+    assert not block.paths.verdict.gouges
+    posted = post_center_path(derived, name="PLATE")
+    assert "S2400 M3" in posted.text
+    assert "M8" in posted.text
+    assert posted.text.count("PECK") >= 3
+    ran = run(posted.text, {1: 0.5}, tmp_path)
+    assert ran.accepted, ran.said
+    corners = [(x, y) for name, x, y, *_ in ran.moves if name != "STRAIGHT_TRAVERSE"]
+    xs, ys = zip(*corners, strict=True)
+    assert (max(xs), min(ys), max(ys)) == pytest.approx((6.25, -0.25, 4.25))
+    assert {round(z, 4) for _, _, _, z, *_ in ran.moves if z < 0} >= {-0.1, -0.2, -0.25}
+
+
+async def test_enter_leads_from_field_to_field_that_needs_an_answer():
+    async with operator(new_program()) as one:
+        path = [one.at]
+        for keys in (("enter",), ("l", "enter"), ("'0", "enter"), ("'0", "enter"), ("'-.2", "enter")):
+            await type_keys(one, keys)
+            path.append(one.at)
+        assert path == ["tool", "cutter_comp", "x_start", "y_start", "z_bottom", "x_end"]
+        assert one.session.place.segment == 1
+
+
+async def test_enter_on_start_goes_back_to_what_is_missing():
+    async with operator(new_program()) as one:
+        await type_keys(one, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
+        assert (one.at, one.session.place.segment) == ("x_start", 0)
+
+
+async def test_a_new_line_becomes_another_kind_by_its_letter():
+    async with operator(new_program()) as one:
+        await type_keys(one, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
+        assert "A ARC, B BLEND ARC, C CHAMFER" in one.prompt
+        await type_keys(one, ("a",))
+        assert (one.at, str(one.screen.query_exactly_one("#segment-kind").render())) == ("direction", "ARC")
+        assert len(one.session.block.segments) == 1
+
+
+async def test_b_and_c_on_segment_put_a_corner_after_it():
+    async with operator() as one:
+        await one.press("'5", "enter", "c", "'1", "enter")
+        assert isinstance(one.session.block.segments[5], ChamferSegment)
+
+
+async def test_the_tags_say_where_a_number_comes_from():
+    async with operator(new_program()) as one:
+        assert (one.tag("speed"), one.tag("plunge_feed"), one.tag("coolant")) == ("TOOL", "TOOL", "TOOL")
+        await type_keys(one, (*PLATE[:15], "down"))
+        assert (one.tag("x_end"), one.tag("feed")) == ("SAME", "TOOL")
+        assert one.session.derived_block.solved.segments[0].values["x_end"] == Solved(0.0, Origin.SAME)
+
+
+async def test_right_arrow_past_an_empty_segment_adds_no_other():
+    async with operator() as one:
+        await one.press("ctrl+end", "right", "pagedown", "pagedown")
+        assert len(one.session.block.segments) == 12
+        assert isinstance(one.session.segment, LineSegment)
+        assert one.prompt.startswith("Nothing is typed yet in segment 12")
+
+
+async def test_a_new_block_takes_what_the_block_before_has():
+    async with operator() as one:
+        await one.press("f8", "f2")
+        before, block = one.session.program.blocks
+        assert (block.speed, block.z_bottom, block.cutter_comp) == (before.speed, before.z_bottom, before.cutter_comp)
+        assert (block.x_start, block.segments) == (None, ())
+
+
+@pytest.mark.parametrize(("typed", "value"), [("2,5", 2.5), (",5", 0.5)])
+async def test_a_comma_is_a_decimal_point(typed, value):
+    async with operator() as one:
+        await one.press("pagedown", "tab", *[{",": "comma"}.get(letter, letter) for letter in typed], "enter")
+        assert one.session.block.segments[0].x_end == Number(value)
