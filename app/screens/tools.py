@@ -19,7 +19,7 @@ from app.widgets.field import Cell, ChoiceField, NumberField, State
 from app.widgets.softkeys import Softkey
 from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
-from core.program.model import Number, Program, Tool, Typed
+from core.program.model import Coolant, Number, Program, Tool, Typed
 from core.program.solve.solved import Value
 from core.units import Kind
 
@@ -127,6 +127,10 @@ class ToolsScreen(FormScreen):
         """What a tool has in a field."""
         tools, row = self.current_session.program.tools, _row(name)
         return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
+
+    def picked_text(self, field: Field) -> str:
+        """The choice that the tool has."""
+        return str(self.value(field.name) or "")
 
     def edited(self, field: Field, text: str) -> Edited:
         """The program with this text in its tool table."""
@@ -261,6 +265,8 @@ def _typed(program: Program, tool: Tool, field: Field, text: str) -> Edited:
         return _renumbered(program, tool, read_typed(text, field, program.unit))
     plain = field.kind in (Kind.TEXT, Kind.CHOICE)
     value: Any = text.strip() if plain else read_typed(text, field, program.unit)
+    if name == "coolant":
+        value = Coolant(value) if value else None
     return set_tool(program, replace(tool, **{name: value}))
 
 

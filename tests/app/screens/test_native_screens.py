@@ -15,7 +15,7 @@ from app.screens.program import ProgramScreen
 from app.screens.tools import ToolsScreen
 from app.session.posting import nc_text
 from app.widgets.drawing import Drawing
-from core.program.model import Number
+from core.program.model import Coolant, Number
 from core.units import Unit
 from tests.app.widget_pilot import Operator, operator
 
@@ -106,6 +106,16 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
         await one.press("f1")
         await everything(one)
         assert [tool.number for tool in one.session.program.tools] == [1]
+
+
+async def test_speed_feeds_and_coolant_of_a_tool_are_proposals():
+    async with operator() as one:
+        await run(one, "app.tools")
+        await one.press("tab", "tab", "tab", "'2400", "tab", "'12", "tab", "'5", "tab", "f")
+        await everything(one)
+        tool = one.session.program.tools[0]
+        assert (tool.speed, tool.feed, tool.plunge_feed) == (Number(2400.0), Number(12.0), Number(5.0))
+        assert tool.coolant is Coolant.FLOOD
 
 
 async def test_a_number_that_another_tool_has_is_refused_and_stays_to_be_mended():
