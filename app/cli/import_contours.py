@@ -69,11 +69,18 @@ def import_contours(arguments: list[str]) -> int:
         say(str(error))
         return UNUSABLE
     except DrawingError as error:
-        more = " Take it all the same with --damaged." if error.readable and not options.damaged else ""
-        more = " Name the layers to take with --layer." if error.code == "NOT_FLAT" else more
-        say(f"{error.text}{more}")
+        say(f"{error.text}{_remedy(error, options)}")
         return UNUSABLE
     return CLEAN
+
+
+def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
+    """The option that would have the drawing taken, where one would."""
+    if error.code == "NOT_FLAT":
+        return " Name the layers to take with --layer."
+    if error.code == "NOT_DXF":
+        return " For an NC program add --control NAME."
+    return " Take it all the same with --damaged." if error.readable and not options.damaged else ""
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Final, Generic, TypeVar, cast
 
 from core.importing.contours import ContourList, ImportOptions, contours_of
@@ -56,7 +57,9 @@ class Worker(Generic[Result]):
     def __init__(self, function: Callable[..., Result], *arguments: object, limit: float = TIME_LIMIT) -> None:
         context = get_context("spawn")
         self._here, there = context.Pipe(duplex=False)
-        self._process = context.Process(target=_work, args=(there, function, arguments), daemon=True)
+        self._cache = TemporaryDirectory(prefix="cutcomp-")
+        work = (there, self._cache.name, function, arguments)
+        self._process = context.Process(target=_work, args=work, daemon=True)
         self._limit, self._deadline = limit, time.monotonic() + limit
         self._process.start()
         there.close()
@@ -91,6 +94,7 @@ class Worker(Generic[Result]):
             self._process.kill()
         self._process.join()
         self._here.close()
+        self._cache.cleanup()
 
     def result(self) -> Result:
         """Wait for the result."""
@@ -121,12 +125,11 @@ def _find(drawing: Drawing, options: ImportOptions, *, progress: ReportProgress)
     return contours_of(drawing, options, progress)
 
 
-def _work(there: Connection, function: Callable[..., object], arguments: tuple[object, ...]) -> None:
+def _work(there: Connection, cache: str, function: Callable[..., object], arguments: tuple[object, ...]) -> None:
     """In the process: the result or the error goes through the pipe."""
     # Ctrl+C is for the process that waits
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # ezdxf looks for settings in the folder it is started in, and for fonts that no contour needs
-    os.environ["EZDXF_CONFIG_FILE"] = os.devnull
+    _spare_fonts(Path(cache))
     sent = 0.0
 
     def progress(stage: str, done: int, whole: int) -> None:
@@ -146,6 +149,17 @@ def _work(there: Connection, function: Callable[..., object], arguments: tuple[o
         message = DrawingError("TOO_MUCH", "The drawing needs more memory than there is.")
     with suppress(BrokenPipeError):
         there.send(message)
+
+
+def _spare_fonts(cache: Path) -> None:
+    """Have ezdxf find an empty list of fonts: at its first import it would read every font and keep a list at home.
+
+    No contour needs a font, and a system may have thousands.
+    """
+    fonts = cache / "ezdxf" / "font_manager_cache.json"
+    fonts.parent.mkdir()
+    fonts.write_text('{"version": 2, "font-faces": []}', encoding="ascii")
+    os.environ["XDG_CACHE_HOME"] = str(cache)
 
 
 def drawing_bytes(path: Path) -> bytes:
