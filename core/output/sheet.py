@@ -27,6 +27,7 @@ PAGE_COLUMNS: Final = 78
 LABEL: Final = 18
 """Columns of a label in it."""
 READY: Final = "READY to post."
+READY_BUT: Final = "READY to post. Know before you run it:"
 NOT_READY: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
 STYLE: Final = """\
 body { font: 14px/1.4 sans-serif; color: #1b1f23; max-width: 60em; margin: 2em auto; padding: 0 1em }
@@ -58,13 +59,24 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A whole sheet.  `errors` say why the program must not run as it is; empty for one that is ready."""
+    """A whole sheet.  `errors` say why the program must not run as it is; empty for one that is ready.
+
+    `notes` say, block by block, what is not cut as drawn: segments that the look-ahead deletes, and what stays uncut.
+    """
 
     title: str
     head: tuple[Pair, ...]
     errors: tuple[str, ...]
     tools: Section
     blocks: tuple[Section, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def verdict(self) -> tuple[str, tuple[str, ...]]:
+        """The line that says whether the program is ready, and what stands below it."""
+        if self.errors:
+            return NOT_READY, self.errors
+        return (READY_BUT, self.notes) if self.notes else (READY, ())
 
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
@@ -78,7 +90,8 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
         ("SAFE Z", ", ".join(dict.fromkeys(length_text(job.safe_z, unit) for job in jobs)) or "-"),
     )
     errors = dict.fromkeys(_finding_text(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
-    return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs))
+    notes = tuple(f"Block {job.block}: {note}" for job in jobs for note in job.notes)
+    return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs), notes)
 
 
 def _feed(value: float | None, unit: Unit) -> str:
@@ -118,6 +131,8 @@ def _block(job: Job, unit: Unit) -> Section:
 def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
     yield "CUTTER COMP.", job.comp
     yield "LOOKAHEAD", job.lookahead or "none: the center runs on the contour"
+    for note in job.notes:
+        yield "NOTE", note
     yield "TOOL", _cutter(job.cutter)
     yield "FINISH TOOL", _cutter(job.finisher) if job.finish_tool else "none"
     if len(job.surface):
@@ -201,10 +216,9 @@ def _travel(before: Motion, motion: Motion) -> float:
 def as_text(sheet: Sheet) -> str:
     """The sheet, lines ended by a line feed."""
     lines = ["SETUP SHEET", "=" * PAGE_COLUMNS, *_text_pairs(sheet.head), ""]
-    if sheet.errors:
-        lines += [NOT_READY, *(line for text in sheet.errors for line in _wrapped(f"!! {text}"))]
-    else:
-        lines.append(READY)
+    first, rest = sheet.verdict
+    mark = "!!" if sheet.errors else "!"
+    lines += [first, *(line for text in rest for line in _wrapped(f"{mark} {text}"))]
     for section in (sheet.tools, *sheet.blocks):
         lines += ["", section.title, "-" * PAGE_COLUMNS, *_text_section(section)]
     return "\n".join(_printable_line(line).rstrip() for line in lines) + "\n"
@@ -267,11 +281,12 @@ def _escaped(text: str) -> str:
 
 
 def _page_verdict(sheet: Sheet) -> Iterator[str]:
-    if not sheet.errors:
-        yield f'<p class="good">{_escaped(READY)}</p>'
+    first, rest = sheet.verdict
+    if not rest:
+        yield f'<p class="good">{_escaped(first)}</p>'
         return
-    yield f'<div class="bad">{_escaped(NOT_READY)}<ul>'
-    yield from (f"<li>{_escaped(text)}</li>" for text in sheet.errors)
+    yield f'<div class="{"bad" if sheet.errors else "good"}">{_escaped(first)}<ul>'
+    yield from (f"<li>{_escaped(text)}</li>" for text in rest)
     yield "</ul></div>"
 
 

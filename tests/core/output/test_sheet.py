@@ -338,3 +338,13 @@ def test_text_next_to_a_label_is_wrapped_at_its_last_column():
     assert f"PROGRAM            {fits}" in lines
     assert len(f"PROGRAM            {fits}") == PAGE_COLUMNS
     assert lines[lines.index("PART NAME          " + "a" * 40) + 1] == " " * 19 + "b" * 19
+
+
+def test_what_the_look_ahead_deletes_stands_beside_ready_and_on_the_block():
+    note = "DELETED BY THE LOOK-AHEAD: SEGMENT 9"
+    made = of(replace(job(polyline((0, 0), (1, 0))), notes=(note,)))
+    text = as_text(made)
+    assert "READY to post. Know before you run it:" in text
+    assert f"! Block 1: {note}" in text
+    assert f"NOTE               {note}" in text
+    assert f"<li>Block 1: {note}</li>" in as_page(made, [""])
