@@ -82,6 +82,9 @@ class Control(Recorder):
     def tool_called(self, number: int, block: Block) -> None:
         """A T word or tool data, before it takes effect."""
 
+    def tool_changed(self) -> None:
+        """M6, after it took effect."""
+
     def idle(self, block: Block) -> None:
         """A block without motion while active, after its codes."""
 
@@ -249,6 +252,7 @@ class Machine(ModalState):
             self.select_tool(number, block)
         if _TOOL_CHANGE in block.m:
             self.tool = self.next_tool
+            self.control.tool_changed()
 
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:

@@ -22,7 +22,7 @@ from core.controls.iso.machine import Control
 from core.controls.iso.macro import ParameterStore
 from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
-from core.controls.moves import Plane
+from core.controls.moves import Plane, flat, solid
 from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit
@@ -132,6 +132,8 @@ class LinuxCnc(OneMoveQueue, Control):
                     f"M{code / 10:g} {what}, which is not allowed under compensation; write G40 in a block before it."
                 )
                 self.log.stop(rule, text, block.line, column)
+            if code == _SET_TOOL:
+                self._set_tool(block)
             if code in _RESTORES:
                 text = f"cutcomp does not restore what M{code / 10:g} restores. Write the codes themselves."
                 self.log.stop("BEYOND", text, block.line, column)
@@ -175,6 +177,22 @@ class LinuxCnc(OneMoveQueue, Control):
         """The motion that a block's words belong to."""
         given = [code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion"]
         return next((code for code in given if code != _G80), given[0] if given else self.machine.mode)
+
+    def _set_tool(self, block: Block) -> None:
+        """M61 Q: the tool that is in the spindle, without a change."""
+        number = whole(block.words.get("Q", -1.0))
+        if number is None or number < 0:
+            text = "M61 needs Q and the number of the tool that is in the spindle."
+            self.log.stop("N-WORDALONE", text, block.line, block.column("M", _SET_TOOL))
+        if number and self.machine.tools.get(number) is None:
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("Q"))
+        self.machine.tool = number
+        self.tool_changed()
+
+    def tool_changed(self) -> None:
+        """M6 and M61 make the control read anew where the axes stand: after G40 that may be an offset point."""
+        first, second = self.here
+        self.machine.position = solid(first, second, flat(self.machine.position, self.plane)[2], self.plane)
 
     def _arc_words(self, block: Block) -> None:
         """I, J, K and R go with arcs, and with codes that take no part in compensation."""
@@ -268,6 +286,7 @@ class LinuxCnc(OneMoveQueue, Control):
 _G80: Final = 800
 _G10: Final = 100
 _ORIENT: Final = 190
+_SET_TOOL: Final = 610
 _LATHE: Final = frozenset((70, 80))
 _UNSHIFTS: Final = frozenset((921, 922, 923))
 _RESTORES: Final = frozenset((720, 730))

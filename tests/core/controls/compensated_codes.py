@@ -55,6 +55,10 @@ PROGRAMS = {
     "offsets under a shift": "G92 X5\nG1 X6\nG10 L20 P1 X3 Y2\nG1 X0 Y0\nX1\nG10 L2 P0 X1\nX7\nG10 L2 P9 X4\nG59.3\nX1",
     "diameters": "G7\nG1 X4 Y1\nG2 X6 Y0 J-1\nG8 G1 X4\nG7 X#5420\nG91 X2\nG90\nG92 X0\nX8\nG8 X1",
     "diameters under compensation": "G7\nG41.1 D.5 G1 X4 Y1\nG1 X8\nY4\nG40 X2\nG28 X1\nG53 G0 X3\nG10 L2 P1 X3\nG0 X1",
+    "a tool change at an offset point": "G41.1 D.5\nG1 X1\nX3\nG40\nT1 M6\nG0 X9\nG91 Y1\nG90 X4 Y4",
+    "a tool change at an offset point in zx": "G18\nG41.1 D.5\nG1 X1\nX3\nG40\nT1 M6\nG0 X9\nZ4",
+    "a tool set at an offset point": "G41.1 D.5\nG1 X1\nX3\nG40\nM61 Q2\nG0 X9\nG41 D2\nG1 X12\nX14\nG40\nX20 Y5",
+    "a tool set before compensation": "T1 M6\nM61 Q2\nG41 D2\nG1 X1\nX3\nG40\nX4",
     "length offsets": "G1 Z1\nG43 H1\nX3\nZ1\nG43.1 Z.5 X.1\nX4\nG43.2 H2\nX5\nG49\nX7\nG43.1 G0 Z2",
     "feeds after a change of their meaning": "F8 G1 X1\nG94 F7\nX2\nG95 F1 S5\nX3\nG95 F2\nX4\nG94\nG0 X7",
 }

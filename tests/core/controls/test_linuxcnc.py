@@ -138,6 +138,17 @@ def test_a_shift_that_compensation_ignores_is_a_warning() -> None:
     assert told(ran(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
 
 
+def test_m61_sets_the_tool_whose_radius_counts_without_d() -> None:
+    """The interpreter alone, which has no spindle, keeps the tool before; the manual says that M61 sets it."""
+    done = ran("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
+    assert same(shape(done)[:1], [("line", 1, 0.125)])
+
+
+@pytest.mark.parametrize(("line", "rule"), [("M61", "N-WORDALONE"), ("M61 Q-1", "N-WORDALONE"), ("M61 Q9", "TOOL")])
+def test_m61_without_a_tool_of_the_table_is_refused(line: str, rule: str) -> None:
+    assert [one.line for one in told(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
+
+
 def test_a_machines_m_code_is_taken_as_moving_nothing_and_said() -> None:
     assert told(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
 
