@@ -19,6 +19,9 @@ Where a maker's manual does not say, cutcomp makes a choice and says so in a fin
   loops are given up after 100,000 rows without movement or 200,000 rows run again;
 * compensation left on at the end of a threeblock program is an error that is reported and stops nothing;
 * the orientation of a lathe tool shifts moves on LinuxCNC; on RosettaCNC they stay those of the nose's center;
+* G80 ends a cycle and leaves the motion before it on the 9/Series; on threeblock no motion is in force after it;
+* Klartext arcs outside the working plane count their angles from the plane's first axis: Z in Z/X, Y in Y/Z;
+* Klartext cycles are passed over to the end that is known of them, or to the next absolute words;
 * expressions and parameters of 9/Series and threeblock programs are not evaluated: the run ends there and says so;
 * the radii of an arc may differ by 0.0005 in (0.0127 mm) or a thousandth: LinuxCNC and Klartext say their own limits.
 """
