@@ -30,13 +30,17 @@ def turn_of(segment: Mapping[str, Any]) -> int:
 # the generator
 
 
-def random_case(seed: int, least: int = 2, most: int = 5, surplus: int = 0) -> tuple[Case, list[dict[str, Any]]]:
-    """A run with as many data as it has unknowns (and `surplus` more), and the answer it was made from."""
+def random_case(seed: int, least: int = 2, most: int = 5, *, points: bool = False) -> tuple[Case, list[dict[str, Any]]]:
+    """A run with as many data as it has unknowns, and the answer it was made from; with `points` some are POINTs."""
     pick = random.Random(seed)
     start = (pick.uniform(-50.0, 50.0), pick.uniform(-50.0, 50.0))
     pieces, tangents = _contour(pick, start, pick.randint(least, most))
     pools = [_data(piece, tangents[index]) for index, piece in enumerate(pieces)]
-    unknowns = sum(3 if piece["kind"] == "ARC" else 2 for piece in pieces) + surplus
+    if points:
+        starts = [start, *((piece["x_end"], piece["y_end"]) for piece in pieces)]
+        for pool, piece, at in zip(pools, pieces, starts[:-1], strict=True):
+            pool["point"] = _point_data(pick, piece, at)
+    unknowns = sum(3 if piece["kind"] == "ARC" else 2 for piece in pieces)
     chosen = [(len(pieces) - 1, name) for name in ("x_end", "y_end")] if pick.random() < 0.85 else []
     rest = [(index, name) for index, pool in enumerate(pools) for name in pool if (index, name) not in chosen]
     pick.shuffle(rest)
@@ -47,6 +51,7 @@ def random_case(seed: int, least: int = 2, most: int = 5, surplus: int = 0) -> t
     for index, piece in enumerate(pieces):
         segment: dict[str, Any] = {key: piece[key] for key in ("kind", "direction") if key in piece}
         segment |= {name: pools[index][name] for at, name in chosen if at == index}
+        segment |= segment.pop("point", {})
         segments.append(segment)
     return {"units": "MM", "start": list(start), "segments": segments}, pieces
 
@@ -96,6 +101,21 @@ def _data(piece: Piece, smooth: bool) -> dict[str, Any]:
     names = ("x_end", "y_end", "length", "angle", "x_center", "y_center", "radius", "sweep", "start_angle")
     data: dict[str, Any] = {name: piece[name] for name in names if name in piece}
     return data | ({"tangent": True} if smooth else {})
+
+
+def _point_data(pick: random.Random, piece: Piece, start: tuple[float, float]) -> dict[str, float]:
+    """A point on a piece's circle, or beside its line, as POINT gives it."""
+    if piece["kind"] == "ARC":
+        angle = pick.uniform(0.0, math.tau)
+        x, y = (
+            piece["x_center"] + piece["radius"] * math.cos(angle),
+            piece["y_center"] + piece["radius"] * math.sin(angle),
+        )
+        return {"point_x": x, "point_y": y}
+    along, side = pick.uniform(-20.0, 60.0), pick.choice((0.0, 12.0, -12.0))
+    c, s = math.cos(math.radians(piece["angle"])), math.sin(math.radians(piece["angle"]))
+    point = {"point_x": start[0] + along * c - side * s, "point_y": start[1] + along * s + side * c}
+    return point | ({"point_dist": abs(side)} if side else {})
 
 
 # the judge
@@ -212,6 +232,8 @@ class BruteForce:
                 if name in segment:
                     angular = name in ("angle", "start_angle")
                     missed.append(self._missed(value, segment[name], angular, sweep=name == "sweep"))
+            if "point_x" in segment:
+                missed.append(self._point_missed(segment, actual, turn, x, y))
             if "tangent" in segment:
                 missed.append(self.scale * np.sin((actual["leaving"] - heading) / 2.0) * 2.0)
             x, y, heading = actual["x_end"], actual["y_end"], arriving
@@ -221,6 +243,16 @@ class BruteForce:
         if angular:
             return self.scale * 2.0 * np.sin((value - math.radians(typed)) / 2.0)
         return self.scale * (value - math.radians(typed)) if sweep else value - typed
+
+    def _point_missed(self, segment: Piece, actual: dict[str, Floats], turn: int, x: Floats, y: Floats) -> Floats:
+        px, py, distance = segment["point_x"], segment["point_y"], segment.get("point_dist", 0.0)
+        missed: Floats
+        if turn:
+            missed = np.hypot(px - actual["x_center"], py - actual["y_center"]) - actual["radius"]
+            return missed
+        side = (py - y) * np.cos(actual["angle"]) - (px - x) * np.sin(actual["angle"])
+        missed = np.abs(side) - distance if distance else side
+        return missed
 
     def _piece(
         self, numbers: Floats, at: int, turn: int, x: Floats, y: Floats

@@ -365,10 +365,11 @@ def test_a_pick_far_from_every_answer_takes_none() -> None:
 # random runs
 
 
-def test_a_sample_of_random_runs_is_solved_and_proved() -> None:
+@pytest.mark.parametrize("points", [False, True])
+def test_a_sample_of_random_runs_is_solved_and_proved(points: bool) -> None:
     count = right = 0
     for seed in range(9000, 9120):
-        case, truth = random_case(seed)
+        case, truth = random_case(seed, points=points)
         if keeps_coordinate(case) or BruteForce(case).condition(truth) < 1e-5:
             continue
         runs = solved(case).runs
@@ -382,7 +383,7 @@ def test_a_sample_of_random_runs_is_solved_and_proved() -> None:
         for chain in chains:
             assert walk(case, chain) < 1e-7, seed
         right += 1
-    assert count == right > 25
+    assert count == right > 15
 
 
 @pytest.mark.parametrize("seed", [9001, 9013, 9030, 9046, 9063, 9078])
