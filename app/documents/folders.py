@@ -29,17 +29,17 @@ def folder(file: Path | None) -> Path:
 def written_at(path: Path) -> str:
     """A file that was written: the whole path where it is not in the current folder."""
     here = Path(os.path.realpath(path)).parent == folder(None)
-    return told_path(path.name) if here else told_path(Path(os.path.normpath(Path.cwd() / path)))
+    return printable_path(path.name) if here else printable_path(Path(os.path.normpath(Path.cwd() / path)))
 
 
-def told_path(path: Path | str) -> str:
+def printable_path(path: Path | str) -> str:
     """A whole path without control characters."""
-    return "".join(one if one.isprintable() else "?" for one in str(path))
+    return "".join(character if character.isprintable() else "?" for character in str(path))
 
 
-def folder_told(file: Path | None) -> str:
+def folder_in_words(file: Path | None) -> str:
     """The chosen folder in words, asked of no disk: a folder of a network may not answer."""
     try:
-        return told_path(Path.cwd() if file is None else Path.cwd() / file.parent)
+        return printable_path(Path.cwd() if file is None else Path.cwd() / file.parent)
     except OSError:
         return "the folder it was started in, which is gone"

@@ -37,21 +37,21 @@ def state_folder() -> Path:
     return user_state_path("cutcomp", appauthor=False)
 
 
-def journal_place(file: Path | None, me: Owner, own: Path) -> Path:
+def journal_place(file: Path | None, me: Owner, state: Path) -> Path:
     """The journal of work on a file, or of work that has no file yet."""
     if file is None:
-        return own / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{SUFFIX}"
-    beside = journal_path(file)
-    return beside if os.access(beside.parent, os.W_OK) else elsewhere(file, own)
+        return state / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{SUFFIX}"
+    adjacent = journal_path(file)
+    return adjacent if os.access(adjacent.parent, os.W_OK) else elsewhere(file, state)
 
 
-def elsewhere(file: Path, own: Path) -> Path:
+def elsewhere(file: Path, state: Path) -> Path:
     """The journal of work on a file whose folder takes nothing."""
     from hashlib import blake2b
 
     target = os.path.realpath(file)
     digest = blake2b(target.encode("utf-8", "surrogateescape"), digest_size=8).hexdigest()
-    return own / f"{_name_begin(target)}{digest}{SUFFIX}"
+    return state / f"{_name_begin(target)}{digest}{SUFFIX}"
 
 
 def _name_begin(target: str) -> str:
@@ -60,10 +60,10 @@ def _name_begin(target: str) -> str:
 
 def new_journal(path: Path, file: Path | None) -> JournalFile:
     """A journal that is to be begun there; beside its document, whoever may read that one may read it too."""
-    beside = file is not None and path == journal_path(file)
-    if not beside:
+    adjacent = file is not None and path == journal_path(file)
+    if not adjacent:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    return JournalFile(path, program=Path(os.path.realpath(file)) if file is not None and beside else None)
+    return JournalFile(path, program=Path(os.path.realpath(file)) if file is not None and adjacent else None)
 
 
 # ---- what was left
@@ -84,12 +84,12 @@ class Unreadable:
     what: str = ""
 
 
-def left_of(file: Path | None, kind: Kind, own: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
+def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
     """What was left of a file, or of work without a name, whosever it is, the last first.
 
     Not what was discarded, nor what was set aside while somebody else typed on in it, unless he did and died.
     """
-    for path in _unnamed(own) if file is None else journals_of(file, own):
+    for path in _unnamed(state) if file is None else journals_of(file, state):
         left = read(path, kind) or unreadable(path)
         if left is None:
             continue
@@ -98,28 +98,28 @@ def left_of(file: Path | None, kind: Kind, own: Path) -> Iterator[tuple[Path, Jo
             yield path, left
 
 
-def left_by_dead(file: Path, kind: Kind, own: Path, user: str) -> Iterator[tuple[Path, Journal]]:
+def left_by_dead(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
     """The journals of a file that this user is asked about, of programs that died."""
-    for path, left in left_of(file, kind, own):
+    for path, left in left_of(file, kind, state):
         if isinstance(left, Unreadable) or alive(left.head.owner):
             continue
-        if not why_aside(path) or of_user(left.head.owner, path, own, user):
+        if not why_aside(path) or of_user(left.head.owner, path, state, user):
             yield path, left
 
 
-def of_user(owner: Owner, path: Path, own: Path, user: str) -> bool:
+def of_user(owner: Owner, path: Path, state: Path, user: str) -> bool:
     """Whether work is this user's: everything in a person's own folder is."""
-    return owner.user == user or path.parent == own
+    return owner.user == user or path.parent == state
 
 
-def journals_of(file: Path, own: Path) -> Iterator[Path]:
+def journals_of(file: Path, state: Path) -> Iterator[Path]:
     """The journals of a file that are to be offered, those set aside after the others."""
-    places = [journal_path(file)]
+    candidates = [journal_path(file)]
     begin = _name_begin(os.path.realpath(file))
-    if any(path.name.startswith(begin) for path in _inside(own)):
-        places.append(elsewhere(file, own))
-    yield from (path for path in places if os.path.lexists(path))
-    yield from (path for place in places for path in asides(place) if _wants_answer_still(path))
+    if any(path.name.startswith(begin) for path in _inside(state)):
+        candidates.append(elsewhere(file, state))
+    yield from (path for path in candidates if os.path.lexists(path))
+    yield from (path for place in candidates for path in asides(place) if _wants_answer_still(path))
 
 
 def wants_answer(path: Path) -> bool:
@@ -136,12 +136,14 @@ def _wants_answer_still(path: Path) -> bool:
     return False
 
 
-def never_saved(folder: Path, own: Path) -> list[Path]:
+def never_saved(folder: Path, state: Path) -> list[Path]:
     """The programs of a folder that have no file yet, of which there is a journal; OSError where it cannot be read."""
-    beside = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
-    there = [path for path in beside if _holds_something(journal_path(path))]
-    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(own))
-    there += [folder / name for path, name in named if elsewhere(folder / name, own) == path and _holds_something(path)]
+    adjacent = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
+    there = [path for path in adjacent if _holds_something(journal_path(path))]
+    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(state))
+    there += [
+        folder / name for path, name in named if elsewhere(folder / name, state) == path and _holds_something(path)
+    ]
     return sorted({path for path in there if path.suffix.lower() == ".toml" and not path.exists()})
 
 
@@ -158,8 +160,8 @@ def _inside(folder: Path) -> list[Path]:
     return []
 
 
-def _unnamed(own: Path) -> list[Path]:
-    journals = own.glob(f"unnamed-*{SUFFIX}")
+def _unnamed(state: Path) -> list[Path]:
+    journals = state.glob(f"unnamed-*{SUFFIX}")
     return sorted(journals, key=lambda path: (_changed(path), path.name), reverse=True)
 
 
@@ -227,14 +229,14 @@ class KeptCopy:
 
     def label(self, today: str) -> str:
         """The line in the list of OPEN."""
-        when = times.told(self.time, today).removeprefix("on ")
+        when = times.in_words(self.time, today).removeprefix("on ")
         return f"{self.word} work, {when}: {self.name}"
 
 
-def kept_copies(folder: Path, own: Path, kind: Kind) -> list[KeptCopy]:
+def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:
     """The journals of a kind set aside in a folder and in a person's own one, the last one first."""
-    dated = [entry for place in dict.fromkeys((folder, own)) for entry in _set_aside_in(place, own)]
-    of_kind = [(time, path) for time, path in dated if _may_be(path, kind, folder, own)]
+    dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
+    of_kind = [(time, path) for time, path in dated if _may_be(path, kind, folder, state)]
     return [
         KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of(time), _plain(_file_name(path)))
         for time, path in sorted(of_kind, reverse=True)[:MAX_KEPT_COPIES]
@@ -252,13 +254,13 @@ def file_of_copy(path: Path, folder: Path) -> Path | None:
         if name is not None:
             return Path(name)
         return None if _file_name(path) == UNNAMED else folder / _file_name(path)
-    beside = path.with_name(Path(name).name if name is not None else _file_name(path))
-    return beside if journal_path(beside) == place_of(path.resolve()) else path.with_name(_file_name(path))
+    adjacent = path.with_name(Path(name).name if name is not None else _file_name(path))
+    return adjacent if journal_path(adjacent) == place_of(path.resolve()) else path.with_name(_file_name(path))
 
 
-def _set_aside_in(folder: Path, own: Path) -> Iterator[tuple[int, Path]]:
+def _set_aside_in(folder: Path, state: Path) -> Iterator[tuple[int, Path]]:
     with suppress(OSError):
-        for path in folder.glob(f"*{SUFFIX}.*" if folder == own else f".*{SUFFIX}.*"):
+        for path in folder.glob(f"*{SUFFIX}.*" if folder == state else f".*{SUFFIX}.*"):
             if _why(path) in KEPT_COPY_WORDS:
                 with suppress(OSError):
                     yield path.stat().st_mtime_ns, path
@@ -268,7 +270,7 @@ def _why(path: Path) -> str:
     return why_aside(path).partition("-")[0]
 
 
-def _may_be(path: Path, kind: Kind, folder: Path, own: Path) -> bool:
+def _may_be(path: Path, kind: Kind, folder: Path, state: Path) -> bool:
     """Whether a copy may be of this kind; one of an NC text in the own folder must be about a file of this folder.
 
     The name alone tells, so that a list needs no journal read; a name so long that its end is cut may be of either.
@@ -278,7 +280,7 @@ def _may_be(path: Path, kind: Kind, folder: Path, own: Path) -> bool:
         return kind is Kind.CONTOUR
     if len(name) < CUT_NAME and name.lower().endswith(".toml") is (kind is Kind.NC):
         return False
-    return kind is Kind.CONTOUR or path.name.startswith(".") or place_of(path) == elsewhere(folder / name, own)
+    return kind is Kind.CONTOUR or path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
 
 
 def _file_name(path: Path) -> str:

@@ -24,8 +24,8 @@ def is_folder(path: Path) -> bool:
 
 def with_suffix(path: Path, suffix: str) -> Path:
     """The path with a suffix if it has none and is no folder: in `bracket 1.5` the 5 is none."""
-    own = path.suffix[1:]
-    return path if is_folder(path) or (own.isalnum() and own[0].isalpha()) else path.with_name(path.name + suffix)
+    ending = path.suffix[1:]
+    return path if is_folder(path) or (ending.isalnum() and ending[0].isalpha()) else path.with_name(path.name + suffix)
 
 
 def as_program(path: Path) -> Path:
@@ -36,7 +36,7 @@ def as_program(path: Path) -> Path:
 def program_named(path: Path) -> Path:
     """The program that a name means: what is there; else the name that SAVE AS would give it."""
     try:
-        found = path.exists() or path.is_symlink()
+        exists = path.exists() or path.is_symlink()
     except OSError:
         return path
-    return path if found else as_program(path)
+    return path if exists else as_program(path)

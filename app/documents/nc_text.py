@@ -70,7 +70,7 @@ class NcText:
         return len(self.lines)
 
     def text(self, row: int) -> str:
-        """A line without its end; none behind the last one."""
+        """A line without its end; none past the last line."""
         return _END.sub("", self.lines[row]).removeprefix(MARK) if 0 <= row < len(self.lines) else ""
 
     def takes(self, text: str) -> bool:
@@ -90,12 +90,12 @@ class NcText:
         return self._do(Change(row, (old,), (mark + text + self._end_of(row),)))
 
     def inserted(self, row: int, text: str = "") -> NcText:
-        """A new line before a line, or behind the last one."""
+        """A new line before a line, or after the last."""
         if row >= len(self.lines) and self.lines and not self._end_of(len(self.lines) - 1):
             last = len(self.lines) - 1
             return self._do(Change(last, self.lines[last:], (self.lines[last] + self._usual(), text)))
         if row == 0 and self.lines and self.lines[0].startswith(MARK):
-            rest = tuple(one for one in (self.lines[0].removeprefix(MARK),) if one)
+            rest = tuple(line for line in (self.lines[0].removeprefix(MARK),) if line)
             return self._do(Change(0, self.lines[:1], (MARK + text + self._usual(), *rest)))
         return self._do(Change(row, (), (text + self._usual(),)))
 
@@ -104,8 +104,8 @@ class NcText:
         if not self.lines or self.lines == (MARK,):
             return self
         if self.lines[row].startswith(MARK):
-            behind = "".join(self.lines[row + 1 : row + 2])
-            return self._do(Change(row, self.lines[row : row + 2], (MARK + behind,)))
+            after = "".join(self.lines[row + 1 : row + 2])
+            return self._do(Change(row, self.lines[row : row + 2], (MARK + after,)))
         return self._do(Change(row, (self.lines[row],), ()))
 
     @property
@@ -117,24 +117,24 @@ class NcText:
     def with_texts(self, texts: Sequence[str]) -> NcText:
         """The text with these lines, as `texts` gives them, by one change; lines that stay keep their own ends."""
         before = self.texts
-        first, behind = _shared(before, texts)
+        first, after = _shared(before, texts)
         moved = len(before) - len(texts)
         lines = []
         for row, text in enumerate(texts[:-1]):
-            old = row if row < min(len(texts), len(before)) - behind else row + moved
+            old = row if row < min(len(texts), len(before)) - after else row + moved
             lines.append(text + (self._end_of(old) if 0 <= old < len(self.lines) else ""))
             if not _END.search(lines[-1]):
                 lines[-1] += self._usual()
         lines += [text for text in texts[-1:] if text]
         if self.lines and self.lines[0].startswith(MARK):
             lines[:1] = [MARK + "".join(lines[:1])]
-        first, behind = _shared(self.lines, lines)
-        removed, inserted = self.lines[first : len(self.lines) - behind], lines[first : len(lines) - behind]
+        first, after = _shared(self.lines, lines)
+        removed, inserted = self.lines[first : len(self.lines) - after], lines[first : len(lines) - after]
         return self._do(Change(first, removed, tuple(inserted))) if removed or inserted else self
 
     def _end_of(self, row: int) -> str:
-        found = _END.search(self.lines[row])
-        return found[0] if found else ""
+        match = _END.search(self.lines[row])
+        return match[0] if match else ""
 
     def _usual(self) -> str:
         """The line end of this file."""
@@ -178,13 +178,13 @@ class NcText:
 
 
 def _with(listing: NcText, change: Change) -> NcText:
-    lines, behind = listing.lines, change.row + len(change.removed)
-    return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[behind:]))
+    lines, after = listing.lines, change.row + len(change.removed)
+    return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[after:]))
 
 
 def _shared(before: Sequence[str], after: Sequence[str]) -> tuple[int, int]:
-    """How many lines at the beginning, and behind these at the end, are the same."""
+    """How many lines at the beginning, and after these at the end, are the same."""
     most = min(len(before), len(after))
     first = next((row for row in range(most) if before[row] != after[row]), most)
-    behind = next((row for row in range(most - first) if before[-1 - row] != after[-1 - row]), most - first)
-    return first, behind
+    last = next((row for row in range(most - first) if before[-1 - row] != after[-1 - row]), most - first)
+    return first, last

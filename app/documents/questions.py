@@ -13,7 +13,7 @@ from typing import Final
 
 from app.documents import times
 from app.documents.document import Document
-from app.documents.folders import folder, told_path
+from app.documents.folders import folder, printable_path
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import UNNAMED, Unreadable
 from app.documents.lock import Owner
@@ -80,13 +80,13 @@ def person(owner: Owner) -> str:
 
 def held_sentence(owner: Owner, today: str) -> str:
     """Who has a document open, and since when."""
-    when = times.told(owner.since, today).removeprefix("at ").removeprefix("on ")
+    when = times.in_words(owner.since, today).removeprefix("at ").removeprefix("on ")
     return f"{person(owner)} has had this program open{f' since {when}' if owner.since else ''}."
 
 
 def whole_name(path: Path) -> str:
     """A file's name in full, without control characters."""
-    return told_path(path.name)
+    return printable_path(path.name)
 
 
 def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
@@ -121,25 +121,25 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
     """The one question before a file outside the chosen folder is written; it says what would be replaced there."""
     target = Path(os.path.realpath(path))
     whose = "current" if file is None else "program's"
-    lines = [f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}."]
+    lines = [f"{printable_path(target)} is not in the {whose} folder,", f"{printable_path(folder(file))}."]
     if path.is_symlink():
-        lines.append(f"{told_path(path)} leads there.")
+        lines.append(f"{printable_path(path)} leads there.")
     lines += _replaced(target, holder) if target.exists() else []
     return Ask("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
 
 
 def write_through_link(path: Path) -> Ask:
     """Before a document's own file is written, which is a link into another folder."""
-    target = told_path(os.path.realpath(path))
-    line = f"{told_path(path)} is a link to {target} in another folder."
+    target = printable_path(os.path.realpath(path))
+    line = f"{printable_path(path)} is a link to {target} in another folder."
     return Ask("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
 
 
 def replace_file(path: Path, holder: Owner | None) -> Ask:
     """Somebody's file stands in the place."""
-    target = f", which leads to {told_path(os.path.realpath(path))}" if path.is_symlink() else ""
+    target = f", which leads to {printable_path(os.path.realpath(path))}" if path.is_symlink() else ""
     first, *rest = _replaced(path, holder)
-    lines = (f"{told_path(path)}{target} exists. {first}", *rest)
+    lines = (f"{printable_path(path)}{target} exists. {first}", *rest)
     return Ask("REPLACE THE FILE?", lines, (Answer(REPLACE),))
 
 

@@ -15,7 +15,7 @@ from typing import Any, Final, Generic
 from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
 from app.documents.files import load, read_file, refuse_program, stamp_of_data, why, write_data
-from app.documents.folders import chosen, folder, outside, told_path, written_at
+from app.documents.folders import chosen, folder, outside, printable_path, written_at
 from app.documents.interrupted import interrupted_saves
 from app.documents.journal import Head, Journal, Kind, beginning, continuing
 from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
@@ -118,11 +118,11 @@ class _Kept:
 class DocumentService:
     """The documents that this process has open, each by its opening.
 
-    `own` is this person's folder for journals that cannot be beside their file.
+    `state` is this person's folder for journals that cannot be beside their file.
     """
 
     me: Owner = field(default_factory=lambda: myself(times.now()))
-    own: Path = field(default_factory=state_folder)
+    state: Path = field(default_factory=state_folder)
     clock: Callable[[], str] = times.now
     _open: dict[object, _Kept] = field(default_factory=dict)
 
@@ -152,11 +152,13 @@ class DocumentService:
         try:
             document = within(FILE, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
-            return Trouble(f"{told_path(path)} cannot be opened: {error}.")
+            return Trouble(f"{printable_path(path)} cannot be opened: {error}.")
         except StoreError as error:
             return Trouble(error.text)
         new = document.file.stamp is None and not os.path.lexists(path) and kept_copy is None
-        word = f"{told_path(path)} does not exist yet: saving makes it." if new else f"Opened: {told_path(path)}"
+        word = (
+            f"{printable_path(path)} does not exist yet: saving makes it." if new else f"Opened: {printable_path(path)}"
+        )
         return self._begun(document, Notice(word), kept_copy)
 
     def copy_without_name(self, kept_copy: Path) -> Opened[ContourDocument]:
@@ -181,15 +183,15 @@ class DocumentService:
                 return NcDocument(file=named)
             if kept_copy is not None or (program and path.parent.is_dir() and not path.is_symlink()):
                 return ContourDocument.of(empty_program(), named)
-            raise StoreError(f"{told_path(path)} cannot be opened: {why(error)}") from error
+            raise StoreError(f"{printable_path(path)} cannot be opened: {why(error)}") from error
         except (OSError, ValueError) as error:
-            trouble = StoreError(f"{told_path(path)} cannot be opened: {why(error)}")
+            trouble = StoreError(f"{printable_path(path)} cannot be opened: {why(error)}")
             trouble.__cause__ = error
             return self._rescued(named, trouble, kept_copy)
         if not program and not holds_program(data):
             return NcDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
         if len(data) > MAX_BYTES[Kind.CONTOUR]:
-            raise StoreError(f"{told_path(path)} is too large for a program file. Choose another file.")
+            raise StoreError(f"{printable_path(path)} is too large for a program file. Choose another file.")
         try:
             return ContourDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
         except StoreError as error:
@@ -202,7 +204,7 @@ class DocumentService:
         """
         assert file.path is not None
         wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
-        left = (journal for _, journal in left_by_dead(file.path, Kind.CONTOUR, self.own, self.me.user))
+        left = (journal for _, journal in left_by_dead(file.path, Kind.CONTOUR, self.state, self.me.user))
         empty = ContourDocument.of(empty_program(), file)
         saves = (save.journal(empty, self.me.user) for save in interrupted_saves(file.path, Kind.CONTOUR))
         journal = wanted or next(left, None) or next(filter(None, saves), None)
@@ -268,7 +270,7 @@ class DocumentService:
 
         Of what is kept for somebody else, and of what was answered, nothing is asked; a notice tells of it.
         """
-        told: list[str] = []
+        for_others: list[str] = []
         # before a journal is answered: what it holds too is not asked about twice
         interrupted = tuple(self._interrupted(document))
         for path, left in self._left(document, kept_copy):
@@ -276,7 +278,7 @@ class DocumentService:
                 continue
             ask = self._question(document, path, left, chosen=path == kept_copy)
             if isinstance(ask, str):
-                told.append(ask)
+                for_others.append(ask)
             elif ask is not None:
                 return Opened(document, notice, Offer(ask, path, left, answered))
         for path, journal in interrupted:
@@ -285,7 +287,7 @@ class DocumentService:
                     document, journal, mine=True, me=self.me, living=False, chosen=False, today=self.clock()
                 )
                 return Opened(document, notice, Offer(ask, path, journal, answered))
-        return Opened(document, notice or (Notice(" ".join(told), warning=True) if told else None))
+        return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
 
     def _interrupted(self, document: Document) -> Iterator[tuple[Path, Journal]]:
         """What an interrupted save has left and is nowhere else; the rest of such content is removed."""
@@ -306,7 +308,7 @@ class DocumentService:
         """What may be asked about; a copy that was chosen comes first."""
         if kept_copy is not None and (copy := read(kept_copy, document.kind) or unreadable(kept_copy)) is not None:
             yield kept_copy, copy
-        for path, left in left_of(document.file.path, document.kind, self.own):
+        for path, left in left_of(document.file.path, document.kind, self.state):
             if path != kept_copy:
                 yield path, left
 
@@ -330,7 +332,7 @@ class DocumentService:
         return questions.unsaved_work(document, left, mine=mine, me=self.me, living=living, chosen=copy, today=today)
 
     def _mine(self, path: Path, journal: Journal) -> bool:
-        return of_user(journal.head.owner, path, self.own, self.me.user)
+        return of_user(journal.head.owner, path, self.state, self.me.user)
 
     def _take_over(self, kept: _Kept, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
         """The file read again and locked by us."""
@@ -368,7 +370,7 @@ class DocumentService:
         """A journal with all of it.  That of this user's own program that died goes; what stays aside is given back."""
         mine, living = self._mine(path, journal), alive(journal.head.owner)
         replaced = mine and not living and wants_answer(path) and not journal.damaged
-        place, aside = journal_place(work.file.path, self.me, self.own), None
+        place, aside = journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
             kept.journal = new_journal(path, work.file.path)
             kept.journal.replace(self._everything(work))
@@ -420,7 +422,7 @@ class DocumentService:
     def _copy_of_save(self, document: Document, path: Path, journal: Journal) -> Path:
         """What an interrupted save has left, as a journal among the kept copies."""
         work, file = document.restored(journal), document.file.path
-        copy = new_journal(journal_place(file, self.me, self.own).with_suffix(f"{SUFFIX}.saved"), file)
+        copy = new_journal(journal_place(file, self.me, self.state).with_suffix(f"{SUFFIX}.saved"), file)
         copy.add(self._everything(work))
         copy.close()
         path.unlink()
@@ -496,7 +498,7 @@ class DocumentService:
     def _begin(self, kept: _Kept, document: Document) -> None:
         """A journal with all work, beside the file if that can be; OSError where it can be nowhere."""
         path = document.file.path
-        kept.journal = new_journal(journal_place(path, self.me, self.own), path)
+        kept.journal = new_journal(journal_place(path, self.me, self.state), path)
         try:
             kept.journal.add(self._everything(document))
         except OSError:
@@ -506,10 +508,10 @@ class DocumentService:
     def _begin_elsewhere(self, kept: _Kept, document: Document) -> bool:
         """Put all work into this person's own folder; only when it is there its place beside is given up."""
         path = document.file.path
-        if path is None or (kept.journal is not None and kept.journal.path.parent == self.own):
+        if path is None or (kept.journal is not None and kept.journal.path.parent == self.state):
             return False
         try:
-            other = new_journal(elsewhere(path, self.own), path)
+            other = new_journal(elsewhere(path, self.state), path)
             other.add(self._everything(document))
         except OSError:
             return False
@@ -526,11 +528,13 @@ class DocumentService:
         aside, journal.aside = journal.aside, None
         sentences = []
         if gone:
-            sentences.append(f"The journal of unsaved work was gone: all of it is in {told_path(journal.path)} now.")
-        elif path is not None and journal.path.parent == self.own and not kept.away:
-            place = told_path(str(journal.path.parent))
+            sentences.append(
+                f"The journal of unsaved work was gone: all of it is in {printable_path(journal.path)} now."
+            )
+        elif path is not None and journal.path.parent == self.state and not kept.away:
+            place = printable_path(str(journal.path.parent))
             sentences.append(f"The folder of {printable(path.name)} takes nothing: unsaved work is kept in {place}")
-        kept.away = kept.away or journal.path.parent == self.own
+        kept.away = kept.away or journal.path.parent == self.state
         if aside is not None:
             sentences.append(f"{whole_name(aside)} holds what was left before; Ctrl+O lists it.")
         return Notice(" ".join(sentences), warning=True) if sentences else None
@@ -568,7 +572,7 @@ class DocumentService:
 
     def _refused(self, document: Document, target: Path) -> Trouble | None:
         """Why a file is not written, whatever the operator answers."""
-        name, holder = told_path(target), document.file.holder
+        name, holder = printable_path(target), document.file.holder
         if _real_path(target) is None:
             return Trouble(f"{name} is not saved: that is not a file name. Choose another.")
         if is_folder(target):
@@ -623,7 +627,7 @@ class DocumentService:
         now = stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
-        written = times.told(times.of(now.changed), today)
+        written = times.in_words(times.of(now.changed), today)
         return questions.changed_meanwhile(document, written, copy, document.compared(data))
 
     def _written(
@@ -644,8 +648,8 @@ class DocumentService:
         if path != before.path:
             saved = self._moved(kept, saved)
         other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
-        how = f", in place: {in_place}" if in_place else ""
-        return Saved(saved, Notice(f"Saved: {written_at(path)}{how}{other}{_marked(saved)}"))
+        reason = f", in place: {in_place}" if in_place else ""
+        return Saved(saved, Notice(f"Saved: {written_at(path)}{reason}{other}{_marked(saved)}"))
 
     def _moved(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
         """Under another name there is another lock."""

@@ -172,8 +172,8 @@ def example_programs() -> Iterator[Listed]:
 
 
 def _inside(folder: Path) -> Iterator[Listed]:
-    with os.scandir(folder) as found:
-        inside = sorted(found, key=lambda each: each.name.lower())
+    with os.scandir(folder) as entries:
+        inside = sorted(entries, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
     folders = [each for each in inside if not each.name.startswith(".") and each.is_dir()]
     saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]

@@ -1,4 +1,4 @@
-"""Points in time: kept in ISO format with their zone, told in words."""
+"""Points in time: in ISO format with their zone, and in words."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def of(nanoseconds: int) -> str:
         return ""
 
 
-def told(text: str, today: str) -> str:
+def in_words(text: str, today: str) -> str:
     """`at 14:05`, `on 3 May 2025 at 14:05`; a time that cannot be read as it stands."""
     try:
         time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
@@ -44,4 +44,4 @@ def short(text: str, today: str) -> str:
 
 def stamp(text: str) -> str:
     """A time as part of a file's name."""
-    return "".join(one for one in text[:19].replace("T", "-") if one.isdigit() or one == "-")
+    return "".join(character for character in text[:19].replace("T", "-") if character.isdigit() or character == "-")

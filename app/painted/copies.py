@@ -34,7 +34,7 @@ def copies(folder: Path, own: Path, *, nc: bool) -> Iterator[tuple[Path, str]]:
     today = times.now()
     for time, path in sorted(of_kind, reverse=True)[:MOST]:
         word = WORDS[why_aside(path).partition("-")[0]]
-        when = times.told(times.of(time), today).removeprefix("on ")
+        when = times.in_words(times.of(time), today).removeprefix("on ")
         yield path, f"{word} work, {when}: {printable(_name(path))}"
 
 

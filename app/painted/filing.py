@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from app.documents.files import refuse_program, stamp_of_data, write_output, write_text
-from app.documents.folders import chosen, outside, told_path, written_at
+from app.documents.folders import chosen, outside, printable_path, written_at
 from app.documents.naming import as_program, is_folder, with_suffix
 from app.documents.patience import FILE, within
 from app.documents.programs import empty_program, examples, is_nc
@@ -65,7 +65,7 @@ def _save(desk: Desk, message: Save) -> Desk:
         return _failed(desk, f"{error}{way}")
     named = session.named(path, stamp_of_data(text.encode()), linked=message.linked and leads_elsewhere(path))
     desk = _without(replace(desk, session=named), SaveAsPage)
-    other = "" if theirs is None else f" The other version is in {told_path(theirs.name)}."
+    other = "" if theirs is None else f" The other version is in {printable_path(theirs.name)}."
     return (
         replace(desk, exit=True)
         if message.leave
@@ -155,7 +155,7 @@ def _post(desk: Desk, message: Post) -> Desk:
     except StoreError as error:
         return _failed(desk, error)
     if is_folder(path):
-        return _failed(desk, f"{told_path(path)} is not written: this is a folder. Type a file's name.")
+        return _failed(desk, f"{printable_path(path)} is not written: this is a folder. Type a file's name.")
     question = _before_posting(desk.session.file, path, message)
     if question is not None and message.clear:
         return desk.take(Open(question))

@@ -273,6 +273,6 @@ def away(file: Path, journal: Path) -> str:
 def holder(owner: Owner, today: str) -> str:
     """Who has a program open, as a sentence."""
     where = f" on {printable(owner.host)}" if owner.host else ""
-    when = times.told(owner.since, today).removeprefix("at ").removeprefix("on ")
+    when = times.in_words(owner.since, today).removeprefix("at ").removeprefix("on ")
     since = f" since {when}" if owner.since else ""
     return f"{printable(owner.user)}{where} has this program open{since}."

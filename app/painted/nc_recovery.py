@@ -95,7 +95,7 @@ def _question(keeping: NcKeeping, page: ProofPage, path: Path, found: Found, ans
 def _told(keeping: NcKeeping, page: ProofPage, path: Path, found: Found) -> tuple[str, ...]:
     name = "" if page.file is None else printable(page.file.name)
     by = "" if found.owner.user == keeping.me.user else f" by {printable(found.owner.user)}"
-    when, count = times.told(found.time, keeping.clock()), len(found.listing.past)
+    when, count = times.in_words(found.time, keeping.clock()), len(found.listing.past)
     lines = [
         f"Changes of {name}{by} were not saved. The last of them was {when}, "
         f"{count} change{'s' if count != 1 else ''} can be undone."

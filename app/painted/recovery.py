@@ -104,14 +104,13 @@ def _own(keeping: Keeping, path: Path, found: Recovered) -> bool:
 
 def kept_for(user: str, time: str, path: Path, today: str) -> str:
     """A sentence for those who are not asked."""
-    return (
-        f"Unsaved work of {printable(user)}, {times.told(time, today)}, is kept in {whole(path.name)}; Ctrl+O lists it."
-    )
+    when = times.in_words(time, today)
+    return f"Unsaved work of {printable(user)}, {when}, is kept in {whole(path.name)}; Ctrl+O lists it."
 
 
 def of_unreadable(name: str, path: Path, found: Unreadable, today: str, on: Callable[[Desk], Desk]) -> Decide:
     """Nobody can restore it; it must not be overlooked all the same.  `on` is what comes next."""
-    who, when = printable(found.user), times.told(found.time, today).removeprefix("at ").removeprefix("on ")
+    who, when = printable(found.user), times.in_words(found.time, today).removeprefix("at ").removeprefix("on ")
     if found.hidden:
         told = f"{who} has unsaved work on {name}, from {when}. You may not read it."
         stays = f"It is kept, and {who} is asked about it at the next start on this program."
@@ -159,7 +158,7 @@ def _name(session: Session) -> str:
 
 def _told(keeping: Keeping, session: Session, path: Path, found: Recovered) -> list[str]:
     today, owner = keeping.clock(), found.head.owner
-    when = times.told(found.cursor.time, today)
+    when = times.in_words(found.cursor.time, today)
     edits = len(found.history.past)
     by = (
         ""
@@ -173,7 +172,7 @@ def _told(keeping: Keeping, session: Session, path: Path, found: Recovered) -> l
     stamp, base = session.guard.stamp, found.head.stamp
     if session.file is not None and stamp is not None and (base is None or not stamp.same_content(base)):
         who = "by somebody else, or by this program just before its end"
-        lines.append(f"The file was written since, {times.told(times.of(stamp.changed), today)}: {who}.")
+        lines.append(f"The file was written since, {times.in_words(times.of(stamp.changed), today)}: {who}.")
     if alive(owner) and owner != keeping.me:
         lines.append("The other terminal may still be in use: who sits there can go on typing, and is told at saving.")
     if not _own(keeping, path, found):

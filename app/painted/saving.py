@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.documents import times
 from app.documents.files import load, stamp_of, why, write_data
-from app.documents.folders import folder, outside, told_path
+from app.documents.folders import folder, outside, printable_path
 from app.documents.lock import held_by, taken_by
 from app.documents.naming import is_folder
 from app.painted.guard import THE_WAY
@@ -36,7 +36,7 @@ AS_OPENED: Final = "It holds the same program as when it was opened here."
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
     """The desk with the question that must be answered before `path` is written; None where there is none."""
     if is_folder(path):
-        return desk.take(Say(f"{told_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
+        return desk.take(Say(f"{printable_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
     session, own = desk.session, path == desk.session.file
     if own and session.guard.looking:
         return desk.take(Say(f"{session.guard.looking} Save your own copy. {THE_WAY}", Tone.ERROR))
@@ -55,12 +55,18 @@ def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
 def asking(path: Path, file: Path | None, agreed: Message, about: str = "") -> Ask:
     """The one question before a file outside is written; it says too what would be replaced there."""
     target = Path(os.path.realpath(path))
-    link = f"{told_path(path)} leads there." if path.is_symlink() else ""
+    link = f"{printable_path(path)} leads there." if path.is_symlink() else ""
     whose = "current" if file is None else "program's"
     stands = "A file of this name exists already. Its content is replaced." if target.exists() else ""
     owner = held_by(path)
     who = "" if owner is None else f"{printable(owner.user)} on {printable(owner.host)} has it open."
-    lines = (f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}.", link, stands, who)
+    lines = (
+        f"{printable_path(target)} is not in the {whose} folder,",
+        f"{printable_path(folder(file))}.",
+        link,
+        stands,
+        who,
+    )
     options = (("w", "WRITE THERE", (Close(), agreed)),)
     return Ask("WRITE IN ANOTHER FOLDER?", tuple(line for line in lines if line), options, about)
 
@@ -79,7 +85,7 @@ def leads_elsewhere(path: Path) -> bool:
 def replacing(path: Path, message: Save | Post) -> Ask:
     """Somebody's file stands in the place."""
     target = f", which leads to {os.path.realpath(path)}" if path.is_symlink() else ""
-    lines = [f"{told_path(path)}{told_path(target)} exists already. Its content is replaced."]
+    lines = [f"{printable_path(path)}{printable_path(target)} exists already. Its content is replaced."]
     owner = held_by(path)
     if owner is not None:
         lines.append(f"{printable(owner.user)} on {printable(owner.host)} has it open.")
@@ -87,8 +93,8 @@ def replacing(path: Path, message: Save | Post) -> Ask:
 
 
 def _linked(path: Path, message: Save) -> Ask:
-    target = told_path(os.path.realpath(path))
-    lines = (f"{told_path(path)} is a link to {target} in another folder.",)
+    target = printable_path(os.path.realpath(path))
+    lines = (f"{printable_path(path)} is a link to {target} in another folder.",)
     again = message._replace(linked=True)
     return Ask("WRITE IN ANOTHER FOLDER?", lines, (("w", "WRITE THERE", (Close(), again)),))
 
@@ -101,7 +107,7 @@ def _taken(session: Session, path: Path, message: Save) -> Ask | None:
     today = times.now()
     copy = beside(path, "mine", today)
     who = f"{printable(owner.user)} on {printable(owner.host)}"
-    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {told_path(copy.name)}.")
+    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable_path(copy.name)}.")
     keep = ("k", "KEEP BOTH", (Close(), Save(copy, leave=message.leave)))
     write = ("w", "WRITE ALL THE SAME", (Close(), message._replace(taken=True)))
     return Ask("TAKEN OVER", lines, (keep, write))
@@ -115,14 +121,14 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
         return None
     today = times.now()
     mine = beside(path, "mine", today)
-    name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _read(path)
+    name, when, theirs = printable(path.name), times.in_words(times.of(now.changed), today), _read(path)
     title, label = "CHANGED MEANWHILE", "THEIRS"
     told, details = f"{name} was changed by somebody else {when}.", tuple(_differing(desk.session, theirs))
     if stamp is None and theirs is None:
         # nobody need have changed it: it could not be read when it was opened
         title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"
         told, details = f"{name} cannot be read as a program. It was written {when}.", ()
-    copy = f"yours to {told_path(mine.name)}, with which you go on"
+    copy = f"yours to {printable_path(mine.name)}, with which you go on"
     both = f"Both are kept. Which gets the name? The other one is copied: {copy}."
     keep = ("t", label, (Close(), Save(mine, leave=message.leave)))
     yours = ("y", "YOURS", (Close(), message._replace(changed=True)))

@@ -11,7 +11,7 @@ from textual.content import Content
 from textual.widgets import Static
 
 from app.documents.files import refuse_program, write_output
-from app.documents.folders import chosen, outside, told_path, written_at
+from app.documents.folders import chosen, outside, printable_path, written_at
 from app.documents.naming import typed, with_suffix
 from app.screens.dialogs import Answer, Question
 from app.screens.entry_screen import EntryScreen
@@ -72,7 +72,7 @@ class SheetScreen(EntryScreen):
         except StoreError as error:
             self.say(str(error), Tone.ERROR)
             return
-        word, title, line = "", "", told_path(path)
+        word, title, line = "", "", printable_path(path)
         if outside(path, session.file):
             word, title = "WRITE THERE", "WRITE IN ANOTHER FOLDER?"
         elif path.exists():

@@ -79,7 +79,7 @@ def test_a_dash_is_standard_output(
     assert list(tmp_path.iterdir()) == []
 
 
-SQUARE = Path(__file__).parents[1] / "data" / "nc" / "rosettacnc-square.ngc"
+SQUARE_NC = Path(__file__).parents[1] / "data" / "nc" / "rosettacnc-square.ngc"
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="there is no device that is always full")
@@ -88,7 +88,7 @@ SQUARE = Path(__file__).parents[1] / "data" / "nc" / "rosettacnc-square.ngc"
     [
         ("sheet", str(example("flange"))),
         ("tools", str(example("flange"))),
-        ("check", str(SQUARE), "--control", "rosettacnc:easy", "--tool", "1=6"),
+        ("check", str(SQUARE_NC), "--control", "rosettacnc:easy", "--tool", "1=6"),
     ],
 )
 def test_results_that_standard_output_does_not_take_are_no_error_number(words: tuple[str, ...]) -> None:

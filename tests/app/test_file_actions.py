@@ -34,7 +34,7 @@ def folder(tmp_path, monkeypatch):
 
 @asynccontextmanager
 async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIterator[Operator]:
-    service = DocumentService(own=folder / "own", **options)
+    service = DocumentService(state=folder / "own", **options)
     opened = service.open(folder / name)
     assert isinstance(opened, Opened)
     app = CutcompApp(
@@ -131,7 +131,7 @@ async def test_another_program_is_opened_after_the_question_about_unsaved_work(f
 
 
 async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
-    theirs = DocumentService(own=folder / "their-own")
+    theirs = DocumentService(state=folder / "their-own")
     theirs.open(folder / "part.toml")
     async with at_work(folder) as one:
         assert isinstance(one.app.screen, Question)

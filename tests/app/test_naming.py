@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.documents.folders import folder_told
+from app.documents.folders import folder_in_words
 from app.documents.naming import as_program, is_folder, program_named, typed, with_suffix
 from app.documents.programs import example
 from app.painted.desk import Desk
@@ -73,7 +73,7 @@ def test_the_name_of_a_program_with_a_point_in_it(tmp_path: Path, monkeypatch: p
 def test_a_bare_name_leads_beside_the_file_that_is_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for file, folder in ((Path("p.toml"), tmp_path), (Path("job/p.toml"), tmp_path / "job"), (Path("/x/p.toml"), "/x")):
-        assert folder_told(file) == str(folder)
+        assert folder_in_words(file) == str(folder)
 
 
 def test_a_suffix_in_capitals_is_one_and_is_listed(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Self
 
-from app.documents.folders import folder_told
+from app.documents.folders import folder_in_words
 from app.documents.naming import typed
 from app.painted.messages import Close, Message, Save, Say
 from app.painted.screens.entry import EntryPage, entry_row
@@ -31,7 +31,7 @@ class SaveAsPage(EntryPage):
     def of(cls, session: Session, *, leave: bool = False) -> Self:
         """The page with the name the program has."""
         name = Path("part.toml") if session.file is None else session.file
-        return cls(Editing.of(str(name)), leave=leave, leads=folder_told(session.file))
+        return cls(Editing.of(str(name)), leave=leave, leads=folder_in_words(session.file))
 
     def softkeys(self, session: Session) -> Softkeys:
         """Save, or not."""

@@ -57,7 +57,7 @@ class Proof(Operator):
 @asynccontextmanager
 async def at_proof(tmp_path, data: bytes = PROGRAM) -> AsyncIterator[Proof]:
     (tmp_path / "p.nc").write_bytes(data)
-    service = DocumentService(own=tmp_path / "own")
+    service = DocumentService(state=tmp_path / "own")
     opened = service.open(tmp_path / "p.nc")
     assert isinstance(opened, Opened)
     app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, opened=opened)
