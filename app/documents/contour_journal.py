@@ -295,11 +295,21 @@ def altered(part: Part, values: object) -> Part:
 
 
 def _reader(hint: object) -> Callable[[object], Any]:
-    if isinstance(hint, type) and issubclass(hint, StrEnum):
-        return partial(_word_of, hint)
+    """What reads a field declared like this: a word, a word or nothing, a truth value, a text, else what was typed."""
+    words = [kind for kind in (hint, *get_args(hint)) if isinstance(kind, type) and issubclass(kind, StrEnum)]
+    if words:
+        return partial(_word_of if hint is words[0] else _word_or_none, words[0])
     if hint is bool:
         return _truth
-    return text_of if hint is str else _typed
+    if hint is str:
+        return text_of
+    # a new kind of field without a reader must not make journals that nobody can read
+    assert hint == Typed, hint
+    return _typed
+
+
+def _word_or_none(words: type[StrEnum], value: object) -> StrEnum | None:
+    return None if value is None else _word_of(words, value)
 
 
 def _truth(value: object) -> bool:
