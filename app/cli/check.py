@@ -17,7 +17,6 @@ from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
-from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable
 from app.cli.control_options import (
     FolderLibrary,
     Unusable,
@@ -30,6 +29,7 @@ from app.cli.control_options import (
 )
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import choices
+from core.pipeline.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable
 
 JSON_VERSION: Final = 1
 """Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""

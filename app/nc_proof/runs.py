@@ -11,10 +11,10 @@ from textual.message import Message
 from app.documents.nc_text import NcText
 
 if TYPE_CHECKING:
-    from app.cli.checking import Answer
     from core.controls.control_tools import ToolTable
     from core.draw.scene import Scene
     from core.finding import Finding
+    from core.pipeline.checking import Answer
     from core.pipeline.proof import Proof
     from core.units import Unit
 
@@ -83,7 +83,7 @@ def judge(result: Result) -> Result:
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
-    from app.cli.checking import answered
+    from core.pipeline.checking import answered
     from core.pipeline.proof import fixed_scene
 
     answer = answered(proof.run, proof.results, question.text.data)
@@ -92,7 +92,7 @@ def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
 
 def compare(question: Question) -> tuple[Answer, ...]:
     """Every control's answer to a text."""
-    from app.cli.checking import Asked, answer_all
+    from core.pipeline.checking import Asked, answer_all
 
     return answer_all(question.text.data, Asked("all", question.tools, shop=False, unit=question.unit))
 

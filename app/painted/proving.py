@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Final
 from app.documents.nc_text import NcText
 
 if TYPE_CHECKING:
-    from app.cli.checking import Answer
     from core.controls.control_tools import ToolTable
     from core.draw.scene import Scene
     from core.finding import Finding
+    from core.pipeline.checking import Answer
     from core.pipeline.proof import Proof
     from core.units import Unit
 
@@ -47,8 +47,8 @@ class Question:
 
     def answer(self) -> Told:
         """The answer; may take long, for a thread."""
-        from app.cli.checking import Asked, answer_all
         from core.controls.registry import UnknownControl
+        from core.pipeline.checking import Asked, answer_all
         from core.pipeline.proof import run_program
 
         data = self.listing.data
@@ -80,7 +80,7 @@ class Rest:
 
 
 def _told(question: Question, proof: Proof, rest: Rest | None) -> Told:
-    from app.cli.checking import answered
+    from core.pipeline.checking import answered
     from core.pipeline.proof import fixed_scene
 
     return Told(question, answered(proof.run, proof.results, question.listing.data), proof, fixed_scene(proof), rest)

@@ -12,9 +12,9 @@ from subprocess import PIPE, Popen
 import pytest
 
 from app.cli.check import check
-from app.cli.checking import Asked, answer_all
 from core.controls.control_names import shown_name
 from core.controls.control_tools import ToolTable
+from core.pipeline.checking import Asked, answer_all
 
 NC = Path(__file__).parents[1] / "data" / "nc"
 

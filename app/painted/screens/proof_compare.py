@@ -14,8 +14,8 @@ from app.painted.session import Said, Session
 from app.painted.widgets.rows import Look, Row, Span, plain
 
 if TYPE_CHECKING:
-    from app.cli.checking import Answer as Fate
     from app.painted.desk import Desk
+    from core.pipeline.checking import Answer as Fate
 
 
 @dataclass(frozen=True, eq=False, slots=True)

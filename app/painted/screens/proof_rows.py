@@ -15,10 +15,10 @@ from core.finding import Finding, Severity
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
-    from app.cli.checking import Answer
     from app.painted.proving import Told
     from app.painted.screens.proof import ProofPage
     from core.draw.scene import Scene
+    from core.pipeline.checking import Answer
 
 PROMPT: Final = (
     "Enter types in the line, i o x insert and delete, c control, t tool, v compares, n finding. ? tells all."
@@ -91,7 +91,7 @@ def _outcome(page: ProofPage, room: int) -> Row:
 
 def _counts(answer: Answer) -> tuple[str, ...]:
     """How many moves and compensated stretches there are, in fewer and fewer words."""
-    from app.cli.checking import counted
+    from core.pipeline.checking import counted
 
     moves = counted(answer.count, "move")
     return *(f"{moves}, {counted(answer.stretches, what)}" for what in ("compensated stretch", "contour")), moves

@@ -225,7 +225,7 @@ def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
     [
         alone(replace(ARC, sweep=Number(360.0))),
         alone(replace(ARC, x_end=Number(0.0), y_end=Number(0.0))),
-        alone(LineSegment(x_end=Number(2.0))),
+        alone(LineSegment(length=Number(2.0))),
         alone(replace(LINE, x_end=Number(0.0), y_end=Number(0.0))),
         fed(8.0, None),
         fed(),
@@ -233,6 +233,11 @@ def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
 )
 def test_a_full_circle_is_a_closed_contour_and_what_is_not_known_yet_is_told_by_itself(part):
     assert told(part, "ONE_SEGMENT") == []
+
+
+def test_a_lone_line_with_only_its_x_end_is_an_open_path_that_keeps_y():
+    ((_, text),) = told(alone(LineSegment(x_end=Number(2.0))), "ONE_SEGMENT")
+    assert "an open path from START to X 2.0000 Y 0.0000." in text
 
 
 def test_segments_without_length_do_not_count():
