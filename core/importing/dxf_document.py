@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import logging
 import re
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
@@ -44,7 +45,7 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
         fault = scan.first_fault
         readable = sum(not entity.fault for entity in scan.entities)
         raise damaged_file(f"The {fault.kind} {fault.where} {fault.fault}", readable)
-    return scan, _loaded(data, scan)
+    return scan, _loaded(data, scan, damaged=damaged)
 
 
 def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
@@ -79,12 +80,15 @@ def _binary_document(data: bytes) -> tuple[Scan, Document]:
     except DrawingError:
         raise
     except Exception as error:  # a damaged file may bring any exception out of a package for files
-        raise damaged_file(words_of(error)) from error
+        raise damaged_file(_structure_fault(error)) from error
     raise damaged_file("it breaks off")
 
 
-def _loaded(data: bytes, scan: Scan) -> Document:
-    """ezdxf's document of a text file; coordinates in another order than usual are put in order."""
+def _loaded(data: bytes, scan: Scan, *, damaged: bool) -> Document:
+    """ezdxf's document of a text file; coordinates in another order than usual are put in order.
+
+    What cannot be read so is recovered, but taken only with `damaged`.
+    """
     from ezdxf.document import Drawing as Document
     from ezdxf.filemanagement import read
     from ezdxf.lldxf.repair import tag_reorder_layer
@@ -94,12 +98,32 @@ def _loaded(data: bytes, scan: Scan) -> Document:
     try:
         return read(io.StringIO(text))
     except Exception as error:  # noqa: BLE001  # as above
-        first = error
-    try:
+        why = f"line {scan.bad_line} is no group code" if scan.bad_line else _structure_fault(error)
+    with suppress(Exception):
         return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
-    except Exception as error:  # as above
-        where = f"line {scan.bad_line} is no group code" if scan.bad_line else words_of(first)
-        raise damaged_file(where) from error
+    recovered = _recovered(data)
+    if damaged and recovered is not None:
+        scan.repaired = why
+        return recovered
+    raise damaged_file(why, None if recovered is None else len(recovered.modelspace()))
+
+
+def _structure_fault(error: Exception) -> str:
+    """What the package says of a file's structure; its own mistakes say nothing to an operator."""
+    from ezdxf.lldxf.const import DXFError
+
+    return words_of(error) if isinstance(error, DXFError) else "its sections cannot be read"
+
+
+def _recovered(data: bytes) -> Document | None:
+    """What the package can repair of a file."""
+    from ezdxf.recover import read
+
+    try:
+        document, _ = read(io.BytesIO(data))
+    except Exception:  # noqa: BLE001  # as above
+        return None
+    return document
 
 
 def _encoding(data: bytes) -> str:

@@ -97,6 +97,8 @@ class Scan:
     open_section: str = ""
     """The section in which the file ends."""
     cut: int = 0
+    repaired: str = ""
+    """Why the file could only be read by repairing it."""
     unknown_sections: list[str] = field(default_factory=list)
 
     @property

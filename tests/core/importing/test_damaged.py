@@ -9,7 +9,15 @@ import pytest
 from core.importing.drawing import DrawingError
 from core.importing.dxf import read_dxf
 from tests.core.importing.drawings import dxf, made, square
-from tests.core.importing.mutants import TIME_LIMIT, lost_in_silence, mutant, originals, outcome
+from tests.core.importing.mutants import (
+    TIME_LIMIT,
+    full_document,
+    lost_in_silence,
+    mutant,
+    originals,
+    outcome,
+    text_of,
+)
 
 FILES = originals()
 SEED = 7
@@ -62,3 +70,15 @@ def test_without_ezdxf_the_sentence_says_what_to_install(monkeypatch: pytest.Mon
     monkeypatch.setitem(__import__("sys").modules, "ezdxf", None)
     with pytest.raises(DrawingError, match="DXF files need the package ezdxf: pip install ezdxf"):
         read_dxf(dxf(*square(0, 0, 10)), "part.dxf")
+
+
+def test_a_file_that_can_only_be_repaired_is_taken_on_demand_and_says_so() -> None:
+    before, after = text_of(full_document()).rsplit(b"\n  5\n", 1)
+    data = before + b"\n x5\n" + after
+    with pytest.raises(DrawingError) as refused:
+        read_dxf(data, "tables.dxf")
+    assert refused.value.code == "DXF_DAMAGED"
+    assert refused.value.readable
+    taken = read_dxf(data, "tables.dxf", damaged=True)
+    assert taken.entities >= 6
+    assert "what could be repaired is taken" in taken.notes[0]
