@@ -27,6 +27,7 @@ from core.program.model import (
     BlendSegment,
     Block,
     ChamferSegment,
+    Coolant,
     CutterComp,
     Direction,
     LineSegment,
@@ -192,6 +193,7 @@ _READ: Final[Mapping[str, Callable[[object], Any]]] = MappingProxyType(
         "cutter_comp": lambda value: word_of(CutterComp, value),
         "direction": lambda value: word_of(Direction, value),
         "path": lambda value: word_of(PathChoice, value),
+        "coolant": lambda value: None if value is None else word_of(Coolant, value),
     }
 )
 """The fields that hold no typed number."""
