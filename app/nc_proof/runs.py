@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from core.draw.scene import Scene
     from core.finding import Finding
     from core.pipeline.checking import Answer
-    from core.pipeline.proof import Proof
+    from core.pipeline.nc_proof import Proof
     from core.units import Unit
 
 MAX_GUESS_LINES: Final = 200
@@ -68,7 +68,7 @@ class Compared(Message):
 def run(question: Question) -> Result:
     """The program on its control without the verdicts, which take longer than the run."""
     from core.controls.registry import UnknownControl
-    from core.pipeline.proof import run_program
+    from core.pipeline.nc_proof import run_program
 
     proof = run_program(question.text.data, question.control, question.tools, question.unit)
     assert not isinstance(proof, UnknownControl), proof.text
@@ -77,14 +77,14 @@ def run(question: Question) -> Result:
 
 def judge(result: Result) -> Result:
     """The same with the verdicts."""
-    from core.pipeline.proof import with_verdicts
+    from core.pipeline.nc_proof import with_verdicts
 
     return _result(result.question, with_verdicts(result.proof), judged=True)
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
     from core.pipeline.checking import answered
-    from core.pipeline.proof import fixed_scene
+    from core.pipeline.nc_proof import fixed_scene
 
     answer = answered(proof.run, proof.results, question.text.data)
     return Result(question, answer, proof, fixed_scene(proof), judged)

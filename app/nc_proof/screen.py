@@ -337,8 +337,8 @@ class ProofScreen(BaseScreen):
         if self.result is None:
             return
         # numpy and shapely are not needed by the first paint
+        from core.pipeline.nc_proof import scene_at_line
         from core.pipeline.plot import SceneSubject
-        from core.pipeline.proof import scene_at_line
 
         drawing = self.query_exactly_one("#proof-drawing", Drawing)
         drawing.characters, drawing.heading = self.host.characters, f"LINE {self.document.row + 1}"
@@ -347,7 +347,7 @@ class ProofScreen(BaseScreen):
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink on the cutter."""
-        from core.pipeline.proof import cutter_at_line
+        from core.pipeline.nc_proof import cutter_at_line
 
         drawn = self.query_exactly_one("#proof-drawing", Drawing).drawn
         if drawn is None or self.result is None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from core.draw.scene import Scene
     from core.finding import Finding
     from core.pipeline.checking import Answer
-    from core.pipeline.proof import Proof
+    from core.pipeline.nc_proof import Proof
     from core.units import Unit
 
 SMALL: Final = 2000
@@ -49,7 +49,7 @@ class Question:
         """The answer; may take long, for a thread."""
         from core.controls.registry import UnknownControl
         from core.pipeline.checking import Asked, answer_all
-        from core.pipeline.proof import run_program
+        from core.pipeline.nc_proof import run_program
 
         data = self.listing.data
         if self.control is None:
@@ -74,14 +74,14 @@ class Rest:
 
     def answer(self) -> Told:
         """The whole answer."""
-        from core.pipeline.proof import with_verdicts
+        from core.pipeline.nc_proof import with_verdicts
 
         return _told(self.question, with_verdicts(self.proof), None)
 
 
 def _told(question: Question, proof: Proof, rest: Rest | None) -> Told:
     from core.pipeline.checking import answered
-    from core.pipeline.proof import fixed_scene
+    from core.pipeline.nc_proof import fixed_scene
 
     return Told(question, answered(proof.run, proof.results, question.listing.data), proof, fixed_scene(proof), rest)
 

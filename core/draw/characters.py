@@ -1,7 +1,4 @@
-"""What a drawing says in characters: marks, the axes' names, the scale bar.
-
-The ways of drawing with characters: how many dots a cell has, and the table from its lit dots to a character.
-"""
+"""Characters of a drawing: for each mode the table from a cell's lit dots to a character; marks, labels, scale bar."""
 
 from __future__ import annotations
 

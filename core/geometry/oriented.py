@@ -1,4 +1,4 @@
-"""Oriented lines and circles: what they have in common, every answer, in an order that stays.
+"""Oriented lines and circles: where two of them meet or touch, every answer, in an order that stays.
 
 A contour is traveled, so each line and circle of it has a sense.  A line of heading t has the left normal
 n = (-sin t, cos t) and the points X with n.X = p.  A circle has a center c and a signed radius rho, positive

@@ -1,4 +1,7 @@
-"""Control program: the contour as typed, for a control that compensates by itself with G41 or G42, RL or RR."""
+"""Control program: jobs posted as contours with G41 or G42, RL or RR; or why not.
+
+`controls.write` writes the text and reads it back; here stand what forbids posting it and the remarks at its head.
+"""
 
 from __future__ import annotations
 

@@ -11,8 +11,8 @@ from core.geometry.path import Path
 from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import CLOSED, JOINED
-from core.verify.crossing import NO_CROSSINGS, SelfCrossings, self_crossings
 from core.verify.pairs import nearest, pairs_of, rounding_of
+from core.verify.self_crossings import NO_CROSSINGS, SelfCrossings, self_crossings
 from core.verify.verdict import OverRun
 from core.verify.wrong_side import on_part_side, sided
 

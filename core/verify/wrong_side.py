@@ -18,10 +18,10 @@ from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import BLOCK_PAIRS, PieceArrays, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.crossing import SelfCrossings, at_joints
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging, approaches
 from core.verify.pairs import Nearest, Pairs, keeping, nearest
+from core.verify.self_crossings import SelfCrossings, at_joints
 from core.verify.stretches import NO_STRETCHES, Stretches, union
 
 CLEARLY: Final = 1e-6

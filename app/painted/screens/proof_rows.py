@@ -204,7 +204,7 @@ def _drawn(page: ProofPage) -> Drawn:
 
 def _scene(told: Told | None, line: int) -> Scene:
     from core.draw.scene import Scene
-    from core.pipeline.proof import scene_at_line
+    from core.pipeline.nc_proof import scene_at_line
 
     if told is None or told.proof is None or told.ground is None:
         return Scene()

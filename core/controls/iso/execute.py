@@ -1,4 +1,4 @@
-"""Execution of a word-address program on a control: its rows as they run, up to the end or an alarm."""
+"""Execute: runs a word-address program on a control, row by row, up to its end or an alarm."""
 
 from __future__ import annotations
 

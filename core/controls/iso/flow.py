@@ -1,4 +1,4 @@
-"""Program flow: which line of a word-address program runs next: subprograms, O-words, its end or an alarm.
+"""Program flow: which line runs next by subprograms and LinuxCNC's O-words; `macro_flow` is that of Fanuc and Haas.
 
 LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
 `endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a

@@ -1,4 +1,4 @@
-"""Macro: parameters and expressions of word-address programs, evaluated to words that are numbers.
+"""Macro: parameters and expressions as LinuxCNC and RosettaCNC evaluate them, to words that are numbers.
 
 Expressions are numbers, #parameters, [brackets] and functions as LinuxCNC and RosettaCNC work them out: operators of
 one rank go from left to right, the power too; angles are degrees; two values are equal within 0.0001.  A name belongs

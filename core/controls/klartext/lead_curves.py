@@ -1,4 +1,4 @@
-"""APPR and DEP: the path of the tool center between a free point and the contour.
+"""Lead curves: the path of the tool center along an APPR or DEP, as geometry; `leads` reads the blocks.
 
 LT is a straight line tangent to the contour, LN one square to it, CT an arc tangent to it over an angle, LCT a line
 and an arc tangent to each other and to the contour.  All lengths and radii count on the tool center: an approach

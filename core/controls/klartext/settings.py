@@ -1,4 +1,4 @@
-"""Blocks that do not cut: unit, tools, datum shifts, cycles; and blocks that are refused or skipped."""
+"""Blocks that do not cut: program begin and end, tools, datum shifts; and blocks that are refused or skipped."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A block with its blanks calculated: what `core.program.solve.block` yields.
 
-`Solved` is a calculated number and never an `Number`: the form shows it with the tag CAL and no edit turns
+`Solved` is a calculated number and never a `Number`: the form shows it with the tag CAL and no edit turns
 it into something typed.  Needs no numpy.
 """
 

@@ -1,4 +1,4 @@
-"""The second tier: a run that the steps do not solve, by Newton's method from the operator's pick on the drawing.
+"""Answers near the operator's pick, for a run that `steps` do not solve; `problem` has Newton's method itself.
 
 The pick is a point near the first joint of the run that is not known (nearly always the end of its first segment).
 From it a few dozen starts are laid out; each is led to an answer by damped Newton steps on the numbers of the chain

@@ -1,4 +1,4 @@
-"""Proof: an NC program as a control runs it, with its moves, findings and verdicts, and how it is drawn."""
+"""NC proof: an NC program as a control runs it, with its moves, findings and verdicts, and how it is drawn."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Side, Turn
 from core.geometry.piece_arrays import direction, piece_arrays
-from core.verify.crossing import at_joints
 from core.verify.judge import judge
+from core.verify.self_crossings import at_joints
 from core.verify.verdict import Verdict
 from tests.core.verify.shapes import circle, lines, moved, paths, square
 from tests.properties import exercised, must_exercise

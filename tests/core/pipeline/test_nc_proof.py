@@ -10,7 +10,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.moves import Plane
 from core.controls.registry import NO_TOOLS, UnknownControl
 from core.draw.scene import Scene, Style
-from core.pipeline.proof import Proof, cutter_at_line, fixed_scene, run_program, scene_at_line, with_verdicts
+from core.pipeline.nc_proof import Proof, cutter_at_line, fixed_scene, run_program, scene_at_line, with_verdicts
 from core.units import Unit
 from tests.tool_tables import end_mills
 

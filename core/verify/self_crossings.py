@@ -1,4 +1,4 @@
-"""Crossing: where a surface crosses or touches itself, other than its neighbors at their joint, and its over-runs."""
+"""Self-crossings: where a surface crosses or touches itself elsewhere than at its joints, and its over-runs."""
 
 from __future__ import annotations
 
