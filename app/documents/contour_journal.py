@@ -37,6 +37,8 @@ from core.tolerance import LARGEST
 from core.units import Unit
 
 MAX_TOOL_NUMBER: Final = 9999
+MAX_WHOLE_EDITS: Final = 500
+"""Edits with which a journal begins that follows a save: it is written between two keys."""
 
 
 class DamagedError(Exception):
@@ -56,7 +58,8 @@ _KINDS: Final = MappingProxyType({type(empty): kind for kind, empty in EMPTY.ite
 
 
 def whole_records(history: History) -> Iterator[Record]:
-    """A history from its first program on; the first record holds that program."""
+    """A history, of a long one its last edits; the first record holds the program before them."""
+    history = replace(history, past=history.past[-MAX_WHOLE_EDITS:])
     programs = (*(step.program for step in history.past), history.program)
     undone = history.future[::-1]
     labels = (*(step.label for step in history.past), *(step.label for step in undone))

@@ -8,8 +8,16 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 
-from app.documents.contour_journal import DamagedError, applied, delta
+from app.documents.contour_journal import (
+    MAX_WHOLE_EDITS,
+    ContourReplay,
+    DamagedError,
+    applied,
+    delta,
+    whole_records,
+)
 from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
+from core.program.history import History
 from core.program.model import LineSegment, Number, Program, Unread
 from core.units import Unit
 from tests.core.program.parts import line, program, programs
@@ -99,3 +107,17 @@ def test_units_change_everything() -> None:
     assert PART.unit is Unit.MM
     assert delta(PART, inch) == {"unit": "IN"}
     assert applied(PART, {"unit": "IN"}) == inch
+
+
+def test_a_long_history_begins_a_journal_with_its_last_edits() -> None:
+    history = History(PART)
+    for number in range(MAX_WHOLE_EDITS + 9):
+        edited = type_field(history.program, FormPlace(1, 2), "y_end", Number(float(number)))
+        assert isinstance(edited, Program)
+        history = history.do(edited, "Y END")
+    base, *edits = whole_records(history)
+    assert len(edits) == MAX_WHOLE_EDITS
+    replay = ContourReplay.begun(base["base"])
+    for edit in edits:
+        replay.do(edit["do"], edit["delta"])
+    assert replay.work() == History(history.program, history.past[-MAX_WHOLE_EDITS:])
