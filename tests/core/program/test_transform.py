@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.piece import Arc
+from core.geometry.piece import Arc, Piece
 from core.program.edit import Refused
 from core.program.file.read import loads_bytes
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program
@@ -25,7 +25,7 @@ def example(name: str) -> Program:
 NAMES = ("pocket", "notch", "flange", "plate-mm", "overrun-square")
 
 
-def shapes(program: Program) -> list:
+def shapes(program: Program) -> list[Piece | None]:
     return [segment.sharp for segment in solve_block(program.blocks[0], program).segments]
 
 
