@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,21 @@ from core.program.solve.block import solve_block
 from core.units import Unit
 
 DATA = Path(__file__).parents[1] / "data" / "dxf"
+
+
+class Here:
+    """Does a worker's work in this process: a process of its own for each command would take most of the time."""
+
+    def __init__(self, function: Callable[..., object], *arguments: object) -> None:
+        self.function, self.arguments = function, arguments
+
+    def result(self) -> object:
+        return self.function(*self.arguments, progress=lambda *_: None)
+
+
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.cli.import_contours.Worker", Here)
 
 
 def test_the_list_has_a_row_for_each_contour(capsys: pytest.CaptureFixture[str]) -> None:

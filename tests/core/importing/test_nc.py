@@ -25,7 +25,10 @@ from core.program.model import CutterComp, Number, Program
 from core.units import Unit, from_mm
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
-CASES = [(example, control) for example in EXAMPLES for control in names()]
+POSTED = [example for example in EXAMPLES if example.stem in ("flange", "overrun-square", "plate-mm")]
+"""Those that controls are posted for: one of the others gouges, and the look-ahead deletes segments of the last."""
+
+CASES = [(example, control) for example in POSTED for control in names()]
 
 
 TOOLS = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM))
@@ -75,8 +78,7 @@ def test_a_control_program_comes_back_as_its_contour(example: Path, control: str
     original = program(example)
     derived = derive(original)
     posted = post_control_program(derived, name=example.stem, control=control)
-    if not isinstance(posted, Posted):
-        pytest.skip("this control is not posted for")
+    assert isinstance(posted, Posted), posted.text
     tools = tools_of(original).with_tools(offsets_in(posted.text, original.unit))
     read = read_nc(posted.text.encode(), control, tools)
     again = imported(read)
@@ -89,17 +91,11 @@ def test_a_control_program_comes_back_as_its_contour(example: Path, control: str
         assert block.z_bottom == first.z_bottom
 
 
-def test_examples_that_every_control_is_posted_for_are_tested() -> None:
-    tested = [
-        (example, control)
-        for example in EXAMPLES
-        for control in ("linuxcnc", "klartext", "threeblock")
-        if isinstance(post_control_program(derive(program(example)), name="x", control=control), Posted)
-    ]
-    assert len(tested) >= 8
+CUT = [example for example in EXAMPLES if example.stem != "notch"]
+"""The examples whose path does not gouge."""
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("example", CUT, ids=lambda path: path.stem)
 def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> None:
     original = program(example)
     # one pass at one radius: the path of one contour
@@ -111,8 +107,7 @@ def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> No
     )
     derived = derive(single)
     posted = post_center_path(derived, name="x")
-    if not isinstance(posted, Posted):
-        pytest.skip("its path gouges")
+    assert isinstance(posted, Posted), posted.text
     block = derived.blocks[0]
     assert block.side is not None
     assert block.radius is not None
@@ -126,7 +121,7 @@ def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> No
     assert apart(path, back, 0.002) is None
     assert apart(back, path, 0.002) is None
     assert block.paths.compensated is not None
-    if not len(block.paths.compensated.deleted) and example.stem != "notch":
+    if not len(block.paths.compensated.deleted):
         assert _covers(back_surface(again), back_surface(derived))
 
 
