@@ -31,7 +31,7 @@ UNITS: Final = Field(
     "Unit of the program. Another one converts every typed length and feed.",
     choices=tuple(unit.value for unit in Unit),
 )
-ROWS: Final = 5
+ROWS: Final = 6
 """Fields in a column."""
 
 

@@ -90,8 +90,9 @@ class Job:
     FINISH XY.  Without a finish tool `cutter` cuts `finish` too.
 
     `finish_z` is the stock roughing leaves on the floor when a finish tool follows.  `peck_depth` 0 is full depth in
-    one pass.  `lookahead` is text such as "CAL 8", empty for ON.  `findings` are all of the block's; any error among
-    them blocks posting.  `notes` are further sentences for the posted header.
+    one pass.  `rapid_rate` is in mm a minute, `rapid_assumed` where nobody has typed it.  `lookahead` is text such as
+    "CAL 8", empty for ON.  `findings` are all of the block's; any error among them blocks posting.  `notes` are further
+    sentences for the posted header.
     """
 
     block: int
@@ -115,6 +116,8 @@ class Job:
     work_offset: int = 54
     coolant: Coolant = Coolant.OFF
     lookahead: str = ""
+    rapid_rate: float = 5080.0
+    rapid_assumed: bool = True
     findings: tuple[Finding, ...] = ()
     notes: tuple[str, ...] = ()
 

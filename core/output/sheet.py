@@ -8,18 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
-from itertools import chain, groupby, pairwise
-from math import hypot, isfinite
+from itertools import chain, groupby
 from textwrap import wrap
 from typing import Final
 
 import numpy as np
 
 from core.finding import Finding, Severity
-from core.geometry.piece import Arc, Line, Turn
 from core.output.grid import Grid, length_text
 from core.output.objections import OVERRIDE, posting_errors
-from core.output.passes import Cutter, Job, Motion, Pass, passes, rough_runs
+from core.output.passes import Cutter, Job, Pass, passes, rough_runs
+from core.output.times import block_times, times_text, together
 from core.units import Kind, Unit, from_mm, sentence, show
 
 PAGE_COLUMNS: Final = 78
@@ -81,7 +80,7 @@ class Sheet:
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
     """The sheet of a program's jobs, with its name, the part's and the day; lengths on it are in program units."""
-    head = (
+    head: tuple[Pair, ...] = (
         ("PROGRAM", program),
         ("PART NAME", part or "-"),
         ("DATE", day or "-"),
@@ -89,9 +88,19 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
         ("WORK OFFSET", ", ".join(dict.fromkeys(f"G{job.work_offset}" for job in jobs)) or "-"),
         ("SAFE Z", ", ".join(dict.fromkeys(length_text(job.safe_z, unit) for job in jobs)) or "-"),
     )
+    head = (*head, *_times(jobs, unit))
     errors = dict.fromkeys(_finding_text(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
     notes = tuple(f"Block {job.block}: {note}" for job in jobs for note in job.notes)
     return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs), notes)
+
+
+def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
+    """The time of the whole program, and the rapid rate that it is based on."""
+    ready = [job for job in jobs if not posting_errors([job], Grid(unit), override=OVERRIDE)]
+    if ready:
+        yield "TIME", times_text(together(block_times(job, job.rapid_rate) for job in ready))
+        rate, assumed = _feed(ready[0].rapid_rate, unit), ready[0].rapid_assumed
+        yield "RAPID RATE", f"{rate} a minute{', assumed: it is not typed' if assumed else ''}"
 
 
 def _feed(value: float | None, unit: Unit) -> str:
@@ -151,7 +160,7 @@ def _cut(job: Job, all_passes: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
     yield "PLUNGE FEED", _feed(job.plunge_feed, unit)
     yield "FEEDS", _feeds(job, unit)
     if all_passes:
-        yield "CUTTING TIME", f"about {_cutting_time(all_passes)}, rapids not counted"
+        yield "TIME", times_text(block_times(job, job.rapid_rate))
 
 
 def _cutter(cutter: Cutter | None) -> str:
@@ -195,22 +204,6 @@ def _pass_table(all_passes: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...]
         level, stock = length_text(a_pass.level, unit), length_text(a_pass.stock, unit)
         rows.append((str(number), str(a_pass.cutter.number), kind, depth, level, stock))
     return tuple(rows) if all_passes else ()
-
-
-def _cutting_time(all_passes: Sequence[Pass]) -> str:
-    """Length over feed, all feeds at their programmed value."""
-    moves = (pair for a_pass in all_passes for pair in pairwise(a_pass.motions))
-    time = sum(_travel(before, motion) / motion.feed for before, motion in moves if motion.feed)
-    if not isfinite(time):
-        return "-"
-    return f"{time:.1f} min" if time < 100.0 else f"{time / 60.0:.1f} h"
-
-
-def _travel(before: Motion, motion: Motion) -> float:
-    ends = (before.x, before.y), (motion.x, motion.y)
-    straight = motion.turn is Turn.NONE
-    piece = Line(*ends) if straight else Arc(*ends, motion.center, motion.turn)
-    return hypot(piece.length, motion.z - before.z)
 
 
 def as_text(sheet: Sheet) -> str:

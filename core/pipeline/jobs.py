@@ -47,6 +47,8 @@ def job(block: DerivedBlock, program: Program) -> Job:
         work_offset=int(setup_value(program, "work_offset")),
         coolant=solved.coolant,
         lookahead="" if block.side is None else tag,
+        rapid_rate=parameter(program, "rapid_rate"),
+        rapid_assumed=not isinstance(program.parameters.rapid_rate, Number),
         findings=block.findings,
         notes=tuple(_notes(block, program.unit)),
     )

@@ -116,13 +116,13 @@ def test_a_missing_tool_is_named() -> None:
 
 def test_parameters_show_defaults_until_they_are_typed() -> None:
     operator = opened().press("f4")
-    assert "BLEND OFFSET  DEF   0.1250" in operator.part("body")
+    assert "BLEND OFFSET   DEF  0.1250" in operator.part("body")
     operator.press("tab").type(".2")
     assert operator.session.program.parameters.blend_offset == Number(0.2)
     assert "BLEND OFFSET        0.2000" in operator.part("body")
     operator.press("up", "delete", "enter")
     assert operator.session.program.parameters.blend_offset is None
-    operator.press("shift+tab", "shift+tab", "shift+tab", "b")
+    operator.press("shift+tab", "shift+tab", "shift+tab", "shift+tab", "b")
     assert operator.session.program.parameters.path is PathChoice.BEST
 
 

@@ -82,7 +82,7 @@ class ParametersPage(FormPage):
         return tuple(self._cell(session, one, index) for index, one in enumerate(FIELDS))
 
     def _cell(self, session: Session, one: Field, index: int) -> Cell:
-        column, line = divmod(index, 5)
+        column, line = divmod(index, 6)
         held, unit = self.value(session, one.name), session.program.unit
         cell = cell_of(one, held, unit, column, line)
         usual = default_value(one.name, unit)

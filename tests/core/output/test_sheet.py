@@ -27,13 +27,16 @@ def pairs(one: Sheet) -> dict[str, str]:
 
 def test_the_head_and_the_tools():
     one = of(SLOT)
-    assert dict(one.head) == {
+    head = dict(one.head)
+    assert head.pop("TIME").startswith("cut 0:37, rapid ")
+    assert head == {
         "PROGRAM": "slot",
         "PART NAME": "Key way",
         "DATE": "2026-01-02",
         "UNITS": "INCH",
         "WORK OFFSET": "G54",
         "SAFE Z": "1.0000",
+        "RAPID RATE": "200.0 a minute, assumed: it is not typed",
     }
     assert one.errors == ()
     assert one.tools.table[1:] == (("1", "END MILL", "0.5000", "H1", "1"),)
@@ -58,13 +61,6 @@ def test_depths_as_they_will_be_posted():
         ("2 of 3", "-0.2000"),
         ("3 of 3", "-0.2500"),
     ]
-
-
-def test_cutting_time_is_length_over_feed():
-    # three pecks along 2 in at 10 in/min are 0.6 min; down from 0.1, -0.05 and -0.15: 0.2, 0.15 and 0.1 at 20 in/min
-    assert pairs(of(SLOT))["CUTTING TIME"].startswith("about 0.6 min")
-    slower = replace(SLOT, floors=floors(len(SLOT.floors), feed=0.1))
-    assert pairs(of(slower))["CUTTING TIME"].startswith("about 60.0 min")
 
 
 def test_the_cutter_reaches_over_the_top_of_an_arc():
@@ -176,6 +172,8 @@ def test_a_whole_sheet_as_text():
         "UNITS              INCH",
         "WORK OFFSET        G54",
         "SAFE Z             1.0000, 2.0000",
+        "TIME               cut 2:07, rapid 0:06, total 2:13",
+        "RAPID RATE         200.0 a minute, assumed: it is not typed",
         "",
         "READY to post.",
         "",
@@ -199,7 +197,7 @@ def test_a_whole_sheet_as_text():
         "SPEED              300 RPM",
         "PLUNGE FEED        20.0",
         "FEEDS              10.0 (segment 1), 8.0 (segment 2)",
-        "CUTTING TIME       about 2.0 min, rapids not counted",
+        "TIME               cut 2:00, rapid 0:05, total 2:05",
         "",
         "NO.  TOOL    KIND   DEPTH        Z  LEAVES ON SIDE",
         "  1     1    PASS  1 of 3  -0.1000          0.0200",
@@ -228,7 +226,7 @@ def test_a_whole_sheet_as_text():
         "SPEED              300 RPM",
         "PLUNGE FEED        20.0",
         "FEEDS              10.0 (segment 1)",
-        "CUTTING TIME       about 0.1 min, rapids not counted",
+        "TIME               cut 0:07, rapid 0:01, total 0:08",
         "",
         "NO.  TOOL  KIND   DEPTH        Z  LEAVES ON SIDE",
         "  1     1  PASS  1 of 1  -0.2500          0.0000",
@@ -238,7 +236,7 @@ def test_a_whole_sheet_as_text():
 def test_a_whole_sheet_as_a_page():
     lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
-    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:48] == [
+    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:50] == [
         "<h1>Setup sheet: slot</h1>",
         "<table>",
         "<tr><th>PROGRAM</th><td>slot</td></tr>",
@@ -247,6 +245,8 @@ def test_a_whole_sheet_as_a_page():
         "<tr><th>UNITS</th><td>INCH</td></tr>",
         "<tr><th>WORK OFFSET</th><td>G54</td></tr>",
         "<tr><th>SAFE Z</th><td>1.0000, 2.0000</td></tr>",
+        "<tr><th>TIME</th><td>cut 2:07, rapid 0:06, total 2:13</td></tr>",
+        "<tr><th>RAPID RATE</th><td>200.0 a minute, assumed: it is not typed</td></tr>",
         "</table>",
         '<p class="good">READY to post.</p>',
         "<section><h2>TOOLS</h2>",
@@ -271,7 +271,7 @@ def test_a_whole_sheet_as_a_page():
         "<tr><th>SPEED</th><td>300 RPM</td></tr>",
         "<tr><th>PLUNGE FEED</th><td>20.0</td></tr>",
         "<tr><th>FEEDS</th><td>10.0 (segment 1), 8.0 (segment 2)</td></tr>",
-        "<tr><th>CUTTING TIME</th><td>about 2.0 min, rapids not counted</td></tr>",
+        "<tr><th>TIME</th><td>cut 2:00, rapid 0:05, total 2:05</td></tr>",
         "</table>",
         '<h3>FINDINGS</h3><ul class="marked">',
         "<li>- segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool would reach.</li>",
@@ -312,14 +312,7 @@ def test_a_block_that_is_not_known_yet_shows_what_is():
     empty = replace(SLOT, surface=SLOT.surface.part(0, 0), finish=(), floors=(), cutter=None, finish_tool=9)
     said = pairs(of(empty))
     assert (said["TOOL"], said["FINISH TOOL"], said["FEEDS"]) == ("NOT KNOWN", "NOT KNOWN", "-")
-    assert not said.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "CUTTING TIME"}
-
-
-def test_hours_are_shown_as_hours():
-    slow = replace(SLOT, floors=floors(1, feed=0.01), peck_depth=0.0)
-    assert pairs(of(slow))["CUTTING TIME"] == "about 3.3 h, rapids not counted"
-    nearly = replace(SLOT, floors=floors(1, feed=0.0201), peck_depth=0.0)
-    assert pairs(of(nearly))["CUTTING TIME"] == "about 99.5 min, rapids not counted"
+    assert not said.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "TIME"}
 
 
 def test_several_segments_of_one_feed_stand_together():
