@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
-from textual import on
+from textual import on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
+from textual.message import Message
 from textual.widgets import DataTable, Label
 
 from app.documents.survey import outcome_of
 from app.screens.base import BaseScreen
+from app.session.derivation import program_times
 from app.session.messages import Sentence
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks, verdict_word
-from core.pipeline.derived import DerivedBlock
+from core.pipeline.derived import Derived, DerivedBlock
 from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
 from core.program.model import Number
 
-COLUMNS = (("BLOCK", 5), ("KIND", 13), ("CUTTER COMP.", 14), ("TOOL", 4), ("SEG", 4), ("VERDICT", 11))
+COLUMNS = (("BLOCK", 5), ("KIND", 12), ("CUTTER COMP.", 13), ("TOOL", 4), ("SEG", 3), ("VERDICT", 11))
+
+
+@dataclass
+class Timed(Message):
+    """A worker has estimated the times of a program."""
+
+    derived: Derived
+    total: str
+    blocks: dict[int, str]
 
 
 class ProgramScreen(BaseScreen):
@@ -46,6 +58,10 @@ class ProgramScreen(BaseScreen):
         Softkey("BACK to files", "app.home", "BACK"),
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.times: dict[int, str] = {}
 
     def compose_body(self) -> ComposeResult:
         """A title, the table of blocks, the drawing."""
@@ -74,6 +90,24 @@ class ProgramScreen(BaseScreen):
         count = len(session.program.blocks)
         self.query_exactly_one("#block-count", Label).update(f"{count} block{'s' if count != 1 else ''}")
         self.query_exactly_one("#program-file", Label).update(session.file_label)
+        self._draw()
+        if all(block.known for block in session.derived.blocks):
+            self._time(session.derived)
+
+    @work(thread=True, exclusive=True, group="times")
+    def _time(self, derived: Derived) -> None:
+        self.post_message(Timed(derived, *program_times(derived)))
+
+    @on(Timed)
+    def _timed(self, event: Timed) -> None:
+        """The times in the title of the drawing and at the number of blocks."""
+        event.stop()
+        if event.derived is not self.current_session.derived:
+            return
+        self.times = event.blocks
+        count = len(event.derived.blocks)
+        words = f"{count} block{'s' if count != 1 else ''}   {event.total}"
+        self.query_exactly_one("#block-count", Label).update(words)
         self._draw()
 
     def prompt_text(self) -> Sentence:
@@ -108,7 +142,9 @@ class ProgramScreen(BaseScreen):
         if self.chosen > len(session.derived.blocks):
             return
         block = session.derived.block(self.chosen)
-        drawing.heading, drawing.characters = f"BLOCK {block.number}", self.host.characters
+        times = self.times.get(block.number)
+        drawing.heading = f"BLOCK {block.number}{f'  {times}' if times else ''}"
+        drawing.characters = self.host.characters
         drawing.subject = Subject(block, session.program.unit)
 
     @on(DataTable.RowSelected)

@@ -32,3 +32,14 @@ def lookahead_table(block: DerivedBlock, program: Program) -> Table | None:
     from core.pipeline.derive import look_ahead_table
 
     return look_ahead_table(block, program)
+
+
+def program_times(derived: Derived) -> tuple[str, dict[int, str]]:
+    """The time of the whole program, and cut, rapid and total of each block that can be posted, as texts."""
+    from core.output.times import block_times, minutes_text, times_text, together
+    from core.pipeline.jobs import jobs
+
+    ready = {block.number for block in derived.blocks if block.postable}
+    times = {job.block: block_times(job, job.rapid_rate) for job in jobs(derived) if job.block in ready}
+    total = f"{minutes_text(together(times.values()).total)} total" if times else ""
+    return total, {number: times_text(each) for number, each in times.items()}

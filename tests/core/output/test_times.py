@@ -5,6 +5,7 @@ from math import pi
 
 import pytest
 
+from core.geometry.piece import Turn
 from core.output.times import Times, block_times, minutes_text, times_text, together
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -20,7 +21,7 @@ def test_a_slot_takes_what_a_hand_calculation_says():
 
 
 def test_an_arc_takes_its_length_and_not_its_chord():
-    half = job(path_of(arc((0, 0), (2, 0), (1, 0), -1)), peck_depth=0.0)
+    half = job(path_of(arc((0, 0), (2, 0), (1, 0), Turn.CW)), peck_depth=0.0)
     assert block_times(half, 200.0 * INCH).cut == pytest.approx(0.35 / 20.0 + pi / 10.0)
 
 
