@@ -63,7 +63,9 @@ class Session:
     def of_history(
         history: History, saved: Program, place: FormPlace, field: str, file: Path | None, title: str
     ) -> Session:
-        """A session on work that has a history, the cursor where it was."""
+        """A session on work that has a history, the cursor where it was; in a new program in its first field."""
+        if field == SEGMENT and not history.past:
+            field = _first_field(history.program)
         cursor = Cursor(nearest_place(history.program, place), field)
         return Session(history, saved, outline(history.program), cursor, file, title)
 
