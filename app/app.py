@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from textual import on, work
 from textual.binding import Binding, BindingType
-from textual.command import Provider
 from textual.reactive import var
 from textual.screen import Screen
 
@@ -18,20 +18,8 @@ from app.documents.document import ContourDocument, NcDocument
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.file_actions import FileActions
-from app.nc_proof.screen import ProofScreen
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
-from app.screens.draw import DrawScreen
-from app.screens.help import HelpScreen
-from app.screens.home import HomeScreen
-from app.screens.import_tools import ImportToolsScreen
-from app.screens.lookahead import LookaheadScreen
-from app.screens.palette import Actions, Palette
-from app.screens.parameters import ParametersScreen, PartSetupScreen
-from app.screens.post import PostScreen
-from app.screens.program import ProgramScreen
-from app.screens.sheet import SheetScreen
-from app.screens.tools import ToolsScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
@@ -41,6 +29,18 @@ from app.widgets.status import Surroundings
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, FormPlace, Refused
 from core.program.model import Program
+
+if TYPE_CHECKING:
+    from textual.command import Provider
+
+    from app.nc_proof.screen import ProofScreen
+
+
+def _actions() -> type[Provider]:
+    """The palette's commands.  All screens but the first are imported when they are opened: it stands sooner."""
+    from app.screens.palette import Actions
+
+    return Actions
 
 
 class CutcompApp(FileActions, TransformActions):
@@ -53,7 +53,7 @@ class CutcompApp(FileActions, TransformActions):
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
     COMMAND_PALETTE_BINDING = "ctrl+k"
-    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {Actions}
+    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {_actions}
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
         Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
@@ -106,6 +106,8 @@ class CutcompApp(FileActions, TransformActions):
 
     def on_ready(self) -> None:
         """Once the first screen stands, work out what follows from the program, and ask what is to be asked."""
+        gc.freeze()
+        gc.enable()
         self._derive(Request(self.session.program))
         if self._home:
             self.action_home()
@@ -245,6 +247,8 @@ class CutcompApp(FileActions, TransformActions):
 
     def action_command_palette(self) -> None:
         """The palette of all actions."""
+        from app.screens.palette import Palette
+
         if isinstance(self.screen, BaseScreen):
             self.push_screen(Palette(id="--command-palette"))
 
@@ -259,50 +263,72 @@ class CutcompApp(FileActions, TransformActions):
 
     def action_program(self) -> None:
         """PROGRAM, the list of blocks."""
+        from app.screens.program import ProgramScreen
+
         self.bring(ProgramScreen)
 
     def action_home(self) -> None:
         """HOME, the files of a folder."""
+        from app.screens.home import HomeScreen
+
         if not isinstance(self.screen, HomeScreen):
             file = self.session.file
             self.push_screen(HomeScreen(Path.cwd() if file is None else file.absolute().parent))
 
     def action_parameters(self) -> None:
         """PROGRAM PARAMETERS."""
+        from app.screens.parameters import ParametersScreen
+
         self.bring(ParametersScreen)
 
     def action_part_setup(self) -> None:
         """PART SETUP."""
+        from app.screens.parameters import PartSetupScreen
+
         self.bring(PartSetupScreen)
 
     def action_tools(self) -> None:
         """TOOL SETUP."""
+        from app.screens.tools import ToolsScreen
+
         self.bring(ToolsScreen)
 
     def action_lookahead(self) -> None:
         """LOOKAHEAD TABLE."""
+        from app.screens.lookahead import LookaheadScreen
+
         self.bring(LookaheadScreen)
 
     def action_draw(self) -> None:
         """DRAW."""
+        from app.screens.draw import DrawScreen
+
         self.bring(DrawScreen)
 
     def action_post(self) -> None:
         """POST NC, with the program's name."""
+        from app.screens.post import PostScreen
+
         file = self.session.file
         self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
 
     def action_sheet(self) -> None:
         """SETUP SHEET, with the program's name."""
+        from app.screens.sheet import SheetScreen
+
         file = self.session.file
         self.push_screen(SheetScreen("part.html" if file is None else str(file.with_suffix(".html"))))
 
     def action_import_tools(self) -> None:
         """IMPORT TOOL TABLE, in the program's unit."""
+        from app.screens.import_tools import ImportToolsScreen
+
         self.push_screen(ImportToolsScreen("tool.tbl", self.session.program.unit))
 
     def action_help(self) -> None:
         """HELP for what has the cursor."""
+        from app.screens.help import HelpScreen
+
         if isinstance(self.screen, HelpScreen) or not isinstance(self.screen, BaseScreen):
             return
         self.push_screen(HelpScreen(self.screen.current_field, self.screen.help_lines()))
@@ -352,16 +378,22 @@ class CutcompApp(FileActions, TransformActions):
 
     def show_nc(self, document: NcDocument) -> None:
         """NC PROOF on a text."""
+        from app.nc_proof.screen import ProofScreen
+
         self.push_screen(ProofScreen(document, self.keep_nc))
 
     @property
     def proof(self) -> ProofScreen | None:
         """NC PROOF, where it is in front."""
+        from app.nc_proof.screen import ProofScreen
+
         return self.screen if isinstance(self.screen, ProofScreen) else None
 
     @property
     def proofs(self) -> list[ProofScreen]:
         """Every NC PROOF that is open."""
+        from app.nc_proof.screen import ProofScreen
+
         return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
 
     def action_nc_proof(self) -> None:
@@ -370,4 +402,6 @@ class CutcompApp(FileActions, TransformActions):
 
     def show_folder(self, folder: Path) -> None:
         """HOME with the files of a folder."""
+        from app.screens.home import HomeScreen
+
         self.push_screen(HomeScreen(folder))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -18,6 +19,8 @@ from core.program.file.read import StoreError
 def run(path: Path | None, *, example: str | None = None, characters: str = "", light: bool = False) -> int:
     """Show the screens on a program file, an example or an empty program; returns the exit status."""
     os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
+    # the imports make objects that stay: looking through them again and again costs a tenth of the start
+    gc.disable()
     from app.app import CutcompApp
     from app.file_actions import session_of
     from app.terminal import character_set, driver, key_sequences

@@ -21,7 +21,6 @@ from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 from textual.message import Message
 
-from app.painted.desk import MODES
 from app.terminal.capabilities import ascii_only
 from app.terminal.cell_diff import Shown, Texts
 from app.terminal.character_set import ASCII, UTF_8, charset
@@ -30,6 +29,8 @@ from app.terminal.split_keys import TOLD, Joined, delay
 if TYPE_CHECKING:
     from textual.app import App
 
+MODES: Final = ("braille", "block", "ascii")
+"""What drawings can be made of."""
 PATIENCE: Final = 0.1
 """Seconds between two looks whether the program ends."""
 LARGEST_READ: Final = 4096
