@@ -46,6 +46,8 @@ CONTROLS: Final = (
     "nine-series:b-g39.1",
     "klartext",
     "linuxcnc",
+    "fanuc:a",
+    "haas:b",
 )
 TOOLS: Final = ("--tool", "1=.5in", "--tool", "2=6mm", "--tool", "3=3mm", "--tool", "4=8mm")
 """Tools for the programs under tests/data."""
@@ -285,6 +287,8 @@ class Comparison:
         """JSON answers; `place` is the way to what differs."""
         if isinstance(old, dict) and isinstance(new, dict):
             yield from self._objects(old, new, place)
+        elif isinstance(old, list) and isinstance(new, list) and _of_controls(old) and _of_controls(new):
+            yield from self._controls(old, new, place)
         elif isinstance(old, list) and isinstance(new, list):
             if len(old) != len(new):
                 yield f"{place}: {len(old)} before, {len(new)} after"
@@ -305,6 +309,18 @@ class Comparison:
                 yield from self._findings(value, new[key], where)
             elif key not in ("text", "needs", "file"):
                 yield from self.documents(value, new[key], where)
+
+    def _controls(self, old: list[dict[str, Any]], new: list[dict[str, Any]], place: str) -> Iterator[str]:
+        """What controls made of one program, by their names; those that are new are counted as keys are."""
+        after = {result["control"]: result for result in new}
+        before = {result["control"] for result in old}
+        self.tally.new_keys.update(control for control in after if control not in before)
+        for result in old:
+            where = f"{place} {result['control']}".strip()
+            if result["control"] in after:
+                yield from self.documents(result, after[result["control"]], where)
+            else:
+                yield f"{where}: missing after"
 
     def _findings(self, old: list[dict[str, Any]], new: list[dict[str, Any]], place: str) -> Iterator[str]:
         """Findings in their order, those that are expected to differ apart."""
@@ -330,6 +346,10 @@ class Comparison:
 
 def _code(finding: dict[str, Any]) -> str:
     return str(finding.get("code", finding.get("rule")))
+
+
+def _of_controls(answers: list[Any]) -> bool:
+    return bool(answers) and all(isinstance(answer, dict) and "control" in answer for answer in answers)
 
 
 def _said(answer: dict[str, Any]) -> str:

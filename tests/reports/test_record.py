@@ -33,6 +33,14 @@ def test_findings_are_compared_by_all_but_their_texts() -> None:
     assert differences(old, {"findings": []}, "GOUGE") == []
 
 
+def test_controls_are_compared_by_their_names() -> None:
+    old = {"results": [{"control": "haas:a", "x": 1.0}, {"control": "linuxcnc", "x": 2.0}]}
+    more = [{"control": "fanuc:a", "x": 3.0}, *reversed(old["results"])]
+    assert differences(old, {"results": more}) == []
+    assert differences(old, {"results": more[:2]}) == ["results haas:a: missing after"]
+    assert len(differences(old, {"results": [{"control": "haas:a", "x": 1.0}, {"control": "linuxcnc", "x": 1.0}]})) == 1
+
+
 def test_nc_texts_may_differ_in_spelling_and_sentences_of_findings() -> None:
     old = "(THE TOOL CENTRE)\n(OVERRIDDEN GOUGE: Segment 2: The path)\n(gouges.)\n(G64 P0.005)\nG1 X1.5 Y2.0\n"
     assert texts(old, old.replace("CENTRE", "CENTER").replace("The path)\n(gouges", "It gouges")) == []
