@@ -42,8 +42,15 @@ def test_a_diameter_of_nothing_does_not_count() -> None:
 
 
 def test_in_a_blank_field_the_verdict_is_that_of_before() -> None:
-    operator = on_x_end().press("backspace", "enter", "shift+tab", "-")
+    operator = on_x_end().press(
+        "tab", "backspace", "enter", "shift+tab", "shift+tab", "backspace", "enter", "shift+tab", "-"
+    )
     assert prompt(operator) == "- does not count: path and verdict are still those of before."
+
+
+def test_in_a_field_that_keeps_its_coordinate_the_verdict_is_that_of_the_coordinate() -> None:
+    operator = on_x_end().press("backspace", "enter", "shift+tab", "-")
+    assert prompt(operator) == "- does not count: path and verdict are still those of 2.0000."
 
 
 def test_what_is_marked_already_says_why() -> None:

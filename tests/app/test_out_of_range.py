@@ -31,11 +31,15 @@ FORMS = {
 }
 HELD = frozenset({"lookahead", "number"})
 """CUTCOMP LOOKAHEAD keeps its old value, and a tool without a number is none."""
+NOT_ON_THIS_FORM = {Form.TOOL: {"speed", "feed", "plunge_feed"}}
+"""What only the other TOOL SETUP has a place for."""
 FIELDS = [
     (form, one.name)
     for form in FORMS
     for one in TABLES[form]
-    if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in HELD and one.name in PLACES.get(form, {one.name})
+    if one.kind not in (Kind.CHOICE, Kind.TEXT)
+    and one.name not in HELD | NOT_ON_THIS_FORM.get(form, set())
+    and one.name in PLACES.get(form, {one.name})
 ]
 
 

@@ -16,10 +16,13 @@ from core.program.model import ArcSegment, Direction, Number, Program
 from tests.app.operator import Operator
 
 
-def without(number: int, name: str, part: str = "pocket") -> Program:
-    """An example with a field of a segment blank."""
-    outcome = type_field(load(example(part)), FormPlace(1, number), name, None)
-    assert not isinstance(outcome, Refused)
+def without_end(number: int, part: str = "pocket") -> Program:
+    """An example with both ends of a segment blank; with one of them a LINE keeps the other coordinate."""
+    outcome = load(example(part))
+    for name in ("x_end", "y_end"):
+        edited = type_field(outcome, FormPlace(1, number), name, None)
+        assert not isinstance(edited, Refused)
+        outcome = edited
     return outcome
 
 
@@ -28,7 +31,7 @@ def without(number: int, name: str, part: str = "pocket") -> Program:
     [("overrun-square", 2, "of segment 1 alone"), ("pocket", 6, "of segments 1-5 alone")],
 )
 def test_the_strip_tells_what_was_judged_and_recommends_nothing(part: str, number: int, alone: str) -> None:
-    program = without(number, "y_end", part)
+    program = without_end(number, part)
     found = derive(program).blocks[0]
     table = look_ahead_table(found, program)
     assert table is not None
@@ -45,18 +48,19 @@ def test_what_is_whole_says_nothing_of_it() -> None:
 
 
 def test_an_end_that_is_not_known_is_not_told_to_be_open() -> None:
-    found = derive(without(6, "y_end")).blocks[0]
+    found = derive(without_end(6)).blocks[0]
     assert not {"OPEN", "NEARLY_CLOSED"} & {one.code for one in found.findings}
 
 
 def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
-    program = without(6, "y_end")
+    program = without_end(6)
     operator = Operator.at(program)
     operator.desk = operator.desk.knowing(derive(program))
-    operator.press("6", "enter", "tab", "tab")
-    assert operator.session.field == "y_end"
-    assert operator.said.startswith("! More data needed")
-    assert " ?  segment 6: More data needed" in operator.part("verdict")
+    operator.press("6", "enter", "tab", "tab", "tab", "tab", "tab")
+    assert operator.session.field == "angle"
+    asked = "Segments 6 and 7 need 2 more values"
+    assert asked in operator.part("prompt")
+    assert f" ?  segment 6: {asked}" in operator.part("verdict")
     assert "!!" not in "\n".join(operator.screen())
 
 
