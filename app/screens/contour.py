@@ -5,20 +5,22 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import ClassVar, Final
 
-from textual import events, on
+from textual import events, on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
+from app.documents.tool_tables import tool_line
 from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
+from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, unanswered
 from app.screens.form_screen import FormScreen
 from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
-from app.widgets.field import ChoiceField, NumberField
+from app.widgets.field import LISTED, ChoiceField, NumberField
 from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
 from app.widgets.picture import Picture
@@ -93,6 +95,7 @@ class ContourScreen(FormScreen):
         Binding("pagedown", "walk(1)", "Next segment", show=False),
         Binding("ctrl+home", "go(0)", "START", show=False),
         Binding("ctrl+end", "go(-1)", "Last segment", show=False),
+        Binding("space", "list_field", "List of this field", show=False, priority=True),
         Binding("f9,ctrl+t", "panel('segments')", "Segments", show=False),
         Binding("f10,ctrl+f", "panel('findings')", "Findings", show=False),
         Binding("ctrl+n", "finding(1)", "Next finding", show=False),
@@ -498,6 +501,31 @@ class ContourScreen(FormScreen):
         form = table.form_of(segment)
         if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
             self.go(number, table.TABLES[form][0].name)
+
+    # ---- the list of a field
+
+    def action_list_field(self) -> None:
+        """The list of the field with the cursor: its choices, the tools, the look-ahead table."""
+        widget = self.current
+        if isinstance(widget, ChoiceField):
+            widget.action_show_overlay()
+        elif widget is not None and widget.name == "lookahead":
+            self.app.call_later(self.app.run_action, "app.lookahead")
+        elif widget is not None and widget.name in LISTED:
+            self._choose_tool(widget.name or "")
+
+    @work(exclusive=True, group="question")
+    async def _choose_tool(self, name: str) -> None:
+        """A tool of the tool table into TOOL or FINISH TOOL."""
+        session = self.current_session
+        rows = [(f"{tool.number}", tool_line(tool, session.program.unit)) for tool in session.program.tools]
+        if name == "finish_tool":
+            rows.insert(0, ("0", "no finish pass"))
+        number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows))
+        field = self._field(name)
+        if number and field is not None:
+            self.host.apply(self.edited(field, number), self.label(field))
+        self.focus_field(name)
 
     # ---- softkeys
 

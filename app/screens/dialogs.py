@@ -173,3 +173,31 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
     def action_none(self) -> None:
         """Go back."""
         self.dismiss(())
+
+
+class ChooseLine(ModalScreen[str]):
+    """A list to choose from: each row has its result and its words; Esc and F8 give an empty result."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
+
+    def __init__(self, title: str, rows: Sequence[tuple[str, str]]) -> None:
+        super().__init__()
+        self.question, self.rows = title, tuple(rows)
+
+    def compose(self) -> ComposeResult:
+        """A framed list."""
+        with Vertical(id="question"):
+            yield OptionList(*(Option(words, id=result) for result, words in self.rows), id="answers", compact=True)
+
+    def on_mount(self) -> None:
+        """The cursor on the first row."""
+        self.query_exactly_one("#question").border_title = self.question
+        self.query_exactly_one(OptionList).highlighted = 0 if self.rows else None
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        self.dismiss(event.option_id or "")
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss("")

@@ -21,6 +21,10 @@ MAX_TYPED: int = 200
 """Characters a field takes; more is a key that got stuck."""
 
 
+LISTED: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
+"""Numbers that have a list: tools, look-ahead values."""
+
+
 class State(StrEnum):
     """What a field's value is; the value is the style class of its row."""
 
@@ -86,8 +90,10 @@ class NumberField(Input):
         return self.value.strip() not in (self.resting, self.full)
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
-        """Every printable key is typed, but ? asks for help."""
-        return key != "question_mark" and super().check_consume_key(key, character)
+        """Every printable key is typed, but ? asks for help, and Space lists what a field with a list takes."""
+        if key == "question_mark" or (key == "space" and self.name in LISTED):
+            return False
+        return super().check_consume_key(key, character)
 
     def show(self, text: str, full: str = "") -> None:
         """Show what the program holds; a half-typed text stays."""

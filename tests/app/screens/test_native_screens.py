@@ -8,6 +8,7 @@ from textual.widgets import DataTable, Static
 from app.documents.files import load
 from app.documents.programs import example
 from app.screens.draw import DrawScreen
+from app.screens.form_screen import FormScreen
 from app.screens.help import HelpScreen
 from app.screens.lookahead import LookaheadScreen
 from app.screens.post import PostScreen
@@ -243,3 +244,24 @@ async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
         assert "type a number" in str(one.app.screen.query_one("#number-trouble", Static).content)
         await one.press("escape")
         assert one.session.history.undo_count == 0
+
+
+async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
+    async with operator("flange") as one:
+        await one.press("tab", "space", "down", "enter")
+        await everything(one)
+        assert one.session.block.tool == Number(2.0)
+        assert one.at == "tool"
+        await one.press("ctrl+z")
+        form = one.app.screen
+        assert isinstance(form, FormScreen)
+        form.focus_field("lookahead")
+        await one.press("space")
+        await everything(one)
+        assert isinstance(one.app.screen, LookaheadScreen)
+        await one.press("f8")
+        assert one.value("lookahead") != ""
+        form.focus_field("cutter_comp")
+        await one.press("space", "down", "enter")
+        await everything(one)
+        assert one.session.block.cutter_comp == "RIGHT"
