@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from rich.text import Text
+from textual.binding import Binding, BindingType
 from textual.widgets import DataTable
 
 from app.session.session import Session
@@ -40,6 +41,11 @@ class SegmentRow(NamedTuple):
 
 class SegmentList(DataTable[Text]):
     """The list; its row is the segment of the form, Enter edits it, Del and Ins delete and insert."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("delete", "screen.softkey(1)", "Delete segment", show=False),
+        Binding("insert", "screen.softkey(2)", "Insert segment before", show=False),
+    ]
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=0)

@@ -10,11 +10,26 @@ from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.containers import Vertical
+from textual.content import Content
 from textual.message import Message
 from textual.widgets import Static
 
 LONGEST_LINE = 14
 """Characters of a label that stand on one line; a longer one is broken after its first word."""
+
+
+LEGEND = (
+    ("━━", "$c-part", "part"),
+    ("──", "$c-path", "tool center"),
+    ("··", "$c-cutter", "cutter"),
+    ("━⢕", "$c-uncut", "left uncut"),
+    ("╍╍", "$c-deleted", "deleted"),
+    (" x", "$c-deleted", "deleted by"),
+    ("⢕!", "$c-gouge", "gouge"),
+    (" S", "$c-begin", "START"),
+    (" o", "$c-begin", "plunge"),
+)
+"""The signs of the drawing, their colors and their meanings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +75,10 @@ class SoftkeyLabel(Static):
         self.post_message(self.Pressed(self.number))
 
 
+def _legend_line(sign: str, role: str, meaning: str) -> Content:
+    return Content.assemble("  ", (sign, role), f"  {meaning}")
+
+
 def _label(number: int, key: Softkey | None, acts: bool) -> Text:
     cap = (f" F{number} ", "reverse bold" if acts else "dim")
     if key is None:
@@ -94,7 +113,7 @@ class Softkeys(Vertical):
         yield from (SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1))
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
         yield Static(Text("\n").join(more), id="more")
-        yield Static(id="legend")
+        yield Static(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend")
 
     def on_mount(self) -> None:
         """Show the keys as they are."""

@@ -265,3 +265,11 @@ async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
         await one.press("space", "down", "enter")
         await everything(one)
         assert one.session.block.cutter_comp == "RIGHT"
+
+
+async def test_del_and_ins_in_the_segment_list_are_delete_and_insert_segment():
+    async with operator() as one:
+        await one.press("f9", "down", "down", "delete")
+        assert len(one.session.block.segments) == 10
+        await one.press("insert")
+        assert len(one.session.block.segments) == 11
