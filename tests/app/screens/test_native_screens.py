@@ -267,9 +267,8 @@ async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
         assert one.session.block.cutter_comp == "RIGHT"
 
 
-async def test_del_and_ins_in_the_segment_list_are_delete_and_insert_segment():
+@pytest.mark.parametrize(("key", "count"), [("delete", 10), ("insert", 12)])
+async def test_del_and_ins_in_the_segment_list_are_delete_and_insert_segment(key, count):
     async with operator() as one:
-        await one.press("f9", "down", "down", "delete")
-        assert len(one.session.block.segments) == 10
-        await one.press("insert")
-        assert len(one.session.block.segments) == 11
+        await one.press("f9", "down", "down", key)
+        assert len(one.session.block.segments) == count
