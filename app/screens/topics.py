@@ -106,6 +106,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.START, "peck_depth"): Topic(
             "The contour is milled once at each depth; the last pass takes what is left.", _PECK
         ),
+        (Form.START, "coolant"): Topic("Turned on when the spindle turns. Blank takes the coolant of the tool."),
         (Form.START, "lookahead"): Topic(
             "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
             "control's own value; one that is too small gouges, one that is too large leaves corners. Space shows all "
@@ -153,6 +154,10 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
         (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
         (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
+        (Form.TOOL, "speed"): Topic("Blocks with this tool run at it where their own SPEED is blank."),
+        (Form.TOOL, "feed"): Topic("Blocks with this tool mill at it where segment 1 has no FEED."),
+        (Form.TOOL, "plunge_feed"): Topic("Blocks with this tool go down at it where their own PLUNGE FEED is blank."),
+        (Form.TOOL, "coolant"): Topic("Blocks with this tool turn it on where their own COOLANT is blank."),
         (Form.PARAMETERS, "blend_offset"): Topic(
             "The tool comes to the contour and leaves it on an arc. 0 goes straight.", _BLEND
         ),

@@ -188,8 +188,10 @@ def test_a_calculated_value_is_tagged_and_follows_an_edit_upstream() -> None:
 
 
 def test_a_segment_not_determined_marks_what_is_needed() -> None:
-    operator = square().press("ctrl+end", "right", "l", "4", "enter")
+    operator = square().press("ctrl+end", "right", "l", "enter")
+    assert "X END                    ?" in operator.part("body")
     assert "Y END                    ?" in operator.part("body")
+    assert "Y END                    ?" not in operator.press("4", "enter").part("body")
 
 
 def test_two_solutions_are_picked_by_softkey_or_field() -> None:

@@ -26,7 +26,7 @@ async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
         await burst(one, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
         segment = one.session.block.segments[0]
         assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
-        assert one.session.place.segment == 2
+        assert one.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
 
 
 async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
