@@ -119,7 +119,7 @@ def serve(options: argparse.Namespace) -> int:
     if reason := web.refusal(options.host, allow_network=options.allow_network):
         say(reason)
         return UNUSABLE
-    say(f"{web.address(options.host, options.port)} in the browser. Ctrl+C ends it. {web.NO_LOGIN}")
+    say(web.NO_LOGIN)
     say("Where the browser keeps a function key to itself, Esc and then its digit does the same.")
     try:
         web.serve(options.file, options.host, options.port)

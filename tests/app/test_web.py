@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.cli.web import adapted, address, command, is_local, refusal, welcome
+from app.cli.web import adapted, address, command, is_local, knows, refusal, welcome
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
@@ -95,3 +95,12 @@ def test_what_is_no_address_does_not_get_into_the_page(asked: str) -> None:
 
 def test_the_page_asks_no_other_machine_for_anything() -> None:
     assert "fonts" not in adapted(PAGE, "http://0.0.0.0:8000", "shop-pc:8000")
+
+
+@pytest.mark.parametrize("path", ["/", "/static/js/textual.js", "/ws", "/abcd/ws", "/abcde", "/é/"])
+def test_a_path_without_the_secret_is_refused(path: str) -> None:
+    assert not knows(path, "abc")
+
+
+def test_a_path_below_the_secret_is_let_in() -> None:
+    assert knows("/abc/static/js/textual.js", "abc")

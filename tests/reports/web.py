@@ -16,6 +16,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from tests.reports.browser import browsing, chromium
 
@@ -31,15 +32,16 @@ def free_port() -> int:
 
 
 @contextmanager
-def serving(folder: Path, port: int) -> Iterator[None]:
-    """`cutcomp serve` in a folder, with settings of its own."""
+def serving(folder: Path, port: int) -> Iterator[str]:
+    """`cutcomp serve` in a folder, with settings of its own; the address it printed."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder / "config")}
     environment["XDG_STATE_HOME"] = environment["XDG_DATA_HOME"] = str(folder / "state")
+    printed = folder / "serve.log"
     process = subprocess.Popen(
         [sys.executable, "-m", "app", "serve", "--port", str(port)],
         cwd=folder,
         env=environment,
-        stdout=subprocess.DEVNULL,
+        stdout=printed.open("wb"),
         stderr=subprocess.DEVNULL,
     )
     try:
@@ -48,16 +50,16 @@ def serving(folder: Path, port: int) -> Iterator[None]:
                 if one.connect_ex(("127.0.0.1", port)) == 0:
                     break
             time.sleep(0.05)
-        yield
+        yield next(word for word in printed.read_text().split() if word.startswith("http://"))
     finally:
         process.terminate()
         process.wait(10)
 
 
-async def keyed(program: str, port: int, folder: Path, picture: Path | None) -> list[str]:
+async def keyed(program: str, page: str, folder: Path, picture: Path | None) -> list[str]:
     """A plate keyed in by the guide's words; what was seen on the way."""
     seen = []
-    async with browsing(program, f"http://127.0.0.1:{port}") as browser:
+    async with browsing(program, page) as browser:
         await browser.until("GUIDED FIRST")
         seen.append(f"start screen, {browser.screen.columns}x{browser.screen.lines}")
         # not F7, which Chromium keeps to itself
@@ -84,18 +86,19 @@ async def keyed(program: str, port: int, folder: Path, picture: Path | None) -> 
     return seen
 
 
-def foreign_page(port: int) -> int:
+def foreign_page(page: str) -> int:
     """The status a connection from somebody else's page gets."""
+    served = urlsplit(page)
     lines = (
-        "GET /ws HTTP/1.1",
-        f"Host: 127.0.0.1:{port}",
+        f"GET {served.path}ws HTTP/1.1",
+        f"Host: {served.netloc}",
         "Origin: http://elsewhere.example",
         "Connection: Upgrade",
         "Upgrade: websocket",
         "Sec-WebSocket-Version: 13",
         "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==",
     )
-    with socket.create_connection(("127.0.0.1", port), 10) as one:
+    with socket.create_connection(("127.0.0.1", served.port or 80), 10) as one:
         one.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
         return int(one.recv(100).split()[1])
 
@@ -106,9 +109,9 @@ def report(picture: Path | None = None) -> list[str]:
     assert program is not None, "there is no Chromium: apt-get install chromium"
     with tempfile.TemporaryDirectory() as name:
         folder, port = Path(name), free_port()
-        with serving(folder, port):
-            assert foreign_page(port) == 403
-            return ["another page's connection is refused (403)", *asyncio.run(keyed(program, port, folder, picture))]
+        with serving(folder, port) as page:
+            assert foreign_page(page) == 403
+            return ["another page's connection is refused (403)", *asyncio.run(keyed(program, page, folder, picture))]
 
 
 if __name__ == "__main__":
