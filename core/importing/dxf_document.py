@@ -26,14 +26,20 @@ def too_much(what: str, count: int, most: int) -> DrawingError:
     return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
 
 
+def _silence(logger: logging.Logger) -> None:
+    """Keep what ezdxf logs off the screen: what is wrong with a drawing is said in sentences of our own."""
+    logger.propagate = False
+    if not logger.handlers:
+        logger.addHandler(logging.NullHandler())
+
+
 def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
     """The scan of the tags and ezdxf's document, or DrawingError."""
     try:
         import ezdxf
     except ImportError as error:
         raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-    assert ezdxf
+    _silence(logging.getLogger(ezdxf.__name__))
     if data.startswith(BINARY_MARK):
         return _binary_document(data)
     scan = scan_text(data)
