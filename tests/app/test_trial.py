@@ -21,7 +21,7 @@ def test_a_choice_names_its_choices() -> None:
 
 
 def test_the_path_parameter_names_its_choices() -> None:
-    assert Operator.at().press("f4", "up").said.endswith("Space steps, letters spell: CONTROL, BEST.")
+    assert Operator.at().press("f4", "up", "up").said.endswith("Space steps, letters spell: CONTROL, BEST.")
 
 
 def test_enter_on_the_last_field_of_start_leads_to_the_first_segment() -> None:

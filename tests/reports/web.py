@@ -37,13 +37,14 @@ def serving(folder: Path, port: int) -> Iterator[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder / "config")}
     environment["XDG_STATE_HOME"] = environment["XDG_DATA_HOME"] = str(folder / "state")
     printed = folder / "serve.log"
-    process = subprocess.Popen(
-        [sys.executable, "-m", "app", "serve", "--port", str(port)],
-        cwd=folder,
-        env=environment,
-        stdout=printed.open("wb"),
-        stderr=subprocess.DEVNULL,
-    )
+    with printed.open("wb") as output:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "app", "serve", "--port", str(port)],
+            cwd=folder,
+            env=environment,
+            stdout=output,
+            stderr=subprocess.DEVNULL,
+        )
     try:
         for _ in range(200):
             with socket.socket() as one:
