@@ -21,6 +21,8 @@ from core.tolerance import JOINED, ON_PATH
 
 _ROOM: Final = 1e-6
 """How much too large a sector is times the radius: the exact test comes after it."""
+_ANGLE_ROUNDING: Final = 1e-14
+"""How far a calculated angle may be from the true one, radians: a few last digits of a whole turn."""
 
 
 class Meeting(IntEnum):
@@ -236,9 +238,11 @@ def _middle(arc: Pieces) -> Points:
 
 
 def _inside(arc: Pieces, point: Points) -> Flags:
-    """Does a point of the arc's circle lie on the arc, off its ends?"""
-    run, rest = _along_arc(point, arc, np.abs(arc.start - arc.center))
-    return (run > ON_PATH) & (rest > ON_PATH)
+    """Does a point of the arc's circle lie on the arc, off its ends?  The angle's rounding grows with the radius."""
+    radius = np.abs(arc.start - arc.center)
+    run, rest = _along_arc(point, arc, radius)
+    room = np.maximum(ON_PATH, _ANGLE_ROUNDING * radius)
+    return (run > room) & (rest > room)
 
 
 def _turned(arc: Pieces, point: Points) -> Floats:

@@ -103,6 +103,12 @@ def test_arc_and_arc(a, b, kind, points):
     _expect(a, b, kind, *points)
 
 
+def test_two_arcs_of_one_circle_of_kilometers_share_only_their_ends():
+    start, end = (-5706746.431163, -3219422.0117399995), (5706746.431163, 3219422.01174)
+    center = (-1662944.930787329, 2947735.653910788)
+    _expect(Arc(start, end, center, Turn.CCW), Arc(end, start, center, Turn.CCW), APART)
+
+
 def test_distances_along_and_rests():
     met = _meet(UPPER, Line((0, 0), (0, 3)))
     assert met.along_a.tolist() == [pytest.approx(pi / 2)]
