@@ -12,6 +12,8 @@ from textual import on, work
 from textual.binding import Binding, BindingType
 from textual.reactive import var
 from textual.screen import Screen
+from textual.timer import Timer
+from textual.worker import get_current_worker
 
 from app import theme
 from app.documents.document import ContourDocument, NcDocument
@@ -21,7 +23,7 @@ from app.file_actions import FileActions
 from app.screens.base import BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.block_findings import Entry
-from app.session.derivation import Request, derived, lookahead_table
+from app.session.derivation import Request, advised, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
 from app.transform_actions import TransformActions
@@ -34,6 +36,10 @@ if TYPE_CHECKING:
     from textual.command import Provider
 
     from app.nc_proof.screen import ProofScreen
+    from core.advice.lookahead_table import Table
+
+QUIET = 0.2
+"""Seconds without a key after which it is looked for what would help: a key never waits for that."""
 
 
 def _actions() -> type[Provider]:
@@ -94,6 +100,7 @@ class CutcompApp(FileActions, TransformActions):
         self._deriving = False
         self._table_wanted: DerivedBlock | None = None
         self._making_table = False
+        self._advice_timer: Timer | None = None
         self.set_reactive(CutcompApp.session, session)
         self.set_reactive(CutcompApp.shown, session)
         for each in theme.themes():
@@ -171,6 +178,7 @@ class CutcompApp(FileActions, TransformActions):
         self.keep(session)
         self.session = session
         self.shown = session
+        self._advise_later()
         if session.program is not before.program:
             self._derive(Request(session.program))
 
@@ -183,6 +191,7 @@ class CutcompApp(FileActions, TransformActions):
 
     def try_out(self, program: Program | None) -> None:
         """Show what a half-typed number would do; None for nothing half-typed."""
+        self._advise_later()
         if program is not None:
             self._derive(Request(program, trial=True))
         elif self.shown is not self.session or self._wanted is not None:
@@ -217,6 +226,7 @@ class CutcompApp(FileActions, TransformActions):
         """Have the look-ahead table of the block in front made, where it is not known yet."""
         block = self.session.derived_block
         if self._making_table or not block.known or (self.session.table and self.session.table[0] is block):
+            self._advise_later()
             return
         self._making_table = True
         self._make_table_in_thread(block, self.session.program)
@@ -227,12 +237,34 @@ class CutcompApp(FileActions, TransformActions):
 
     @on(TableMade)
     def _table_made(self, message: TableMade) -> None:
-        self._making_table = False
+        if not message.advised:
+            self._making_table = False
         trial = self.shown is not self.session
         self.session = self.session.with_table(message.block, message.table)
         if not trial:
             self.shown = self.session
-        self._make_table()
+        if not message.advised:
+            self._make_table()
+
+    def _advise_later(self) -> None:
+        """Stop looking for what would help; begin again once no key has come for a while."""
+        self.workers.cancel_group(self, "advice")
+        if self._advice_timer is not None:
+            self._advice_timer.stop()
+        self._advice_timer = self.set_timer(QUIET, self._advise) if self.is_running else None
+
+    def _advise(self) -> None:
+        """Have notes added to the look-ahead table of the block in front, where they are not known yet."""
+        table, block = self.session.lookahead_table, self.session.derived_block
+        if table is not None and not table.complete and self.shown is self.session and not self._deriving:
+            self._advise_in_thread(block, self.session.program, table)
+
+    @work(thread=True, group="advice", exclusive=True)
+    def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
+        worker = get_current_worker()
+        for noted in advised(block, program, table, lambda: not worker.is_cancelled):
+            if not worker.is_cancelled:
+                self.post_message(TableMade(block, noted, advised=True))
 
     # ---- screens
 

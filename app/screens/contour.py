@@ -17,7 +17,7 @@ from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
 from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, unanswered
 from app.screens.form_screen import FormScreen
-from app.session.block_findings import Entry, block_findings
+from app.session.block_findings import Entry, block_findings, remedy
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
 from app.widgets.field import LISTED, ChoiceField, NumberField
@@ -364,14 +364,15 @@ class ContourScreen(FormScreen):
         return f"{field.label} of {where}, block {place.block}"
 
     def trouble(self, field: Field) -> Sentence | None:
-        """An error that names this field; warnings stand with the verdict, so that the prompt stays."""
+        """An error that names this field, or advice on it; other warnings stand with the verdict."""
         session = self.current_session
         for finding in session.derived_block.findings:
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
             if here and finding.severity is Severity.ERROR and (session.block.segments or finding.code not in NOT_YET):
                 tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
                 return Sentence(sentence(finding, session.program.unit), tone)
-        return None
+        advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
+        return Sentence(advice, Tone.WARNING) if advice else None
 
     def prompt_text(self) -> Sentence:
         """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be."""

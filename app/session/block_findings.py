@@ -34,6 +34,8 @@ TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that something is still to be typed."""
 GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
 """Errors by which the part is damaged."""
+MENDED_ON_START: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
+"""Advice that names a segment, and the field of START in which it is followed."""
 _KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
 
 
@@ -65,8 +67,18 @@ def _entry(finding: Finding, unit: Unit) -> Entry:
     segment = None if finding.segment is None else int(finding.segment)
     where = segment_name(finding.segment) if finding.segment else "START" if segment == 0 else ""
     title = _title(finding, unit)
-    area = finding.area or 0.0
-    return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, finding.field, area)
+    area, field = finding.area or 0.0, finding.field
+    if finding.code in MENDED_ON_START:
+        segment, field = 0, MENDED_ON_START[finding.code]
+    return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, field, area)
+
+
+def remedy(table: Table | None, field: str, unit: Unit) -> str:
+    """What a field of START should hold for a clean path, as a sentence; empty where nothing is known against it."""
+    for note in () if table is None else table.notes:
+        if field == (note.field or MENDED_ON_START.get(note.code)):
+            return sentence(note, unit)
+    return ""
 
 
 def _kind(finding: Finding) -> Kind:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from core.pipeline.derived import Derived, DerivedBlock
@@ -32,6 +33,22 @@ def lookahead_table(block: DerivedBlock, program: Program) -> Table | None:
     from core.pipeline.derive import look_ahead_table
 
     return look_ahead_table(block, program)
+
+
+def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callable[[], bool]) -> Iterator[Table]:
+    """The table with notes as they are found: what would mend the contour, then what a better path would cut.
+
+    `wanted` is asked between two remedies and between the two: where it says no, nothing more is tried.
+    """
+    from core.pipeline.derive import advice_for_block, better_path
+
+    advice = advice_for_block(block, program, table, wanted=wanted)
+    if advice is None:
+        return
+    if advice.sentences:
+        yield replace(table, notes=advice.sentences)
+    if wanted():
+        yield replace(table, notes=(*advice.sentences, *better_path(block)), complete=True)
 
 
 def program_times(derived: Derived) -> tuple[str, dict[int, str]]:

@@ -38,7 +38,8 @@ class ProgramDerived(Message):
 
 @dataclass
 class TableMade(Message):
-    """A worker has made the look-ahead table of a block."""
+    """A worker has made the look-ahead table of a block, or added notes to it: `advised`."""
 
     block: DerivedBlock
     table: Table | None
+    advised: bool = False

@@ -215,7 +215,7 @@ def _advice(case: Case) -> str:
         return ""
     best = case.table.recommended
     if best is None:
-        return "no value is clean"
+        return "none is clean, F10 says why" if case.table.notes else "no value is clean"
     if best == case.lookahead:
         return "this is best"
     row = case.table.row(best)

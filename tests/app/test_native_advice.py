@@ -1,0 +1,79 @@
+"""Advice on the screens: it follows the verdict once no key has come for a while, and tells what would mend it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from threading import Event
+
+import app.app as app_module
+from app.app import QUIET
+from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool
+from tests.app.widget_pilot import Operator, operator
+
+
+def slot() -> Program:
+    """A slot 0.4 wide, cut by a tool of 0.5."""
+    ends = ((0.0, 0.0), (0.4, 0.0), (0.4, 2.0))
+    segments = tuple(LineSegment(x_end=Number(x), y_end=Number(y)) for x, y in ends)
+    block = Block(
+        tool=Number(1.0),
+        cutter_comp=CutterComp.LEFT,
+        x_start=Number(0.0),
+        y_start=Number(2.0),
+        z_start=Number(0.0),
+        z_bottom=Number(-0.25),
+        plunge_feed=Number(5.0),
+        speed=Number(3000.0),
+        segments=segments,
+    )
+    return replace(Program(), tools=(Tool(1, diameter=Number(0.5)),), blocks=(block,))
+
+
+async def advised(one: Operator) -> list[str]:
+    """The texts of all findings once nothing more is looked for."""
+    for _ in range(200):
+        table = one.session.lookahead_table
+        if table is not None and table.complete:
+            break
+        await one.pilot.pause(QUIET / 10)
+    await one.settle()
+    return [entry.text for entry in one.screen.entries]
+
+
+async def test_the_list_says_which_look_ahead_is_clean_and_enter_goes_to_it():
+    async with operator("notch", size=(132, 43)) as one:
+        found = await advised(one)
+        assert "CAL 2 gouges. Enter look-ahead 3, which is clean." in found
+        await one.press("f10", *["down"] * found.index("CAL 2 gouges. Enter look-ahead 3, which is clean."), "enter")
+        assert (one.at, one.session.place.segment) == ("lookahead", 0)
+        assert one.prompt == "CAL 2 gouges. Enter look-ahead 3, which is clean."
+        await one.press("3", "enter")
+        assert not one.session.derived_block.errors
+
+
+async def test_the_largest_tool_that_fits_is_told_in_the_list_and_on_tool():
+    async with operator(slot()) as one:
+        fits = "A tool of 0.3318 diameter fits: look-ahead 1 is then clean."
+        assert fits in await advised(one)
+        assert "none is clean, F10 says why" in str(one.screen.query_exactly_one("#strip").render())
+        await one.press("tab")
+        assert (one.at, one.prompt) == ("tool", fits)
+
+
+async def test_a_key_ends_the_search_for_what_would_help(monkeypatch):
+    searches, go = [], Event()
+
+    def searching(_, __, table, wanted):
+        searches.append(wanted)
+        assert go.wait(10)
+        yield replace(table, complete=True)
+
+    monkeypatch.setattr(app_module, "advised", searching)
+    async with operator(slot()) as one:
+        while not searches:
+            await one.pilot.pause(QUIET / 10)
+        await one.press("tab", "2")
+        assert not searches[0]()
+        go.set()
+        await one.pilot.pause(QUIET / 10)
+        assert not one.session.lookahead_table.complete
