@@ -10,8 +10,7 @@ import os
 import sys
 from pathlib import Path
 
-from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, say
-from app.painted.beforehand import prepare
+from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, prepare, say
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -47,28 +46,19 @@ def _parsed(given: list[str]) -> int:
     if given[0] in COMMANDS:
         return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
     options = screen_parser().parse_args(given)
-    if options.native:
-        from app.cli.native import run
-
-        return run(options.file, example=options.example, characters=options.characters)
-    return screens(options.file, example=options.example, characters=options.characters)
+    return screens(options.file, example=options.example, characters=options.characters, light=options.light)
 
 
-def screens(file: Path | None, *, example: str | None = None, characters: str = "") -> int:
+def screens(file: Path | None, *, example: str | None = None, characters: str = "", light: bool = False) -> int:
     """The screens on a program or on an NC file, an example part, or the start screen; returns the exit status."""
     if file is not None and file.suffix.lower() == ".dxf" and file.is_file():
         say(f"{file} is a drawing: cutcomp import {file} --list shows its contours.")
         return UNUSABLE
-    # before these imports already, not only before those of the screens
+    # before the imports
     prepare()
     from app.cli.screens import run
-    from app.documents.programs import is_nc
 
-    if file is not None and is_nc(file):
-        from app.cli.proof import shown
-
-        return shown(file, characters)
-    return run(file, example=example, characters=characters)
+    return run(file, example=example, characters=characters, light=light)
 
 
 def guarded() -> None:

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
     from app.nc_proof.screen import ProofScreen
     from core.advice.lookahead_table import Table
+    from core.pipeline.checking import Asked
 
 QUIET = 0.2
 """Seconds without a key after which it is looked for what would help: a key never waits for that."""
@@ -86,10 +87,11 @@ class CutcompApp(FileActions, TransformActions):
         opened: Opened[Any] | None = None,
         settings_file: SettingsFile | None = None,
         home: bool = False,
+        asked: Asked | None = None,
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
-        self.service, self._opened, self._home = service, opened, home
+        self.service, self._opened, self._home, self._asked = service, opened, home, asked
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
         held = None if opened is None else opened.document
@@ -119,11 +121,14 @@ class CutcompApp(FileActions, TransformActions):
         if self._home:
             self.action_home()
         if self._opened is not None:
-            if isinstance(self._opened.document, NcDocument):
-                self.show_nc(self._opened.document)
+            document = self._opened.document
+            if isinstance(document, NcDocument):
+                self.show_nc(document, self._asked)
+            elif document.file.path is not None:
+                self.keep_settings(self.settings.using(document.file.path))
             self.tell(self._opened.notice)
             if self._opened.offer is not None:
-                self._ask_offer(self._opened.document, self._opened.offer)
+                self._ask_offer(document, self._opened.offer)
 
     # ---- the session
 
@@ -408,11 +413,11 @@ class CutcompApp(FileActions, TransformActions):
         """A screen over all others."""
         self.push_screen(screen)
 
-    def show_nc(self, document: NcDocument) -> None:
-        """NC PROOF on a text."""
+    def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
+        """NC PROOF on a text, with the control, the tools and the unit that were asked for at the start."""
         from app.nc_proof.screen import ProofScreen
 
-        self.push_screen(ProofScreen(document, self.keep_nc))
+        self.push_screen(ProofScreen(document, self.keep_nc, asked))
 
     @property
     def proof(self) -> ProofScreen | None:

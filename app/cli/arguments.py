@@ -39,7 +39,7 @@ def screen_parser() -> argparse.ArgumentParser:
         default="",
         help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
     )
-    parser.add_argument("--native", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--light", action="store_true", help="dark ink on light paper")
     return parser
 
 

@@ -1,107 +1,54 @@
-"""The entry of the screens: prepares the terminal's side of Textual, then imports and runs the App."""
+"""The entry of the screens: opens the document, prepares the terminal's side of Textual, then runs the App."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from app.cli.shell import UNUSABLE, say
-from app.documents.files import load
+from app.documents.document import ContourDocument
 from app.documents.naming import program_named
-from app.painted.beforehand import prepare
+from app.documents.service import DocumentService, Notice, Opened, Trouble
+from app.documents.settings import SettingsFile, load_settings, settings_file
 from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
-    from app.painted.application import CutcompApp
-    from app.painted.keeping import Keeping
-    from app.painted.nc_keeping import NcKeeping
-    from app.painted.screens.page import Page
-    from app.painted.session import Session
+    from app.app import CutcompApp
+    from core.pipeline.checking import Asked
 
 
 def run(
     path: Path | None,
     *,
     example: str | None = None,
-    page: Callable[[], Page] | None = None,
+    asked: Asked | None = None,
     characters: str = "",
+    light: bool = False,
 ) -> int:
-    """Show the screens on a program file, an example or an empty program; returns the exit status.
+    """Show the screens on a program, an NC file, an example or HOME; returns the exit status.
 
-    `page` makes the only screen where it is another than those of the program, `characters` are those the operator
-    wants the drawing in.
+    `asked` holds the control, the tools and the unit of an NC file; `characters` are those that the operator wants the
+    drawing in.
     """
-    prepare()
     from app.terminal import driver
-    from app.terminal import key_sequences as keys
 
-    reason = "" if in_browser() else driver.refusal(os.environ)
-    if reason:
+    if reason := "" if in_browser() else driver.refusal(os.environ):
         say(reason)
         return UNUSABLE
+    service = DocumentService()
     try:
-        session = begin(path, example)
-        only = None if page is None else page()
+        opened = service.open(path) if asked and path else begin(service, path, example)
     except StoreError as error:
         say(str(error))
         return UNUSABLE
-    keys.teach()
-    first = path is None and example is None and only is None
-    return guarded(session, first=first, only=only, characters=characters)
-
-
-def guarded(session: Session, *, first: bool = False, only: Page | None = None, characters: str = "") -> int:
-    """The App on a session, with its work kept and its end in order; returns the exit status."""
-    from app.painted.application import CutcompApp
-    from app.painted.keeping import Keeping
-    from app.painted.nc_keeping import NcKeeping
-    from app.terminal import driver
-    from app.terminal.capabilities import monochrome
-    from app.terminal.signals import Safety
-
-    keeping, nc_keeping = Keeping(), NcKeeping()
-    if not in_browser() and monochrome(os.environ):
-        os.environ["NO_COLOR"] = "1"
-    few = not in_browser() and driver.few_colors(os.environ)
-    app = CutcompApp(session, keep=lambda desk: nc_keeping.keep(keeping.keep(desk)), few_colors=few)
-    keep_settings(app, first=first)
-    if only is not None:
-        app.desk = nc_keeping.keep(replace(app.desk, pages=(only,)))
-    if not in_browser():
-        settle_terminal(app, characters)
-    safety = Safety(lambda status: app.exit(status, return_code=status), lambda: closed(keeping, nc_keeping))
-    safety.arm()
-    try:
-        app.run(mouse=False)
-    finally:
-        closed(keeping, nc_keeping)
-    if safety.status is not None:
-        safety.leave()
-    return app.return_code or 0
-
-
-def closed(keeping: Keeping, nc_keeping: NcKeeping) -> None:
-    """The end of the journals and locks."""
-    try:
-        keeping.close()
-    finally:
-        nc_keeping.close()
-
-
-def settle_terminal(app: CutcompApp, wanted: str) -> None:
-    """Our driver, and the characters that the terminal takes: those of last time if it can have them."""
-    from app.terminal import character_set as charset
-    from app.terminal import driver
-
-    app.driver_class = driver.TerminalDriver
-    name, modes = driver.characters(charset.own(os.environ), wanted)
-    charset.settle(sys.__stderr__, name)
-    mode = app.desk.settings.mode
-    app.desk = replace(app.desk, modes=modes, mode=mode if mode in modes and not wanted else modes[0])
+    if isinstance(opened, Trouble):
+        say(opened.text)
+        return UNUSABLE
+    home = path is None and example is None
+    return guarded(service, made(service, opened, home, asked, characters, light=light))
 
 
 def in_browser() -> bool:
@@ -109,41 +56,62 @@ def in_browser() -> bool:
     return bool(os.environ.get("TEXTUAL_DRIVER"))
 
 
-def keep_settings(app: CutcompApp, *, first: bool) -> None:
-    """Take up what stays from one time to the next, and keep it from now on; `first` begins with the start screen.
-
-    That this file was the last one is put on the disk once the first screen stands.
-    """
-    from app.painted import settings
-
-    file = settings.place()
-    held, trouble = settings.load(file)
-    keeper, keep = settings.Keeper(file, held), app.keep
-    app.keep = lambda desk: keeper.keep(keep(desk))
-    desk = settings.taken_up(app.desk, held, trouble)
-    if first:
-        from app.painted import starting
-
-        desk = starting.begun(desk)
-    app.desk = desk
-
-
-def begin(path: Path | None, example: str | None) -> Session:
-    """The session to begin with; StoreError when the file is none."""
-    from app.documents import programs as files
-    from app.painted.opened import opened
-    from app.painted.session import Session
-
+def begin(service: DocumentService, path: Path | None, example: str | None) -> Opened[Any] | Trouble:
+    """The document to begin with; StoreError when the file is none."""
     if example is not None:
-        return replace(Session.of(load(files.example(example))), title=example)
-    if path is None:
-        return Session.of(files.empty_program())
-    path = program_named(path)
-    if not path.exists() and path.parent.is_dir():
-        return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
-    try:
-        return opened(path)
-    except StoreError as error:
-        from app.painted.rescue import rescued
+        return service.example(example)
+    return service.new(offers=True) if path is None else service.open(program_named(path))
 
-        return rescued(path, error)
+
+def made(
+    service: DocumentService, opened: Opened[Any], home: bool, asked: Asked | None, characters: str, *, light: bool
+) -> CutcompApp:
+    """The App on a document, as the terminal and the settings of last time have it."""
+    from app.app import CutcompApp
+    from app.file_actions import session_of
+    from app.terminal import character_set, driver, key_sequences
+    from app.terminal.capabilities import monochrome
+    from app.terminal.key_order import WidgetDriver
+
+    browser = in_browser()
+    key_sequences.teach()
+    if not browser and monochrome(os.environ):
+        os.environ["NO_COLOR"] = "1"
+    settings, trouble = load_settings(settings_file())
+    if trouble and opened.notice is None:
+        opened = replace(opened, notice=Notice(trouble, warning=True))
+    environment = character_set.own(os.environ)
+    name, character_sets = ("", driver.MODES) if browser else driver.characters(environment, characters)
+    if settings.characters in character_sets and not characters:
+        character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
+    program = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
+    app = CutcompApp(
+        session_of(program),
+        character_sets=character_sets,
+        few_colors=not browser and driver.few_colors(os.environ),
+        light=light or settings.theme == "light",
+        service=service,
+        opened=opened,
+        settings_file=SettingsFile(settings_file(), settings),
+        home=home,
+        asked=asked,
+    )
+    if not browser:
+        app.driver_class = WidgetDriver
+        character_set.settle(sys.__stderr__, name)
+    return app
+
+
+def guarded(service: DocumentService, app: CutcompApp) -> int:
+    """Run the App to its end, wanted or not; what is not saved stays in the journals."""
+    from app.terminal.signals import Safety
+
+    safety = Safety(lambda status: app.exit(status, return_code=status), service.stop)
+    safety.arm()
+    try:
+        app.run(mouse=False)
+    finally:
+        service.stop()
+    if safety.status is not None:
+        safety.leave()
+    return app.return_code or 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import os
 import sys
 from typing import Final
 
@@ -20,6 +22,21 @@ SHOP_HELP: Final = {
     "tools": "list the tool table, or import one of LinuxCNC",
     "serve": "the screens in a browser on this machine",
 }
+
+SWITCH_SECONDS: Final = 0.0005
+"""How long a thread calculates before another one that waits has its turn; a tenth of what is usual."""
+
+
+def prepare() -> None:
+    """Settle what must be so before Textual is imported, or anything else that is large.
+
+    Without the first, F3 of some terminals is lost.  The imports make hundreds of thousands of objects that stay:
+    looking through them again and again costs a tenth of the start, so the App switches the collector on again.
+    A key waits no longer than `SWITCH_SECONDS` for what a thread is calculating, each time it has to.
+    """
+    os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
+    gc.disable()
+    sys.setswitchinterval(SWITCH_SECONDS)
 
 
 def say(text: str) -> None:

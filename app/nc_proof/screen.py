@@ -33,6 +33,7 @@ from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
     from core.draw.view import View
+    from core.pipeline.checking import Asked
 
 READING: Final = (
     "Enter edits, N and P go from finding to finding, C another control, T a tool's diameter, V compares all controls."
@@ -81,12 +82,16 @@ class ProofScreen(BaseScreen):
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 
-    def __init__(self, document: NcDocument, keep: Callable[[NcDocument], None], *, control: str = "") -> None:
+    def __init__(self, document: NcDocument, keep: Callable[[NcDocument], None], asked: Asked | None = None) -> None:
         super().__init__()
         self.document, self._keep = document, keep
         text = document.text
-        self.question = Question(text, control or likely_control(text), ToolTable())
+        control = likely_control(text)
+        self.question = Question(text, control, ToolTable())
         self.tool = first_tool(text)
+        if asked is not None:
+            self.question = Question(text, asked.control or control, asked.tools, asked.unit)
+            self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
         self.view_of: View | None = None
 

@@ -54,7 +54,7 @@ def program_at_rest(program: Program) -> Iterator[Terminal]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
         save(program, path)
-        with running([sys.executable, "-m", "app", "--native", str(path)]) as terminal:
+        with running([sys.executable, "-m", "app", str(path)]) as terminal:
             terminal.until("MILL CONTOUR")
             answer(terminal, b"")
             yield terminal
@@ -81,7 +81,7 @@ def paints(program: Program, rounds: int) -> tuple[float, float]:
     """Median seconds to the first paint of an empty app that imports Input, and of the program, in turn."""
     with tempfile.TemporaryDirectory() as folder:
         save(program, path := Path(folder) / "part.toml")
-        ours = [sys.executable, "-m", "app", "--native", str(path)]
+        ours = [sys.executable, "-m", "app", str(path)]
         empty = [sys.executable, "-c", EMPTY_APP]
         pairs = [(first_paint(empty, "READY"), first_paint(ours, "MILL CONTOUR")) for _ in range(rounds)]
     return statistics.median(pair[0] for pair in pairs), statistics.median(pair[1] for pair in pairs)

@@ -1,0 +1,66 @@
+"""Every way to start the screens: in a terminal, and as the child of a server for browsers."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.terminal import running
+
+PROGRAM = [sys.executable, "-m", "app"]
+NC = "G20 G90 G17\nG0 X0 Y0\nT1 M6\nM30\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "seen"),
+    [
+        ((), ("overrun-square",)),
+        (("--example", "pocket"), ("MILL CONTOUR", "of 11")),
+        (("new", "--light"), ("MILL CONTOUR", "new.toml does not exist yet")),
+        (("part.nc",), ("NC PROOF", "linuxcnc", "G0 X0 Y0")),
+        (("proof", "part.nc", "--control", "fanuc", "--tool", "1=.375"), ("NC PROOF", "fanuc", "1=0.375")),
+    ],
+)
+def test_the_screens_stand_on_what_was_asked_for(
+    arguments: tuple[str, ...], seen: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "part.nc").write_text(NC)
+    monkeypatch.setenv("PYTHONPATH", str(Path.cwd()))
+    monkeypatch.chdir(tmp_path)
+    with running([*PROGRAM, *arguments]) as terminal:
+        for text in seen:
+            terminal.until(text, longest=30)
+
+
+def test_a_program_is_no_nc_file_to_prove(tmp_path: Path) -> None:
+    part = tmp_path / "part.toml"
+    part.write_text(Path("app/examples/pocket.toml").read_text())
+    done = subprocess.run([*PROGRAM, "proof", part], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "is a program, not an NC file" in done.stderr
+
+
+def test_the_child_of_a_server_needs_no_terminal() -> None:
+    environment = {
+        **os.environ,
+        "TEXTUAL_DRIVER": "textual.drivers.web_driver:WebDriver",
+        "COLUMNS": "80",
+        "ROWS": "24",
+    }
+    child = subprocess.Popen(
+        [*PROGRAM, "--example", "pocket"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment
+    )
+    try:
+        data = b""
+        while b"MILL CONTOUR" not in data:
+            got = os.read(child.stdout.fileno(), 65536)
+            assert got, data
+            data += got
+    finally:
+        child.send_signal(signal.SIGTERM)
+        child.stdin.close()
+        child.stdout.close()
+        child.wait(10)
