@@ -9,6 +9,7 @@ import pty
 import select
 import signal
 import struct
+import sys
 import tempfile
 import termios
 import time
@@ -18,6 +19,11 @@ from dataclasses import dataclass, field
 import pyte
 
 PASSED_ON = ("PATH", "HOME", "LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV")
+
+
+def cutcomp(*arguments: str) -> list[str]:
+    """The command that starts the screens with these arguments."""
+    return [sys.executable, "-m", "app", "--native", *arguments]
 
 
 @dataclass

@@ -1,9 +1,10 @@
 """Killed at random moments, nothing that was accepted is lost: `python -m tests.reports.kill --times 500`.
 
-A real pty types a program into the real screens until SIGKILL strikes, at a moment drawn at random: while it starts,
-while it asks, in the middle of a key, a write or a save.  The same keys go into a desk in memory, which knows the
-program and its undo after each of them.  What comes back must be a state between the last one that the screen had
-acknowledged and the last key sent, with its undo; the next start must offer it, restore it, and save it as it is.
+Into the real program in a pseudo-terminal a contour program or an NC text is typed until a signal strikes, at a moment
+drawn at random: while it starts, while it asks, in the middle of a key, a write or a save.  SIGKILL leaves no time,
+SIGHUP and SIGTERM two seconds.  What is typed is known edit by edit without the program's screens.  What comes back
+must be a state between the last one that the screen had acknowledged and the last key sent, with its undo; the next
+start must offer it, restore it, and save it as it is.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ from __future__ import annotations
 import argparse
 import os
 import random
-import re
 import signal
 import sys
 import tempfile
@@ -21,70 +21,21 @@ from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Final
 
-from app.documents.files import load
 from app.documents.journal_file import journal_path
-from app.documents.programs import empty_program
-from app.painted.desk import Desk
-from app.painted.places import read
-from app.painted.session import FIRST, SEGMENT, Session
-from core.program.edit import FormPlace
-from core.program.history import History, differences
-from tests.app.operator import Operator
-from tests.terminal import Terminal, running
+from app.documents.left_overs import read
+from tests.reports.kill_parts import NC, ContourPart, NcPart, Part, bytes_of_key
+from tests.terminal import Terminal, cutcomp, running
 
-LIVES_OF_A_PART = 30
+LIVES_OF_A_PART: Final = 20
 """After so many kills another part is begun, so that programs of all lengths are typed."""
-
-
-BYTES = {
-    "tab": b"\t",
-    "enter": b"\r",
-    "up": b"\x1b[A",
-    "down": b"\x1b[B",
-    "shift+tab": b"\x1b[Z",
-    "pageup": b"\x1b[5~",
-    "pagedown": b"\x1b[6~",
-    "backspace": b"\x7f",
-    "delete": b"\x1b[3~",
-    "ctrl+z": b"\x1a",
-    "ctrl+y": b"\x19",
-    "ctrl+s": b"\x13",
-}
-"""What a terminal sends for a key that is no character."""
-MOVES = ("tab", "tab", "tab", "down", "up", "shift+tab", "pageup", "pagedown")
-
-
-@dataclass
-class Part:
-    """One program on its way through many crashes: its file, and the desk in memory after every key since the start.
-
-    `acknowledged` is the index of the last state that the screen of the killed program had shown.
-    """
-
-    file: Path
-    states: list[Session] = field(default_factory=list)
-    operator: Operator = field(default_factory=Operator.at)
-    acknowledged: int = 0
-
-    def begin(self, history: History, where: FormPlace = FIRST, name: str = SEGMENT) -> None:
-        """Go on from here, as the program does it after a start; what the desk in memory saves goes elsewhere."""
-        shadow = self.file.with_suffix(".shadow")
-        shadow.unlink(missing_ok=True)
-        session = replace(Session.of(history.program, shadow), history=history).at(where, name)
-        self.operator = Operator(Desk(session))
-        self.states, self.acknowledged = [session], 0
-
-    def press(self, key: str) -> None:
-        """A key typed."""
-        self.operator.press(key)
-        self.states.append(self.operator.session)
-
-    def possible(self) -> list[Session]:
-        """What may come back."""
-        return self.states[self.acknowledged :]
+SIGNALS: Final = (signal.SIGKILL, signal.SIGKILL, signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)
+PATIENCE: Final = 30.0
+LONGEST_LIFE: Final = 2.0
+"""Seconds of typing until the signal strikes."""
 
 
 @dataclass
@@ -100,48 +51,29 @@ class Tally:
         self.moments.update(other.moments)
         self.lost += other.lost
 
-
-def counts(text: str) -> tuple[int, int]:
-    """How much the screen says can be undone and redone."""
-    last = text.rstrip().splitlines()[-1] if text.strip() else ""
-    found = {name: re.search(rf"\b{name} (\d+)", last) for name in ("undo", "redo")}
-    undo, redo = (0 if one is None else int(one[1]) for one in found.values())
-    return undo, redo
+    def lose(self, part: Part, found: object) -> None:
+        """Tell what is missing."""
+        self.lost.append(f"{part.file.name}, kill {self.kills}: {part.missing(found)}")
 
 
-def counts_of(history: History) -> tuple[int, int]:
-    """How much can be undone and redone."""
-    return history.undo_count, history.redo_count
-
-
-def acknowledge(part: Part, terminal: Terminal) -> None:
-    """The first state from the last acknowledged one on that the screen may be showing."""
-    shown = counts(terminal.text)
-    for index in range(part.acknowledged, len(part.states)):
-        if counts_of(part.states[index].history) == shown:
-            part.acknowledged = index
-            return
-
-
-def type_until_killed(part: Part, terminal: Terminal, chance: random.Random) -> None:
+def type_until_killed(part: Part, terminal: Terminal, chance: random.Random, tally: Tally) -> None:
     """Type; now and then wait until the screen has caught up, now and then do not."""
     while terminal.ended() is None:
-        for key in next_keys(chance, part.operator):
-            part.press(key)
+        for key in part.next_keys(chance):
+            tally.moments["keys typed"] += 1
             with suppress(OSError):
                 terminal.send(bytes_of_key(key))
             if chance.random() < 0.3:
                 terminal.read(quiet=0.001, longest=0.02)
         if chance.random() < 0.6:
             wait_for(part, terminal)
-        acknowledge(part, terminal)
+        part.acknowledge(terminal.text)
 
 
 def wait_for(part: Part, terminal: Terminal) -> None:
     """Until the screen shows the last state, or the program is dead."""
-    wanted = counts_of(part.states[-1].history)
     begun = time.monotonic()
-    while counts(terminal.text) != wanted and time.monotonic() - begun < 1.0:
+    while not part.states[-1].shown(terminal.text) and time.monotonic() - begun < 1.0:
         if terminal.read(quiet=0.01, longest=0.01).count == 0 and not alive(terminal.pid):
             return
 
@@ -153,106 +85,127 @@ def alive(pid: int) -> bool:
 
 def came_back(part: Part, tally: Tally) -> bool:
     """Go on from what came back, by the journal or by the saved file; tells whether it must be offered."""
-    saved = load(part.file) if part.file.exists() else empty_program()
-    found = read(journal_path(part.file))
-    if found is None or found.history.program == saved:
-        if not any(state.program == saved for state in part.possible()):
-            lose(part, tally, History(saved))
-        part.begin(History(saved))
+    saved, possible = part.saved_work(), part.possible()
+    journal = read(journal_path(part.file))
+    if journal is None or part.content(part.work_of(journal)) == saved:
+        if possible and not any(part.content(work) == saved for work in possible):
+            tally.lose(part, saved)
+        part.begin(None)
         return False
-    if not any(state.history == found.history for state in part.possible()):
-        lose(part, tally, found.history)
-    part.begin(found.history, found.cursor.where, found.cursor.field)
+    found = part.work_of(journal)
+    if possible and found not in possible:
+        tally.lose(part, part.content(found))
+    part.begin(journal)
     return True
 
 
-def lose(part: Part, tally: Tally, history: History) -> None:
-    """Tell what is missing."""
-    wanted = part.states[part.acknowledged]
-    words = differences(history.program, wanted.program) or ("the same program with another history",)
-    tally.lost.append(
-        f"{part.file.name}, kill {tally.kills}: undo, redo {counts_of(history)} came back, "
-        f"{counts_of(wanted.history)} had been accepted. {' '.join(words)}"
-    )
-
-
-def restored(terminal: Terminal, *, offered: bool) -> None:
+def restored(terminal: Terminal, part: Part, *, offered: bool) -> None:
     """The start of the program: what was left behind is offered and restored."""
-    terminal.until("RESTORE" if offered else "MILL CONTOUR")
+    terminal.until("RESTORE" if offered else part.READY, longest=PATIENCE)
     if offered:
         terminal.send(b"r")
-        terminal.until("Your work is back")
+        terminal.until("Your work is back", longest=PATIENCE)
     else:
+        terminal.read(quiet=0.2)
         assert "RESTORE" not in terminal.text
+    for key in part.prepare():
+        terminal.send(bytes_of_key(key))
 
 
 def compared(part: Part, terminal: Terminal, tally: Tally) -> None:
-    """Saved by the real program, what came back is what the desk in memory has.
+    """Saved by the real program, the file holds what was typed.
 
-    Killed behind a save and before its journal says so, it asks: the file is not the one that the journal is about.
+    Killed after a save and before its journal says so, it asks: the file is not the one that the journal is about.
     """
     terminal.send(b"\x13")
-    part.press("ctrl+s")
-    terminal.until("Saved", "CHANGED MEANWHILE")
+    terminal.until("Saved", "CHANGED MEANWHILE", longest=PATIENCE)
     if "CHANGED MEANWHILE" in terminal.text:
         tally.moments["killed between a save and its journal"] += 1
-        assert "It holds the same program as when it was opened here." in " ".join(terminal.text.split())
         terminal.send(b"y")
-        terminal.until("Saved")
-    if load(part.file) != part.states[-1].program:
-        lose(part, tally, History(load(part.file)))
+        terminal.until("Saved", longest=PATIENCE)
+    tally.moments["saved and compared"] += 1
+    if part.saved_work() != part.content(part.states[-1].work):
+        tally.lose(part, part.saved_work())
 
 
 def one_life(part: Part, chance: random.Random, tally: Tally, own: Path) -> None:
     """From a start to the next kill."""
-    if not part.states:
-        part.begin(History(empty_program()))
     offered = came_back(part, tally)
     tally.moments["work offered" if offered else "nothing to offer"] += 1
+    number = chance.choice(SIGNALS)
     early = chance.random() < 0.2
-    with running(
-        [sys.executable, "-m", "app", str(part.file)],
-        environment={"XDG_STATE_HOME": str(own), "XDG_CONFIG_HOME": str(own)},
-    ) as terminal:
+    folders = {"XDG_STATE_HOME": str(own), "XDG_CONFIG_HOME": str(own)}
+    with running(cutcomp(str(part.file)), environment=folders) as terminal:
         if early:
-            time.sleep(chance.uniform(0.0, 0.9))
+            time.sleep(chance.uniform(0.0, 1.5))
             tally.moments["killed while it starts or asks"] += 1
             if chance.random() < 0.5:
                 terminal.read(quiet=0.0, longest=0.0)
                 terminal.send(b"r")
                 time.sleep(chance.uniform(0.0, 0.02))
-            os.kill(terminal.pid, signal.SIGKILL)
+            os.kill(terminal.pid, number)
         else:
-            restored(terminal, offered=offered)
+            restored(terminal, part, offered=offered)
             if chance.random() < 0.3:
                 compared(part, terminal, tally)
-            struck(part, terminal, chance)
+            struck(part, terminal, chance, tally, number)
             tally.moments["killed while it is typed into"] += 1
-            tally.moments["keys typed"] += len(part.states) - 1
-            tally.moments["keys ahead of the screen"] += len(part.states) - 1 - part.acknowledged
+            tally.moments["edits typed"] += len(part.states) - 1
+            tally.moments["edits ahead of the screen"] += len(part.states) - 1 - part.acknowledged
+        wait_for_end(terminal, tally, number)
     tally.kills += 1
+    tally.moments[f"{number.name} {type(part).__name__}"] += 1
 
 
-def struck(part: Part, terminal: Terminal, chance: random.Random) -> None:
+def wait_for_end(terminal: Terminal, tally: Tally, number: signal.Signals) -> None:
+    """Until it is dead: what it still writes counts."""
+    begun = time.monotonic()
+    while alive_still(terminal):
+        terminal.read(quiet=0.02, longest=0.05)
+        if time.monotonic() - begun > PATIENCE:
+            tally.lost.append(f"{number.name} has not ended the program")
+            return
+
+
+def alive_still(terminal: Terminal) -> bool:
+    """Whether it runs; also after it was waited for."""
+    with suppress(ChildProcessError):
+        return alive(terminal.pid)
+    return False
+
+
+def struck(part: Part, terminal: Terminal, chance: random.Random, tally: Tally, number: signal.Signals) -> None:
     """Typed into until a timer kills, whatever is going on at that moment."""
-    timer = threading.Timer(chance.uniform(0.0, 1.0), os.kill, (terminal.pid, signal.SIGKILL))
+    timer = threading.Timer(chance.uniform(0.0, LONGEST_LIFE), os.kill, (terminal.pid, number))
     timer.start()
     try:
-        type_until_killed(part, terminal, chance)
+        type_until_killed(part, terminal, chance, tally)
     finally:
         timer.join()
     terminal.read(quiet=0.05, longest=0.5)
-    acknowledge(part, terminal)
+    part.acknowledge(terminal.text)
+
+
+def new_part(folder: Path, seed: int, number: int) -> Part:
+    """Contour programs and NC texts by turns."""
+    if number // LIVES_OF_A_PART % 2 == 0:
+        return ContourPart(folder / f"part-{seed}-{number}.toml")
+    part = NcPart(folder / f"part-{seed}-{number}.nc")
+    part.file.write_bytes(NC)
+    return part
 
 
 def lives(times: int, seed: int) -> Tally:
     """So many kills, one after the other."""
     chance, tally = random.Random(seed), Tally()
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        part = new_part(folder, seed, 0)
         for number in range(times):
-            if number % LIVES_OF_A_PART == 0:
-                part = Part(Path(folder) / f"part-{seed}-{number}.toml")
-            one_life(part, chance, tally, Path(folder))
+            if number and number % LIVES_OF_A_PART == 0:
+                came_back(part, tally)
+                part = new_part(folder, seed, number)
+            one_life(part, chance, tally, folder)
         came_back(part, tally)
     return tally
 
@@ -279,31 +232,6 @@ def main() -> int:
             whole.add(tally)
     print("\n".join(report(whole)))
     return 1 if whole.lost else 0
-
-
-def next_keys(chance: random.Random, operator: Operator) -> list[str]:
-    """What an operator does next."""
-    kind = chance.choices(("number", "move", "segment", "undo", "redo", "save", "rubbish"), (10, 5, 3, 2, 1, 1, 1))[0]
-    match kind:
-        case "number":
-            text = f"{chance.uniform(-5, 20):.{chance.randint(0, 4)}f}"
-            return [*text, chance.choice(("enter", "tab", "down"))]
-        case "segment":
-            count = len(operator.session.block.segments) - operator.session.where.segment + 1
-            return [*["pagedown"] * count, chance.choice("lab")]
-        case "undo" | "redo":
-            return ["ctrl+z" if kind == "undo" else "ctrl+y"] * chance.randint(1, 4)
-        case "save":
-            return ["ctrl+s"]
-        case "rubbish":
-            return [*"2..5", "tab"]
-        case _:
-            return [chance.choice(MOVES) for _ in range(chance.randint(1, 3))]
-
-
-def bytes_of_key(key: str) -> bytes:
-    """A key as bytes."""
-    return BYTES.get(key) or key.encode()
 
 
 if __name__ == "__main__":
