@@ -23,7 +23,7 @@ PASSED_ON = ("PATH", "HOME", "LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV")
 
 def cutcomp(*arguments: str) -> list[str]:
     """The command that starts the screens with these arguments."""
-    return [sys.executable, "-m", "app", "--native", *arguments]
+    return [sys.executable, "-m", "app", *arguments]
 
 
 @dataclass
