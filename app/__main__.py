@@ -10,6 +10,7 @@ import os
 import sys
 from pathlib import Path
 
+from app.cli import lifeline
 from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, prepare, say
 
 
@@ -63,6 +64,7 @@ def screens(file: Path | None, *, example: str | None = None, characters: str = 
 
 def guarded() -> None:
     """The console command: a closed pipe and Ctrl+C end it quietly, trouble with files in a sentence."""
+    lifeline.watch()
     try:
         status = main()
         # what fails now would be told by the interpreter, and not in a sentence

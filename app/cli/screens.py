@@ -52,7 +52,7 @@ def run(
 
 
 def in_browser() -> bool:
-    """Whether `cutcomp serve` has started this: Textual's own driver then talks to the browser."""
+    """Whether `cutcomp serve` has started this: a page then stands in for the terminal."""
     return bool(os.environ.get("TEXTUAL_DRIVER"))
 
 
@@ -96,7 +96,11 @@ def made(
         home=home,
         asked=asked,
     )
-    if not browser:
+    if browser:
+        from app.terminal.browser import BrowserDriver
+
+        app.driver_class = BrowserDriver
+    else:
         app.driver_class = WidgetDriver
         character_set.settle(sys.__stderr__, name)
     return app

@@ -6,6 +6,7 @@ Host is not the served address is refused.
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import logging
 import os
@@ -14,13 +15,14 @@ import secrets
 import shlex
 import sys
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from importlib import import_module
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, Final
 from urllib.parse import urlsplit
 
-from app.cli.web_children import service
+from app.cli.lifeline import GRACE
 
 LOCAL: Final = ("127.0.0.1", "::1", "localhost")
 MISSING: Final = "the browser needs one more package: install cutcomp[web], or textual-serve beside cutcomp."
@@ -41,12 +43,18 @@ ELSEWHERE: Final = re.compile(r"<link[^>]*https?://fonts\.[^>]*>")
 """A type from another machine: without the internet the page would wait for it."""
 SESSIONS: Final = 8
 """Pages at a time; each is a process of its own."""
+FULL: Final = f"{SESSIONS} pages are open, and there is room for no more. Close one, then load this page again."
+FULL_SHOWN: Final = 600.0
+"""Seconds that this sentence stands in a page."""
+LOOK: Final = 0.5
+"""Seconds between two looks whether a page is still there."""
 HEADERS: Final = {
     "X-Frame-Options": "DENY",
     "Content-Security-Policy": "default-src 'self' 'unsafe-inline' data:; frame-ancestors 'none'; base-uri 'none'",
     "Referrer-Policy": "no-referrer",
 }
 """No page of another's around this one, nothing from elsewhere in it, its address told to nobody."""
+log = logging.getLogger("cutcomp.serve")
 _NAME: Final = re.compile(r"[\w.:\[\]-]+", re.ASCII)
 
 
@@ -73,27 +81,40 @@ def command(file: Path | None) -> str:
 
 def serve(file: Path | None, host: str, port: int) -> None:
     """Serve until Ctrl+C; ImportError without the package for it."""
-    module: Any = import_module("textual_serve.server")
     # the screens are found wherever the server was started, and nothing of that folder is taken for them
     root = str(Path(__file__).parents[2])
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
-    module.AppService = service()
-    # the log of every request would repeat the secret
-    logging.getLogger("aiohttp.access").setLevel(logging.WARNING)
-    server = module.Server(command(file), host, port, title="cutcomp", public_url=address(host, port))
-    server.handle_index = _own_page(server.handle_index, host, port)
-    server.handle_websocket = _limited(_own_pages_only(server.handle_websocket, host, port))
     secret = secrets.token_urlsafe(24)
-    server.on_startup = _announce(f"{address(host, port)}/{secret}/")
+    server = site(file, host, port, secret)
+    server.initialize_logging()
+    words = f"Open {address(host, port)}/{secret}/\nPress Ctrl+C to end."
+    import_module("aiohttp.web").run_app(
+        server._make_app(),
+        host=host,
+        port=port,
+        # said once it listens; the log of every request would repeat the secret
+        print=lambda _: print(words, flush=True),
+        access_log=None,
+        shutdown_timeout=GRACE,
+    )
+
+
+def site(file: Path | None, host: str, port: int, secret: str) -> Any:  # noqa: ANN401  # comes with the extra package
+    """The server of the screens on a file, behind a secret; ImportError without the package for it."""
+    module: Any = import_module("textual_serve.server")
+    module.AppService = import_module("app.cli.web_children").Service
+    server = module.Server(command(file), host, port, title="cutcomp", public_url=address(host, port))
+    pages = Pages(server.handle_websocket)
+    server.handle_index = _own_page(server.handle_index, host, port, pages)
+    server.handle_websocket = _own_pages_only(pages.connect, host, port)
+    server.on_startup = _nothing
+    server.on_shutdown = pages.end
     server._make_app = _behind_secret(server._make_app, secret)
-    server.serve()
+    return server
 
 
-def _announce(page: str) -> Callable[[Any], Awaitable[None]]:
-    async def announce(_: object) -> None:
-        print(f"Open {page}\nPress Ctrl+C to end.", flush=True)
-
-    return announce
+async def _nothing(_: object) -> None:
+    """In place of the package's own greeting, which names an address without the secret."""
 
 
 def knows(path: str, secret: str) -> bool:
@@ -123,26 +144,59 @@ def _behind_secret(make: Callable[[], Awaitable[Any]], secret: str) -> Callable[
     return app
 
 
-def _limited(handle: Callable[[Any], Awaitable[Any]]) -> Callable[[Any], Awaitable[Any]]:
-    """At most SESSIONS pages at a time; each is logged with its address."""
-    full = import_module("aiohttp.web").HTTPServiceUnavailable
-    log = logging.getLogger("cutcomp.serve")
-    count = 0
+class Pages:
+    """The pages that are open: at most SESSIONS at a time, each logged with its address, none behind its connection."""
 
-    async def limited(request: Any) -> Any:  # noqa: ANN401
-        nonlocal count
-        if count >= SESSIONS:
-            log.warning("refused %s: %d pages are open", request.remote, count)
-            raise full(text=f"{SESSIONS} pages are open; close one first.")
-        count += 1
-        log.info("connected: %s", request.remote)
+    def __init__(self, handle: Callable[[Any], Awaitable[Any]]) -> None:
+        self._handle = handle
+        self._open: set[asyncio.Future[Any]] = set()
+        self._refused: set[asyncio.Future[Any]] = set()
+
+    @property
+    def full(self) -> bool:
+        """Whether there is room for no more."""
+        return len(self._open) >= SESSIONS
+
+    async def connect(self, request: Any) -> Any:  # noqa: ANN401  # as above
+        """A page's connection, from its beginning to its end."""
+        full = self.full
+        log.log(logging.WARNING if full else logging.INFO, "%s: %s", "refused" if full else "connected", request.remote)
+        pages = self._refused if full else self._open
+        page = asyncio.ensure_future(_last_words(request) if full else self._handle(request))
+        pages.add(page)
         try:
-            return await handle(request)
+            while not page.done():
+                await asyncio.wait({page}, timeout=LOOK)
+                if request.transport is None:
+                    # whatever it waits for: nobody is there any more
+                    page.cancel()
+            return await page
         finally:
-            count -= 1
+            page.cancel()
+            pages.discard(page)
             log.info("closed: %s", request.remote)
 
-    return limited
+    async def end(self, _: object) -> None:
+        """End all of them, and wait until they have."""
+        for patience in (GRACE + 0.2, 0.3):
+            pages = self._open | self._refused
+            for page in pages:
+                # the second time, what waits for a browser's good-bye
+                page.cancel()
+            if pages:
+                await asyncio.wait(pages, timeout=patience)
+
+
+async def _last_words(request: Any) -> Any:  # noqa: ANN401
+    """Say in the page that there is no room for it; a refused connection would only look broken."""
+    socket = import_module("aiohttp.web").WebSocketResponse()
+    await socket.prepare(request)
+    await socket.send_bytes(f"\x1b[2J\x1b[H{FULL}\r\n".encode())
+    with suppress(TimeoutError):
+        # until the page is closed: at the end of its connection it would cover the sentence
+        await asyncio.wait_for(socket.receive(), FULL_SHOWN)
+    await socket.close()
+    return socket
 
 
 def address(host: str, port: int) -> str:
@@ -161,8 +215,14 @@ def _own_pages_only(handle: Callable[[Any], Awaitable[Any]], host: str, port: in
     return guarded
 
 
-def _own_page(handle: Callable[[Any], Awaitable[Any]], host: str, port: int) -> Callable[[Any], Awaitable[Any]]:
+def _own_page(
+    handle: Callable[[Any], Awaitable[Any]], host: str, port: int, pages: Pages
+) -> Callable[[Any], Awaitable[Any]]:
+    full = import_module("aiohttp.web").HTTPServiceUnavailable
+
     async def page(request: Any) -> Any:  # noqa: ANN401  # as above
+        if pages.full:
+            raise full(text=FULL)
         answer = await handle(request)
         answer.text = adapted(answer.text, address(host, port), request.headers.get("Host", ""))
         return answer

@@ -1,0 +1,34 @@
+"""A program that a server has started ends when that server ends, in whatever way, also where there is no prctl.
+
+The server holds one end of a pipe and never writes.  The system closes that end with the server, and the program,
+which waits for this in a thread from its first line on, sees the end of the pipe.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from threading import Thread
+from time import sleep
+from typing import Final
+
+VARIABLE: Final = "CUTCOMP_LIFELINE"
+"""Holds the number of the pipe's end."""
+GRACE: Final = 1.0
+"""Seconds a program has to end in order; what was accepted is on the disk already."""
+
+
+def watch() -> None:
+    """Watch the pipe that the environment names, if it names one."""
+    number = os.environ.pop(VARIABLE, "")
+    if number.isdecimal():
+        os.set_inheritable(int(number), False)
+        Thread(target=_wait, args=(int(number),), name="lifeline", daemon=True).start()
+
+
+def _wait(handle: int) -> None:
+    while os.read(handle, 1):
+        pass
+    os.kill(os.getpid(), signal.SIGHUP)
+    sleep(GRACE)
+    os.kill(os.getpid(), signal.SIGKILL)

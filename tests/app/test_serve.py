@@ -1,0 +1,313 @@
+"""`cutcomp serve`: who is let in, what a page may ask for, and the end of the programs behind the pages."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import os
+import shlex
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("textual_serve", reason="the extra web is not installed")
+
+import aiohttp
+
+from app.cli import web, web_children
+from app.cli.web import FULL, SESSIONS
+
+ROOT = Path(__file__).parents[2]
+SECRET = "a-secret-of-the-test"
+QUIET = [
+    sys.executable,
+    "-c",
+    "import os; print('__GANGLION__', flush=True)\nwhile b'quit' not in os.read(0, 9999): pass",
+]
+"""A program that paints nothing and ends when it is asked to."""
+
+
+def free_port() -> int:
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return int(one.getsockname()[1])
+
+
+@asynccontextmanager
+async def served(monkeypatch: pytest.MonkeyPatch, words: list[str]) -> AsyncIterator[Site]:
+    """The server of this process, whose pages start a program of ours."""
+    from aiohttp.test_utils import TestServer
+
+    monkeypatch.setattr(web, "command", lambda _: shlex.join(words))
+    port = free_port()
+    server = TestServer(await web.site(None, "127.0.0.1", port, SECRET)._make_app(), host="127.0.0.1", port=port)
+    await server.start_server()
+    async with aiohttp.ClientSession() as session:
+        try:
+            yield Site(session, f"http://127.0.0.1:{port}")
+        finally:
+            await server.close()
+
+
+class Site:
+    """A browser's view of what is served."""
+
+    def __init__(self, session: aiohttp.ClientSession, root: str) -> None:
+        self.session, self.root = session, root
+
+    async def get(self, path: str) -> aiohttp.ClientResponse:
+        answer = await self.session.get(f"{self.root}{path}")
+        await answer.read()
+        return answer
+
+    async def page(self, path: str = f"/{SECRET}/ws") -> aiohttp.ClientWebSocketResponse:
+        return await self.session.ws_connect(f"{self.root}{path}", origin=self.root)
+
+
+@pytest.mark.parametrize("path", ["/", "/static/js/textual.js", "/another-secret-of-/", "/%ff/", "/download/x"])
+async def test_without_the_secret_nothing_is_served(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    async with served(monkeypatch, QUIET) as site:
+        assert (await site.get(path)).status == 404
+
+
+@pytest.mark.parametrize("path", ["/ws", "/another-secret-of-/ws"])
+async def test_without_the_secret_no_program_starts(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    async with served(monkeypatch, QUIET) as site:
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+            await site.page(path)
+        assert refused.value.status == 404
+
+
+@pytest.mark.parametrize("path", ["", "static/js/textual.js"])
+async def test_no_page_of_others_around_this_one(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    async with served(monkeypatch, QUIET) as site:
+        answer = await site.get(f"/{SECRET}/{path}")
+        assert answer.status == 200
+        assert answer.headers["X-Frame-Options"] == "DENY"
+        assert "frame-ancestors 'none'" in answer.headers["Content-Security-Policy"]
+        assert answer.headers["Referrer-Policy"] == "no-referrer"
+
+
+async def test_the_secret_is_compared_in_constant_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    compared: list[bytes] = []
+    same = hmac.compare_digest
+
+    def compare(given: bytes, secret: bytes) -> bool:
+        compared.append(secret)
+        return same(given, secret)
+
+    monkeypatch.setattr(hmac, "compare_digest", compare)
+    async with served(monkeypatch, QUIET) as site:
+        for path in ("/", f"/{SECRET}/", f"/{SECRET}/static/js/textual.js", "/ws"):
+            await site.get(path)
+    assert compared == [SECRET.encode()] * 4
+
+
+async def test_one_page_too_many_gets_a_sentence_and_no_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    async with served(monkeypatch, QUIET) as site:
+        pages = [await site.page() for _ in range(SESSIONS)]
+        answer = await site.get(f"/{SECRET}/")
+        assert (answer.status, await answer.text()) == (503, FULL)
+        late = await site.page()
+        assert FULL in (await late.receive_bytes()).decode()
+        await pages[0].close()
+        for _ in range(40):
+            if (await site.get(f"/{SECRET}/")).status == 200:
+                break
+            await asyncio.sleep(0.1)
+        assert (await site.get(f"/{SECRET}/")).status == 200
+
+
+async def test_who_connects_and_leaves_is_logged(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO", "cutcomp.serve")
+    async with served(monkeypatch, QUIET) as site:
+        await (await site.page()).close()
+    assert [record.getMessage() for record in caplog.records] == ["connected: 127.0.0.1", "closed: 127.0.0.1"]
+    assert SECRET not in caplog.text
+
+
+ECHO = """
+import os, sys
+def paint(data): sys.stdout.buffer.write(b"D" + len(data).to_bytes(4, "big") + data); sys.stdout.buffer.flush()
+print("__GANGLION__", flush=True)
+paint(f"{os.environ['COLUMNS']}x{os.environ['ROWS']}".encode())
+while b"quit" not in (data := os.read(0, 9999)): paint(data)
+"""
+FLOOD = """
+import os, sys
+os.write(2, b"." * 5_000_000)
+print("__GANGLION__", flush=True)
+while True: os.write(1, b"D" + (60_000).to_bytes(4, "big") + b"." * 60_000)
+"""
+"""A program that fills every pipe it has, reads nothing, and does not end when it is asked to."""
+
+
+def python(program: str) -> list[str]:
+    return [sys.executable, "-c", program]
+
+
+def children(process: int) -> list[int]:
+    """The programs that a process has started and that have not ended."""
+    path = Path(f"/proc/{process}/task/{process}/children")
+    return [int(word) for word in path.read_text().split() if alive(int(word))]
+
+
+def alive(process: int) -> bool:
+    """Whether a process is there and no zombie."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+async def none_left(processes: list[int], longest: float) -> list[int]:
+    """The processes that are left after this many seconds, or none as soon as there is none."""
+    for _ in range(int(longest / 0.05)):
+        if not any(map(alive, processes)):
+            break
+        await asyncio.sleep(0.05)
+    return [each for each in processes if alive(each)]
+
+
+async def test_a_page_that_asks_for_any_size_gets_a_screen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seen: 5 columns and 100,000 lines of a page that had not measured its type took a gigabyte a minute."""
+    async with served(monkeypatch, python(ECHO)) as site:
+        page = await site.page(f"/{SECRET}/ws?width=0&height=9999999")
+        assert await page.receive_bytes() == b"20x200"
+        await page.send_json(["resize", {"width": 30_000, "height": -4}])
+        sent = await page.receive_bytes()
+        assert json.loads(sent[5:]) == {"type": "resize", "width": 500, "height": 5}
+
+
+async def test_a_program_whose_page_reads_nothing_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(web_children, "UNREAD", 0.5)
+    async with served(monkeypatch, python(FLOOD)) as site:
+        reader, writer = await asyncio.open_connection("127.0.0.1", int(site.root.rpartition(":")[2]), limit=1024)
+        writer.write(handshake(site.root))
+        await reader.readline()
+        started = await some_children(os.getpid())
+        assert await none_left(started, 5.0) == []
+        writer.close()
+
+
+async def test_a_program_that_takes_no_keys_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(web_children, "UNREAD", 0.5)
+    deaf = "import time; print('__GANGLION__', flush=True); time.sleep(60)"
+    async with served(monkeypatch, python(deaf)) as site:
+        page = await site.page()
+        started = await some_children(os.getpid())
+        await page.send_json(["stdin", "a" * 1_000_000])
+        assert await none_left(started, 5.0) == []
+
+
+async def test_of_what_a_program_complains_of_only_the_beginning_is_kept(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with served(monkeypatch, python(FLOOD)) as site:
+        page = await site.page()
+        await page.receive_bytes()
+        started = children(os.getpid())
+        await page.close()
+        assert await none_left(started, 5.0) == []
+    complaints = [len(record.getMessage()) for record in caplog.records if record.levelname == "ERROR"]
+    assert complaints == [web_children.LARGEST_COMPLAINT]
+
+
+def handshake(root: str) -> bytes:
+    """What a browser sends to connect."""
+    lines = (
+        f"GET /{SECRET}/ws HTTP/1.1",
+        f"Host: {root.removeprefix('http://')}",
+        f"Origin: {root}",
+        "Connection: Upgrade",
+        "Upgrade: websocket",
+        "Sec-WebSocket-Version: 13",
+        "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==",
+    )
+    return ("\r\n".join(lines) + "\r\n\r\n").encode()
+
+
+async def some_children(process: int) -> list[int]:
+    """The programs a process has started, once there are any."""
+    for _ in range(200):
+        if started := children(process):
+            return started
+        await asyncio.sleep(0.05)
+    raise AssertionError("no program was started")
+
+
+WITHOUT_PRCTL = "web_children.dies_with_parent = lambda: None"
+
+
+@asynccontextmanager
+async def server(folder: Path, before: str) -> AsyncIterator[tuple[subprocess.Popen[bytes], str]]:
+    """`cutcomp serve` as a process of its own, and the address it has printed."""
+    code = f"from app.cli import web_children; {before}\nfrom app.__main__ import main; main(['serve', '--port', "
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
+    process = subprocess.Popen(
+        [sys.executable, "-c", f"{code}'{free_port()}'])"],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    assert process.stdout is not None
+    try:
+        line = await asyncio.to_thread(process.stdout.readline)
+        assert line.startswith(b"Open http://")
+        yield process, line.decode().split()[-1]
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find the programs")
+@pytest.mark.parametrize(
+    ("before", "number", "painted"),
+    [
+        ("pass", signal.SIGKILL, False),
+        (WITHOUT_PRCTL, signal.SIGKILL, False),
+        (WITHOUT_PRCTL, signal.SIGKILL, True),
+        ("pass", signal.SIGTERM, True),
+        ("pass", signal.SIGINT, False),
+    ],
+    ids=["killed", "killed, no prctl", "killed when painted, no prctl", "ended when painted", "Ctrl+C"],
+)
+async def test_programs_end_with_their_server(before: str, number: int, *, painted: bool, tmp_path: Path) -> None:
+    async with server(tmp_path, before) as (process, address), aiohttp.ClientSession() as session:
+        page = await session.ws_connect(f"{address}ws", origin=address.rsplit("/", 2)[0])
+        started = await some_children(process.pid)
+        if painted:
+            await painted_page(page)
+        process.send_signal(number)
+        assert await none_left([*started, process.pid], 2.0) == []
+        await page.close()
+
+
+async def test_a_program_ends_with_its_page(tmp_path: Path) -> None:
+    async with server(tmp_path, "pass") as (process, address), aiohttp.ClientSession() as session:
+        for painted in (False, True):
+            page = await session.ws_connect(f"{address}ws", origin=address.rsplit("/", 2)[0])
+            started = await some_children(process.pid)
+            if painted:
+                await painted_page(page)
+            await page.close()
+            assert await none_left(started, 2.0) == []
+
+
+async def painted_page(page: Any) -> None:
+    """Read until the program has painted something."""
+    size = 0
+    while size < 1500:
+        size += len(await page.receive_bytes(timeout=20))
