@@ -63,6 +63,12 @@ PANELS: Final = ("segments", "findings")
 """The lists that take the place of the drawing where there is no room for both."""
 
 
+LIST_PROMPTS: Final = {
+    "segments": "Up and down choose a segment. Enter edits it, Del deletes it, Ins inserts one before it. F9 closes.",
+    "findings": "Up and down show the places of the findings. Enter goes to the field to be mended. F10 closes.",
+}
+
+
 class SegmentField(NumberField):
     """SEGMENT: a number goes to that segment, left and right walk."""
 
@@ -251,6 +257,11 @@ class ContourScreen(FormScreen):
         if segments.display:
             segments.show(shown, self.host.characters)
 
+    @on(events.Resize)
+    def _fill_lists(self) -> None:
+        """A list that a larger terminal brings up shows what it has missed."""
+        self.call_after_refresh(lambda: self._show_lists(self.host.shown))
+
     def _show_picture(self, shown: Session) -> None:
         places = [entry for entry in self.entries if entry.at is not None]
         in_hand = self.in_hand
@@ -375,7 +386,9 @@ class ContourScreen(FormScreen):
         return Sentence(advice, Tone.WARNING) if advice else None
 
     def prompt_text(self) -> Sentence:
-        """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be."""
+        """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be; in a list what its keys do."""
+        if self.focused is not None and self.focused.id in LIST_PROMPTS:
+            return Sentence(LIST_PROMPTS[self.focused.id])
         segment, field = self.current_session.segment, self.current_field
         if isinstance(segment, LineSegment) and is_empty(segment) and field is not None and field.name == "x_end":
             widget = self.current

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import ClassVar
 
 from textual import on
@@ -25,6 +26,8 @@ ROLES = {
     Kind.NOTE: "$c-label",
 }
 """The color of each kind of finding."""
+MIN_WIDTH = 20
+"""Cells below which no sentence is broken."""
 
 
 def mark(kind: Kind, marks: Marks) -> str:
@@ -68,30 +71,44 @@ class FindingsList(OptionList):
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes, compact=True)
+        self._width = 0
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 
     def watch_entries(self, before: tuple[Entry, ...], now: tuple[Entry, ...]) -> None:
         """Other findings; the one in hand stays where there still are as many before it."""
-        if before == now:
-            return
-        at = self.highlighted
+        if before != now:
+            self._show()
+
+    def watch_characters(self) -> None:
+        """Other signs."""
+        self._show()
+
+    def on_resize(self) -> None:
+        """Sentences are broken at another width."""
+        if self._width != self.scrollable_content_region.width:
+            self._show()
+
+    def _show(self) -> None:
+        now, at, self._width = self.entries, self.highlighted, self.scrollable_content_region.width
         self.border_title = f"FINDINGS  {len(now)}" if now else "FINDINGS  none"
         self.clear_options()
         self.add_options([Option(self._line(number, entry), id=str(number)) for number, entry in enumerate(now)])
         self.highlighted = None if not now else min(at or 0, len(now) - 1)
 
-    def watch_characters(self) -> None:
-        """Other signs."""
-        before, self.entries = self.entries, ()
-        self.entries = before
-
     def _line(self, number: int, entry: Entry) -> Content:
+        """The title and the segment, then what the sentence says besides its title."""
         sign = mark(entry.kind, MARKS[self.characters])
-        title = Content.styled(f"{sign} {number + 1} {entry.title}", f"bold {ROLES[entry.kind]}")
-        where = Content(f"  {entry.where}" if entry.where else "")
-        if entry.text.rstrip(".") == entry.title:
-            return Content.assemble(title, where)
-        return Content.assemble(title, where, "\n", Content.styled(f"    {entry.text}", "$c-label"))
+        head = self._broken(f"{sign} {number + 1} {entry.title}{f'  {entry.where}' if entry.where else ''}")
+        more = entry.text.removeprefix(entry.title).lstrip(". ")
+        title = Content.styled(head, f"bold {ROLES[entry.kind]}")
+        if not more:
+            return title
+        return Content.assemble(title, "\n", Content.styled(self._broken(f"    {more}"), "$c-label"))
+
+    def _broken(self, text: str) -> str:
+        """A text in lines of the list's width; the further ones are indented."""
+        indent = " " * 4
+        return fill(text, max(self._width, MIN_WIDTH), subsequent_indent=indent, drop_whitespace=True)
 
     @on(OptionList.OptionHighlighted)
     def _highlighted(self, event: OptionList.OptionHighlighted) -> None:

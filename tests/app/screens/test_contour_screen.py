@@ -136,3 +136,18 @@ async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
         await one.press("escape")
         assert one.session.block.tool == Number(3.0)
         assert type(one.app.screen).__name__ == "ContourScreen"
+
+
+async def test_a_larger_terminal_brings_the_segment_list_up_with_its_rows():
+    async with operator() as one:
+        await one.pilot.resize_terminal(132, 43)
+        await one.settle()
+        assert one.screen.query_exactly_one("#segments").row_count == 12
+
+
+async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
+    async with operator("notch") as one:
+        await one.press("f10")
+        assert one.prompt.startswith("Up and down show the places of the findings.")
+        shown = "".join(str(option.prompt) for option in one.screen.query_exactly_one("#findings").options)
+        assert shown.count("Corner too tight") == 1
