@@ -226,6 +226,8 @@ class MacroReader(ExpressionReader):
     def __init__(self, text: str, values: Variables, at: int = 0) -> None:
         super().__init__(text, values, at)
         self.variables = values
+        self.differences: list[float] = []
+        """How far apart the values were that have been compared."""
         self._brackets = 0
 
     def expression(self) -> float:
@@ -285,6 +287,8 @@ class MacroReader(ExpressionReader):
     ) -> float:  # fmt: skip
         if name not in _RELATIONS and (isinstance(left, Vacant) or isinstance(right, Vacant)):
             self.variables.unset += [number for number, _ in self.unset]
+        if name in _RELATIONS:
+            self.differences.append(abs(left - right))
         if name in "/MOD" and right == 0.0:
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
         return float(self._worked(at, name, work, left, right))

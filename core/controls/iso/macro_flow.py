@@ -26,6 +26,7 @@ from core.units import Unit
 
 MAX_ROWS_RUN_AGAIN: Final = 200_000
 MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
+MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
 """Rows after which a program is taken to run for ever; a row that runs for the first time is not counted."""
 
 MAX_CALLS: Final = 4
@@ -102,6 +103,8 @@ class MacroFlow(Flow):
         self.rows_run_again = 0
         self.plain_blocks: dict[int, Block | None] = {}
         self.rows_without_movement = 0
+        self.rows_without_progress = 0
+        self.least_differences: dict[tuple[int, int], float] = {}
         self.tape_length = 0
         self._append(_between_percents(lines), 1)
         self.calls[0].back = len(self.lines)
@@ -152,10 +155,38 @@ class MacroFlow(Flow):
             self.tape_length, self.rows_without_movement = len(self.machine.control.tape), 0
         if self.ran[line - 1]:
             self.rows_run_again += 1
+            self.rows_without_progress += 1
         self.ran[line - 1] = True
+        if self.rows_without_progress > MAX_ROWS_WITHOUT_PROGRESS:
+            text = (
+                "The program does not come to an end: a loop or a jump runs for ever. Through its last "
+                f"{MAX_ROWS_WITHOUT_PROGRESS} blocks no condition came nearer to its turn. cutcomp stops here."
+            )
+            self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
         if self.rows_run_again > MAX_ROWS_RUN_AGAIN or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
             text = "The program does not come to an end: a loop or a jump runs for ever. cutcomp stops here."
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
+
+    def _note_progress(self, row: int, differences: list[float]) -> None:
+        """A condition that comes nearer to its turn brings the program nearer to its end, and loops inside begin anew.
+
+        One that compares nothing may do so at any time.
+        """
+        for index, difference in enumerate(differences):
+            condition = (row, index)
+            least = self.least_differences.get(condition)
+            if least is not None and difference < least:
+                # those asked since this one was asked last stand inside its loop
+                order = list(self.least_differences)
+                for inside in order[order.index(condition) :]:
+                    del self.least_differences[inside]
+            if least is None or difference < least:
+                self.rows_without_progress = 0
+                least = difference
+            self.least_differences.pop(condition, None)
+            self.least_differences[condition] = least
+        if not differences:
+            self.rows_without_progress = 0
 
     def ends_here(self, line: int) -> bool:  # noqa: ARG002  the next row says it
         """Whether the next row belongs to another program, which nothing has called."""
@@ -265,6 +296,7 @@ class MacroFlow(Flow):
 
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
+        self._note_progress(row, reader.differences)
         text = line.text
         if text[reader.at :].startswith("GO"):
             reader.at += 4 if text.startswith("GOTO", reader.at) else 2
@@ -317,6 +349,7 @@ class MacroFlow(Flow):
 
     def _while(self, reader: MacroReader, row: int) -> int:
         true = reader.brackets() != 0.0
+        self._note_progress(row, reader.differences)
         if not reader.text.startswith("DO", reader.at):
             raise FaultError("PS0114", "WHILE needs DO and a number after its condition.", len(reader.text) - 1)
         reader.at += 2
@@ -533,6 +566,7 @@ class MacroFlow(Flow):
             return False
         if call.again and target is None:
             call.again -= 1
+            self.rows_without_progress = 0
             call.loops = []
             self.at = call.start
             return True

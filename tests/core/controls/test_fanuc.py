@@ -461,6 +461,35 @@ def test_a_loop_without_end_and_movement_is_given_up(loop: str) -> None:
     assert alarms(ran(loop))[0][0] == "FN-ENDLESS"
 
 
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "N1 G1 X1. F10.\nX2.\nGOTO1",
+        "WHILE[1EQ1]DO1\nG91 G1 X1. F10.\nEND1",
+        "N1 #1=#1+1\nG1 X#1 F10.\nIF[#1GT0]GOTO1",
+        "#1=5\nWHILE[#1NE0]DO1\n#1=#1-2\nG1 X#1 F10.\nEND1",
+        "WHILE[#1LT10]DO1\n#2=0\nWHILE[#2LT5]DO2\n#2=#2+1\nG1 X#2 F10.\nEND2\nEND1",
+    ],
+)
+def test_a_loop_that_moves_without_end_is_given_up_when_no_condition_comes_nearer(loop: str) -> None:
+    done = ran(loop)
+    endless = next(finding for finding in done.findings if finding.code == "FN-ENDLESS")
+    assert "no condition came nearer" in endless.text
+    assert len(done.moves) < 20_000
+
+
+@pytest.mark.parametrize(
+    ("loop", "rounds"),
+    [
+        ("WHILE[#100LT15000]DO1\n#100=#100+1\nEND1\nM30", 15_000),
+        ("WHILE[#101LT3]DO1\n#101=#101+1\n#1=8000\nWHILE[#1GT0]DO2\n#1=#1-1\n#100=#100+1\nEND2\nEND1\nM30", 24_000),
+        ("M98 P2 L9000\nM30\nO2\n#100=#100+1\nG4 P1\nM99", 9000),
+    ],
+)
+def test_a_long_loop_that_comes_nearer_to_its_end_runs(loop: str, rounds: int) -> None:
+    assert values(f"#100=0\n#101=0\n{loop}")[100] == rounds
+
+
 def test_a_safety_line_and_the_usual_words_run() -> None:
     program = (
         "%\nO0001 (PART)\nG00 G17 G20 G40 G49 G80 G90\nT1 M06 (DRILL)\nG54 G90 S1000 M3\nG43 H1 Z1. M8\nG91 G28 Z0.\n"
