@@ -14,6 +14,7 @@ from textual.screen import ModalScreen
 from textual.widgets import Input, Label, OptionList, Static
 from textual.widgets.option_list import Option
 
+from app.widgets.field import LineInput
 from core.units import Kind, Unit, Unreadable, parse
 
 GO_BACK = "GO BACK"
@@ -90,7 +91,7 @@ class Phrase(ModalScreen[str]):
         """A framed box: what is asked, then the line to type in."""
         with Vertical(id="question"):
             yield Static("\n".join(self.lines), id="loss", markup=False)
-            yield Input(id="phrase", compact=True)
+            yield LineInput(id="phrase")
 
     def on_mount(self) -> None:
         """The title."""
@@ -138,7 +139,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
             for number, entry in enumerate(self.entries):
                 with Horizontal(classes="field"):
                     yield Label(entry.label, classes="label")
-                    yield Input(entry.text, id=f"number-{number}", compact=True, classes="number")
+                    yield LineInput(entry.text, id=f"number-{number}", classes="number")
             yield Static(id="number-trouble", markup=False)
 
     def on_mount(self) -> None:

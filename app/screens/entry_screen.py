@@ -12,6 +12,7 @@ from textual.widgets import Input, Label
 
 from app.screens.base import BaseScreen
 from app.session.messages import Tone
+from app.widgets.field import LineInput
 
 
 class EntryScreen(BaseScreen):
@@ -36,7 +37,7 @@ class EntryScreen(BaseScreen):
                 yield Label(self.TITLE, classes="head-title")
             with Horizontal(id="entry-line", classes="field"):
                 yield Label(self.LABEL, classes="label")
-                yield Input(self._text, id="entry", compact=True, select_on_focus=True)
+                yield LineInput(self._text, id="entry", select_on_focus=True)
             yield from self.compose_rest()
 
     def compose_rest(self) -> ComposeResult:

@@ -92,8 +92,9 @@ class Palette(CommandPalette):
     BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+k,f8", "app.back", "Close", show=False)]
 
     def on_mount(self) -> None:
-        """Listen to the first key of the line."""
-        self.query_one(Input).select_on_focus = False
+        """Listen to the first key of the line, whose cursor does not blink."""
+        line = self.query_one(Input)
+        line.select_on_focus = line.cursor_blink = False
 
     @on(Input.Changed)
     async def _first_digit(self, event: Input.Changed) -> None:

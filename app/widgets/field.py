@@ -56,15 +56,22 @@ class Cell:
     visible: bool = True
 
 
-class NumberField(Input):
+class LineInput(Input):
+    """A line of text whose cursor does not blink: a terminal at rest gets no bytes."""
+
+    def __init__(self, value: str = "", **options: Any) -> None:  # noqa: ANN401  # those of Input
+        super().__init__(value, compact=True, **options)
+        self.cursor_blink = False
+
+
+class NumberField(LineInput):
     """A line of text whose value stands at the right edge, as on the control.
 
     `resting` is what the program holds; the value differs from it only while something is being typed.
     """
 
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
-        super().__init__(text, compact=True, name=name, id=id, max_length=MAX_TYPED)
-        self.cursor_blink = False
+        super().__init__(text, name=name, id=id, max_length=MAX_TYPED)
         self.resting, self.full = text, full or text
         self.letters = ""
         """Letters that are no part of a number: as the first character they are commands to the screen."""

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.painted.journal import Recovered
-from app.painted.places import read
+from app.documents.left_overs import read
 from app.terminal.signals import GRACE
+from core.program.history import History
 from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
@@ -30,17 +30,18 @@ def part(tmp_path: Path) -> Path:
 def typed(terminal: Terminal) -> None:
     """One field accepted, one half typed."""
     terminal.until("MILL CONTOUR")
-    terminal.send(b"\t7\t")
+    terminal.send(b"7\t")
     terminal.until("undo 1")
-    terminal.send(b"3")
+    terminal.send(b"\t3")
 
 
-def left(part: Path) -> Recovered:
+def left(part: Path) -> History:
     """What the journal beside the program holds; there is no lock any more, and nothing else."""
     assert [one.name for one in part.parent.iterdir()] == [".part.toml.cutcomp-journal"]
     found = read(part.with_name(".part.toml.cutcomp-journal"))
     assert found is not None
-    return found
+    assert isinstance(found.work, History)
+    return found.work
 
 
 def ended(pid: int, longest: float = PATIENCE) -> int:
@@ -66,13 +67,13 @@ def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) 
         end = bytes(terminal.seen[-400:])
         assert b"\x1b[?1049l" in end, "the screen from before"
         assert b"\x1b[?25h" in end, "the cursor"
-    assert left(part).history.program.blocks[0].tool == Number(7.0)
+    assert left(part).program.blocks[0].tool == Number(7.0)
 
 
 def test_a_signal_with_everything_saved_leaves_nothing(part: Path) -> None:
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
-        terminal.send(b"\t7\t\x13")
+        terminal.send(b"7\t\x13")
         terminal.until("Saved")
         os.kill(terminal.pid, signal.SIGTERM)
         assert status(terminal, PATIENCE) == 143
@@ -92,7 +93,7 @@ def test_a_dropped_link_ends_the_program(part: Path) -> None:
         typed(terminal)
         drop(terminal)
         assert ended(terminal.pid) == 128 + signal.SIGHUP
-    assert left(part).history.program.blocks[0].tool == Number(7.0)
+    assert left(part).program.blocks[0].tool == Number(7.0)
 
 
 def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
@@ -104,7 +105,7 @@ def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
         lock = part.with_name(".part.toml.cutcomp-lock")
         while lock.exists() and time.monotonic() - begun < PATIENCE:
             time.sleep(0.01)
-    assert left(part).history.program.blocks[0].tool == Number(7.0)
+    assert left(part).program.blocks[0].tool == Number(7.0)
 
 
 def stall(terminal: Terminal, journal: Path) -> int:
@@ -133,7 +134,7 @@ def test_a_terminal_that_takes_nothing_cannot_keep_the_program_alive(part: Path)
     with running([*PROGRAM, str(part)]) as terminal:
         before = termios.tcgetattr(terminal.fd)
         terminal.until("MILL CONTOUR")
-        terminal.send(b"\t\t")
+        terminal.send(b"\t")
         kept = stall(terminal, part.with_name(".part.toml.cutcomp-journal"))
         begun = time.monotonic()
         os.kill(terminal.pid, signal.SIGTERM)
@@ -142,8 +143,8 @@ def test_a_terminal_that_takes_nothing_cannot_keep_the_program_alive(part: Path)
         assert termios.tcgetattr(terminal.fd) == before
     found = left(part)
     assert kept > 5
-    assert found.history.undo_count == kept
-    assert found.history.undo_label == "TOOL of START, block 1"
+    assert found.undo_count == kept
+    assert found.undo_label == "TOOL of START, block 1"
 
 
 def test_a_disk_that_takes_nothing_is_told_and_the_work_goes_on(part: Path) -> None:
@@ -151,13 +152,13 @@ def test_a_disk_that_takes_nothing_is_told_and_the_work_goes_on(part: Path) -> N
     limited = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", *PROGRAM, str(part)]
     with running(limited, environment={"PYTHONDONTWRITEBYTECODE": "1"}) as terminal:
         terminal.until("MILL CONTOUR")
-        terminal.send(b"\t\t")
+        terminal.send(b"\t")
         for number in range(20):
             terminal.send(b"\x1b[A%d\t" % (number + 2))
             terminal.read(quiet=0.1)
-            if "A crash would lose this" in terminal.text:
+            if "Not on disk" in terminal.text:
                 break
-        terminal.until("A crash would lose this")
+        terminal.until("Not on disk")
         assert terminal.ended() is None
         terminal.send(b"\x1b[A77\t")
         terminal.until("77")
@@ -169,18 +170,18 @@ def test_a_disk_that_takes_nothing_is_told_and_the_work_goes_on(part: Path) -> N
 def test_two_operators_with_one_file(part: Path) -> None:
     with running([*PROGRAM, str(part)]) as first:
         first.until("MILL CONTOUR")
-        first.send(b"\t7\t\x13")
+        first.send(b"7\t\x13")
         first.until("Saved")
         first.send(b"\x1b[Z8\t")
         first.until("undo 2")
         with running([*PROGRAM, str(part)]) as second:
             second.until("TAKE OVER")
-            assert "has this program open since" in " ".join(second.text.split())
+            assert "has had this program open since" in " ".join(second.text.split())
             second.send(b"t")
             second.until("Block 1: TOOL 8, was 7.")
-            second.send(b"dy")
-            second.until("Discarded")
-            second.send(b"\t9\t\x13")
+            second.send(b"d")
+            second.until("Kept as")
+            second.send(b"9\t\x13")
             second.until("Saved")
             first.send(b"\x13")
             first.until("TAKEN OVER")

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.files import save
-from tests.app.kept import started
+from tests.app.documents.typist import started
 from tests.bench.keys import first_paint, gear
+from tests.terminal import cutcomp
 
 BOUND: Final = 1.5
 """How many times as long as the empty start the other may take."""
@@ -25,7 +26,7 @@ def left_behind(folder: Path, segments: int) -> Path:
     """A program's file, and beside it the journal of work that nobody has saved."""
     file = folder / "gear.toml"
     save(gear(segments), file)
-    started(folder / "own", file).press("tab").type("7").killed()
+    started(folder / "own", file).type(7).killed()
     return file
 
 
@@ -37,10 +38,10 @@ def main() -> int:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         file = left_behind(Path(name), options.segments)
-        program, empty, ours = [sys.executable, "-m", "app"], [], []
+        empty, ours = [], []
         for _ in range(options.rounds):
-            empty.append(first_paint([*program, str(file.with_name("new.toml"))], "MILL CONTOUR"))
-            ours.append(first_paint([*program, str(file)], "RESTORE"))
+            empty.append(first_paint(cutcomp(str(file.with_name("new.toml"))), "MILL CONTOUR"))
+            ours.append(first_paint(cutcomp(str(file)), "RESTORE"))
     ratio = statistics.median(one / other for one, other in zip(ours, empty, strict=True))
     print(
         f"empty start {1000 * statistics.median(empty):.0f} ms   with {options.segments} segments to recover "

@@ -171,8 +171,10 @@ class ContourPart(Part):
                 return self._segment(chance.choice("lab"))
             case "delete":
                 return self._delete()
-            case "undo" | "redo":
-                return self._turn(undo=kind == "undo", times=chance.randint(1, 4))
+            case "undo":
+                return self._turn(undo=True, times=chance.randint(1, 4))
+            case "redo":
+                return self._turn(undo=False, times=chance.randint(1, 4))
             case _:
                 return ["ctrl+s"]
 
