@@ -12,6 +12,7 @@ from pathlib import Path
 
 from app.cli import lifeline
 from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, prepare, say
+from app.documents.naming import is_drawing
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -51,9 +52,9 @@ def _parsed(given: list[str]) -> int:
 
 
 def screens(file: Path | None, *, example: str | None = None, characters: str = "", light: bool = False) -> int:
-    """The screens on a program or on an NC file, an example part, or the start screen; returns the exit status."""
-    if file is not None and file.suffix.lower() == ".dxf" and file.is_file():
-        say(f"{file} is a drawing: cutcomp import {file} --list shows its contours.")
+    """The screens on a program, an NC file or a drawing, an example part, or the start screen; returns the status."""
+    if file is not None and is_drawing(file) and not file.is_file():
+        say(f"{file}: there is no such drawing.")
         return UNUSABLE
     # before the imports
     prepare()

@@ -92,6 +92,7 @@ class CutcompApp(FileActions, TransformActions):
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
         self.service, self._opened, self._home, self._asked = service, opened, home, asked
+        self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
         held = None if opened is None else opened.document
@@ -120,6 +121,8 @@ class CutcompApp(FileActions, TransformActions):
         self._derive(Request(self.session.program))
         if self._home:
             self.action_home()
+        if self.drawing is not None:
+            self.show_drawing(self.drawing, fresh=True)
         if self._opened is not None:
             document = self._opened.document
             if isinstance(document, NcDocument):

@@ -13,7 +13,7 @@ from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.folders import chosen
-from app.documents.naming import typed
+from app.documents.naming import is_drawing, typed
 from app.documents.questions import DISCARD, GO_BACK, SAVE, Ask, held_sentence, leaving
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
@@ -67,6 +67,13 @@ class FileActions(App[int]):
     def show_screen(self, screen: BaseScreen) -> None:
         """A screen over all others."""
         raise NotImplementedError
+
+    def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
+        """IMPORT on a drawing: its contours go to the open program, which takes the drawing's unit if it is `fresh`."""
+        # shapely and numpy are not needed by the first paint
+        from app.screens.import_drawing import ImportScreen
+
+        self.show_screen(ImportScreen(path, fresh=fresh))
 
     # ---- every edit on the disk
 
@@ -137,6 +144,9 @@ class FileActions(App[int]):
         if self.service is None:
             return
         where = chosen(path, self.document.file.path)
+        if is_drawing(where):
+            self.show_drawing(where)
+            return
         if _is_program(where) and not await self.may_leave("OPEN?"):
             return
         result = self.service.open(where)
@@ -192,6 +202,10 @@ class FileActions(App[int]):
 
         folder = self.settings.folder
         self.show_screen(OpenPathScreen(f"{folder}/" if folder else ""))
+
+    def action_import_drawing(self) -> None:
+        """Ask for the path of a drawing."""
+        self.action_open_path()
 
     def save_as(self, text: str) -> None:
         """Save under a typed name."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from app.cli.shell import UNUSABLE, say
 from app.documents.document import ContourDocument
-from app.documents.naming import program_named
+from app.documents.naming import is_drawing, program_named
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from core.program.file.read import StoreError
@@ -28,7 +28,7 @@ def run(
     characters: str = "",
     light: bool = False,
 ) -> int:
-    """Show the screens on a program, an NC file, an example or HOME; returns the exit status.
+    """Show the screens on a program, an NC file, a drawing, an example or HOME; returns the exit status.
 
     `asked` holds the control, the tools and the unit of an NC file; `characters` are those that the operator wants the
     drawing in.
@@ -38,9 +38,13 @@ def run(
     if reason := "" if in_browser() else driver.refusal(os.environ):
         say(reason)
         return UNUSABLE
+    drawing = path if path is not None and asked is None and is_drawing(path) else None
     service = DocumentService()
     try:
-        opened = service.open(path) if asked and path else begin(service, path, example)
+        if drawing is not None:
+            opened: Opened[Any] | Trouble = service.new()
+        else:
+            opened = service.open(path) if asked and path else begin(service, path, example)
     except StoreError as error:
         say(str(error))
         return UNUSABLE
@@ -48,7 +52,9 @@ def run(
         say(opened.text)
         return UNUSABLE
     home = path is None and example is None
-    return guarded(service, made(service, opened, home, asked, characters, light=light))
+    app = made(service, opened, home, asked, characters, light=light)
+    app.drawing = drawing
+    return guarded(service, app)
 
 
 def in_browser() -> bool:

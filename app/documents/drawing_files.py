@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import time
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final, Generic, TypeVar, cast
@@ -22,6 +24,7 @@ from core.importing.contours import Progress as ReportProgress
 from core.importing.drawing import MAX_BYTES, Drawing, DrawingError
 from core.importing.dxf import read_dxf
 from core.program.file.read import StoreError
+from core.units import Unit
 
 Result = TypeVar("Result")
 
@@ -46,6 +49,12 @@ class Done(Generic[Result]):
     """A worker's result."""
 
     value: Result
+
+
+def prepare_workers() -> None:
+    """Start what watches over processes, in the main thread: what stands in for stderr under Textual has no number."""
+    with redirect_stderr(sys.__stderr__):
+        ensure_running()
 
 
 class Worker(Generic[Result]):
@@ -107,13 +116,23 @@ class Worker(Generic[Result]):
         return message.value
 
 
-def drawing_reader(data: bytes, name: str, *, damaged: bool = False) -> Worker[Drawing]:
-    """Reads a drawing; `damaged` is the operator's answer that what can be read of it is to be taken."""
-    return Worker(_read, data, name, damaged)
+def drawing_lister(
+    data: bytes, name: str, program: Unit | None, *, damaged: bool = False
+) -> Worker[Drawing | ContourList]:
+    """Reads a drawing and lists its contours with the usual options of a program's unit, None for that of the drawing.
+
+    The result is the drawing alone where something is to be asked first: its unit, or the layers to take.
+    """
+    return Worker(_read_and_list, data, name, program, damaged)
 
 
-def _read(data: bytes, name: str, damaged: bool, *, progress: ReportProgress) -> Drawing:
-    return read_dxf(data, name, damaged=damaged, progress=progress)
+def _read_and_list(
+    data: bytes, name: str, program: Unit | None, damaged: bool, *, progress: ReportProgress
+) -> Drawing | ContourList:
+    drawing = read_dxf(data, name, damaged=damaged, progress=progress)
+    if drawing.unit is None or drawing.not_flat:
+        return drawing
+    return contours_of(drawing, ImportOptions.usual(drawing.unit, program), progress)
 
 
 def contour_finder(drawing: Drawing, options: ImportOptions) -> Worker[ContourList]:

@@ -14,6 +14,11 @@ def typed(text: str) -> Path:
         return path
 
 
+def is_drawing(path: Path) -> bool:
+    """Whether a path is that of a drawing, by its ending."""
+    return path.suffix.lower() == ".dxf"
+
+
 def is_folder(path: Path) -> bool:
     """Whether there is such a folder; no for a name that no file can have."""
     try:

@@ -150,16 +150,17 @@ def day_of(changed: datetime, now: datetime) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Listed:
-    """A line of the list of files: a program, a folder to go to, or an example."""
+    """A line of the list of files: a program, a drawing, a folder to go to, or an example."""
 
     path: Path
     name: str
     folder: bool = False
     example: bool = False
+    drawing: bool = False
 
 
 def programs_of(folder: Path) -> tuple[Listed, ...]:
-    """The programs of a folder, the examples, the folders; OSError when it cannot be read."""
+    """The programs and drawings of a folder, the examples, the folders; OSError when it cannot be read."""
     inside = within(FOLDER, lambda: tuple(_inside(folder)))
     programs = (each for each in inside if not each.folder)
     return (*programs, *example_programs(), *(each for each in inside if each.folder))
@@ -175,9 +176,12 @@ def _inside(folder: Path) -> Iterator[Listed]:
     with os.scandir(folder) as entries:
         inside = sorted(entries, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
+    drawings = [each for each in inside if each.name.lower().endswith(".dxf") and not each.is_dir()]
     folders = [each for each in inside if not each.name.startswith(".") and each.is_dir()]
     saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
     for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
         yield Listed(path, path.name.removesuffix(".toml"))
+    for each in drawings[:MAX_LISTED]:
+        yield Listed(Path(each.path), each.name, drawing=True)
     for each in folders[:MAX_LISTED]:
         yield Listed(Path(each.path), f"{each.name}/", folder=True)

@@ -73,6 +73,9 @@ class Host(Protocol):
     def try_out(self, program: Program | None) -> None:
         """Show what a half-typed number would do; None for nothing half-typed."""
 
+    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
+        """A sentence on the prompt line of the screen in front."""
+
     def now(self) -> datetime:
         """The time of day, in its zone."""
 

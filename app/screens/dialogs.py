@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,6 +10,7 @@ from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
+from textual.content import Content
 from textual.screen import ModalScreen
 from textual.widgets import Input, Label, OptionList, Static
 from textual.widgets.option_list import Option
@@ -65,9 +66,13 @@ class Question(ModalScreen[str]):
         self.dismiss(word)
 
     def on_key(self, event: events.Key) -> None:
-        """A letter gives its answer at once."""
+        """A letter gives its answer at once, so does F1 for the first, and so on."""
         letter = (event.character or "").upper()
-        word = next((answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter)), None)
+        words = [answer.word for answer in self.answers]
+        keys = {f"{key}{number}": word for key in ("f", "alt+") for number, word in enumerate(words, 1)}
+        word = keys.get(event.key) or next(
+            (answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter)), None
+        )
         if word is not None:
             event.stop()
             self.dismiss(word)
@@ -109,11 +114,22 @@ class Phrase(ModalScreen[str]):
 
 @dataclass(frozen=True, slots=True)
 class NumberEntry:
-    """A line of a small form: its label, what it takes, and the text it begins with."""
+    """A line of a small form: its label, what it takes, the text it begins with, and the largest value where one is.
+
+    With a largest value the smallest is zero.
+    """
 
     label: str
     kind: Kind
     text: str = "0"
+    most: float | None = None
+
+    def read(self, text: str, unit: Unit) -> float | Unreadable:
+        """The number of a text in program units."""
+        value = parse(text, self.kind, unit)
+        if self.most is not None and isinstance(value, float) and not 0.0 <= value <= self.most:
+            return Unreadable(f"{self.label} is from 0 to {self.most:g} {unit}.")
+        return value
 
 
 class NumberForm(ModalScreen[tuple[float, ...]]):
@@ -151,7 +167,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
         event.stop()
         inputs = list(self.query(Input))
         here = inputs.index(event.input)
-        value = parse(event.value, self.entries[here].kind, self.unit)
+        value = self.entries[here].read(event.value, self.unit)
         if isinstance(value, Unreadable):
             self._say(value.reason)
         elif here + 1 < len(inputs):
@@ -160,7 +176,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
             self._take(inputs)
 
     def _take(self, inputs: Sequence[Input]) -> None:
-        values = [parse(each.value, entry.kind, self.unit) for each, entry in zip(inputs, self.entries, strict=True)]
+        values = [entry.read(each.value, self.unit) for each, entry in zip(inputs, self.entries, strict=True)]
         for each, value in zip(inputs, values, strict=True):
             if isinstance(value, Unreadable):
                 each.focus()
@@ -202,3 +218,49 @@ class ChooseLine(ModalScreen[str]):
     def action_none(self) -> None:
         """Go back."""
         self.dismiss("")
+
+
+class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
+    """A list of which several can be chosen: Space marks, Enter takes what is marked; Esc and F8 give None.
+
+    Each row has its result and its words; `chosen` are the results that are marked at first.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f8,alt+8", "none", "Go back", show=False),
+        Binding("space", "mark", "Mark", show=False),
+    ]
+
+    def __init__(self, title: str, rows: Sequence[tuple[str, str]], chosen: Collection[str]) -> None:
+        super().__init__()
+        self.question, self.rows, self.chosen = title, tuple(rows), set(chosen)
+
+    def compose(self) -> ComposeResult:
+        """A framed list."""
+        with Vertical(id="question"):
+            yield Static("Space marks, Enter takes what is marked.", id="loss", markup=False)
+            yield OptionList(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers", compact=True)
+
+    def on_mount(self) -> None:
+        """The cursor on the first row."""
+        self.query_exactly_one("#question").border_title = self.question
+        self.query_exactly_one(OptionList).highlighted = 0 if self.rows else None
+
+    def _words(self, row: int) -> Content:
+        result, words = self.rows[row]
+        return Content(f"[{'x' if result in self.chosen else ' '}] {words}")
+
+    def action_mark(self) -> None:
+        """Mark the row with the cursor, or take its mark off."""
+        answers = self.query_exactly_one(OptionList)
+        if (row := answers.highlighted) is not None:
+            self.chosen ^= {self.rows[row][0]}
+            answers.replace_option_prompt_at_index(row, self._words(row))
+
+    @on(OptionList.OptionSelected)
+    def _selected(self) -> None:
+        self.dismiss(frozenset(self.chosen))
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss(None)

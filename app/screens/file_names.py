@@ -30,7 +30,7 @@ class SaveAsScreen(EntryScreen):
 
 
 class OpenPathScreen(EntryScreen):
-    """OPEN A PATH: a program, an NC file, or a folder."""
+    """OPEN A PATH: a program, an NC file, a drawing, or a folder."""
 
     TITLE: ClassVar[str] = "OPEN A PATH"
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
@@ -49,4 +49,4 @@ class OpenPathScreen(EntryScreen):
 
     def prompt_text(self) -> Sentence:
         """What to type."""
-        return Sentence("Path of a program (.toml), an NC file, or a folder. Enter opens it.")
+        return Sentence("Path of a program (.toml), an NC file, a drawing (.dxf), or a folder. Enter opens it.")

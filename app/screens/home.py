@@ -84,7 +84,7 @@ class HomeScreen(BaseScreen):
         """Files may have changed while another screen was in front."""
         super().on_screen_resume()
         if self.is_mounted and self.listed:
-            self._survey(tuple(each.path for each in self.listed if not each.folder), dict(self.facts))
+            self._survey(self._programs(), dict(self.facts))
 
     def show_session(self, session: Session) -> None:
         """Nothing of the session stands here."""
@@ -99,7 +99,7 @@ class HomeScreen(BaseScreen):
             self.trouble = f"{folder} cannot be shown: {error.strerror or error}."
             self.listed = tuple(example_programs())
         self.folder = folder
-        count = sum(not (each.folder or each.example) for each in self.listed)
+        count = sum(not (each.folder or each.example or each.drawing) for each in self.listed)
         words = f"{count} program{'s' if count != 1 else ''}"
         self.query_exactly_one("#folder", Static).update(
             Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {words}")
@@ -110,13 +110,18 @@ class HomeScreen(BaseScreen):
             table.add_row(*self._cells(each), key=str(each.path))
         rows = [row for row, each in enumerate(self.listed) if each.path == at]
         table.move_cursor(row=rows[0] if rows else 0)
-        self._survey(tuple(each.path for each in self.listed if not each.folder), dict(self.facts))
+        self._survey(self._programs(), dict(self.facts))
         self.refresh_frame()
+
+    def _programs(self) -> tuple[Path, ...]:
+        return tuple(each.path for each in self.listed if not (each.folder or each.drawing))
 
     def _cells(self, each: Listed) -> Sequence[Content]:
         name = Content.styled(each.name, "" if each.example else "bold")
         if each.folder:
             return name, *(Content(""),) * 4
+        if each.drawing:
+            return name, *(Content(""),) * 3, Content.styled("drawing", "$c-label")
         facts = self.facts.get(each.path, Facts(each.path))
         day = "example" if each.example else "" if facts.changed is None else day_of(facts.changed, self.host.now())
         verdict = Content("...") if facts.outcome is None else verdict_word(facts.outcome, MARKS[self.host.characters])
@@ -153,7 +158,7 @@ class HomeScreen(BaseScreen):
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
         each = self.chosen
-        if each is not None and not each.folder:
+        if each is not None and not (each.folder or each.drawing):
             self._preview(each.path, each.name)
         self.refresh_frame()
 

@@ -31,6 +31,7 @@ ACTIONS: Final = (
     ("PART SETUP", "app.part_setup", "part name, work offset, safe height"),
     ("TOOL SETUP", "app.tools", "the tool table"),
     ("IMPORT TOOL TABLE", "app.import_tools", "tools from a LinuxCNC tool table"),
+    ("IMPORT DRAWING", "app.import_drawing", "contours of a DXF file"),
     ("NC PROOF", "app.nc_proof", "what a control does with an NC program"),
     ("GUIDED FIRST PART", "app.guide", "a first part, step by step"),
     ("SHIFT BLOCK", "app.shift_block", "move the block with the cursor in X and Y"),

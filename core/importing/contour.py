@@ -153,14 +153,18 @@ def started_at_corner(contour: Contour, step: int) -> Contour:
 
 
 def started_at_side(contour: Contour, step: int) -> Contour:
-    """A closed contour from the middle of the piece on that is `step` pieces after its start."""
+    """A closed contour from the middle of the piece on that is `step` pieces after that of its start (or before).
+
+    From a corner the first step leads to the middle of the piece that begins there.
+    """
     if not contour.closed:
         return contour
     if contour.circle is not None:
         circle = contour.pieces[0]
         return started_at(contour, circle.point_at((step % 4) / 4.0))
     whole = _undivided(contour)
-    return _started_on(whole, step % len(whole.pieces), 0.5)
+    ahead = step if len(whole.pieces) < len(contour.pieces) or step < 0 else step - 1
+    return _started_on(whole, ahead % len(whole.pieces), 0.5)
 
 
 def _undivided(contour: Contour) -> Contour:

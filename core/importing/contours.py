@@ -18,6 +18,7 @@ from core.importing.contour import (
     KEY_DECIMALS,
     Contour,
     ContourKind,
+    joined_open,
     reversed_contour,
     rounded,
     started_at_usual_place,
@@ -37,6 +38,12 @@ MAX_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.1 * 25.4, Unit.MM: 2.0}
 FIT: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
 """Millimeters by which arcs may leave a curve, or a run of lines, by the program's unit."""
 
+BRANCH_REACH: Final = 2.0
+"""Tolerances from a branch within which a contour ends there."""
+
+SAME_PLACE: Final = 1e-4
+"""Millimeters that count as the tolerance where that is smaller."""
+
 MAX_CROSSING_CHECK: Final = 2000
 """Closed contours of which it is found out whether they touch."""
 
@@ -45,18 +52,27 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class ImportOptions:
-    """What the operator chose; `tolerance` and `fit` in millimeters.  `layers` None stands for all of them."""
+    """What the operator chose; `tolerance` and `fit` in millimeters.  `layers` None stands for all of them.
+
+    Sentences give lengths in the unit `program`; None is that of a program made of the drawing alone.
+    """
 
     unit: DrawingUnit
     tolerance: float
     fit: float
     layers: frozenset[str] | None = None
+    program: Unit | None = None
 
     @staticmethod
     def usual(unit: DrawingUnit, program: Unit | None = None) -> ImportOptions:
         """The usual tolerances of a program's unit."""
-        program = program or unit.program_unit
-        return ImportOptions(unit, TOLERANCE[program], FIT[program])
+        usual = program or unit.program_unit
+        return ImportOptions(unit, TOLERANCE[usual], FIT[usual], program=program)
+
+    @property
+    def program_unit(self) -> Unit:
+        """The unit in which sentences give lengths."""
+        return self.program or self.unit.program_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +104,7 @@ class ContourList:
     @property
     def unit(self) -> Unit:
         """The unit in which sentences give lengths."""
-        return self.options.unit.program_unit
+        return self.options.program_unit
 
 
 def _silent(_stage: str, _done: int, _whole: int) -> None:
@@ -109,7 +125,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in made.chains]
     contours = [contour for contour in contours if contour.pieces]
     progress("nesting", 0, 1)
-    ordered = _with_open_gaps(_nested(contours), options.unit.program_unit, options.tolerance)
+    ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
     notes = list(drawing.notes)
     if made.given_up:
         notes.append("There are too many branches: closed contours may be listed as open ones. Choose fewer layers.")
@@ -173,6 +189,28 @@ def _contour(chain: Chain, items: Sequence[LayeredPiece], tolerance: float) -> C
     return contour
 
 
+def with_joined(listed: ContourList, first: int, second: int) -> ContourList | None:
+    """The list with two open contours that meet at a branch as one, numbered anew; None where they do not meet.
+
+    A contour that lies in as many others as before keeps its start and its direction.
+    """
+    pair = [next(contour for contour in listed.contours if contour.number == number) for number in (first, second)]
+    tolerance, unit = listed.options.tolerance, listed.unit
+    joined = joined_open(pair[0], pair[1], BRANCH_REACH * max(tolerance, SAME_PLACE))
+    if joined is None:
+        return None
+    rest = [contour for contour in listed.contours if contour not in pair]
+    made = [*rest, replace(joined, number=0)]
+    contours = _with_open_gaps(_nested([_fresh(contour) for contour in made]), unit, tolerance)
+    places = [(branch.at, branch.ways) for branch in listed.branches]
+    return replace(listed, contours=tuple(contours), branches=_branches(places, contours, tolerance))
+
+
+def _fresh(contour: Contour) -> Contour:
+    """A contour without what its place in the list says of it."""
+    return replace(contour, problems=(), open_gap=None, open_gap_to=0)
+
+
 def _nested(contours: Sequence[Contour]) -> list[Contour]:
     """In the order of the list, with nesting, direction and start; open ones last, the longest first."""
     closed = sorted((contour for contour in contours if contour.closed), key=_by_size)
@@ -192,7 +230,9 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     listed = []
     for row in order:
         parent, depth = direct[row], len(inside[row])
-        contour = _directed(replace(closed[row], kind=_kind(depth), depth=depth))
+        contour = replace(closed[row], kind=_kind(depth), depth=depth)
+        if not contour.number or contour.kind is not closed[row].kind:
+            contour = _directed(contour)
         problems = (f"touches or crosses chain {numbers[met[row]]}",) if row in met else ()
         number = numbers[row]
         listed.append(
@@ -279,6 +319,7 @@ def _branches(places: Sequence[tuple[Point, int]], contours: Sequence[Contour], 
     tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
     spots = [shapely.Point(at) for at, _ in places]
     here: dict[int, list[int]] = {}
-    for branch, end in tree.query(spots, predicate="dwithin", distance=2.0 * max(tolerance, 1e-4)).T.tolist():
+    reach = BRANCH_REACH * max(tolerance, SAME_PLACE)
+    for branch, end in tree.query(spots, predicate="dwithin", distance=reach).T.tolist():
         here.setdefault(branch, []).append(ends[end][1])
     return tuple(Branch(at, ways, tuple(sorted(here.get(row, ())))) for row, (at, ways) in enumerate(places))

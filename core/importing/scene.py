@@ -1,10 +1,12 @@
-"""A drawing's contours as a scene: the chosen ones full, the others dim, with start and direction of travel."""
+"""A drawing's contours as a scene: the chosen ones full, all others dim, with start and direction of travel."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Final
+
+import numpy as np
 
 from core.draw.scene import Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import Path
@@ -14,20 +16,33 @@ from core.importing.nesting import box_of
 from core.units import Unit
 
 MAX_PIECES: Final = 2000
-"""Pieces of the contours that are not chosen, from which on only their boxes are drawn."""
+"""Pieces of a list's contours, from which on only their boxes are drawn where they are not chosen."""
+
+MAX_STARTS: Final = 30
+"""Chosen contours that are shown with start and direction."""
 
 
-def contours_scene(contours: Sequence[Contour], chosen: Collection[int], unit: Unit) -> Scene:
-    """The contours of a list; `chosen` are the numbers of those that are marked, or the one under the cursor."""
-    others = [contour for contour in contours if contour.number not in chosen]
-    boxed = sum(len(contour.pieces) for contour in others) > MAX_PIECES
-    layers = [
-        Layer(Path.from_pieces(_box(contour) if boxed else contour.pieces), Style.RAPID, dashed=True)
-        for contour in others
-    ]
-    full = [contour for contour in contours if contour.number in chosen]
-    layers += [Layer(Path.from_pieces(contour.pieces), Style.SURFACE) for contour in full]
-    marks = tuple(mark for contour in full for mark in _start_marks(contour))
+def background(contours: Sequence[Contour]) -> Layer:
+    """All contours of a list as one dim layer: it stays the same whichever of them is chosen."""
+    boxed = sum(len(contour.pieces) for contour in contours) > MAX_PIECES
+    pieces: list[Piece] = []
+    drawn: list[bool] = []
+    for contour in contours:
+        own = _box(contour) if boxed else contour.pieces
+        if pieces:
+            # from the one before: not drawn
+            pieces.append(Line(pieces[-1].end, own[0].start))
+            drawn.append(False)
+        pieces += own
+        drawn += [True] * len(own)
+    return Layer(Path.from_pieces(pieces), Style.RAPID, dashed=True, drawn=np.array(drawn, dtype=bool))
+
+
+def contours_scene(dim: Layer, chosen: Iterable[Contour], unit: Unit) -> Scene:
+    """The background of a list, and over it the contours that are marked, or the one under the cursor."""
+    full = list(chosen)
+    layers = [dim, *(Layer(Path.from_pieces(contour.pieces), Style.SURFACE) for contour in full)]
+    marks = tuple(mark for contour in full[:MAX_STARTS] for mark in _start_marks(contour))
     return Scene(tuple(layers), marks=marks, unit=unit)
 
 

@@ -47,8 +47,11 @@ class NotTaken(Exception):
     """A contour does not fit into the form; the text says why."""
 
 
-def block_of(contour: Contour, program: Program) -> ImportedBlock:
-    """The contour as a block to be put behind the program's own.  Raises NotTaken."""
+def block_of(contour: Contour, program: Program, side: CutterComp | None = None) -> ImportedBlock:
+    """The contour as a block to be put behind the program's own.  Raises NotTaken.
+
+    `side` is the operator's answer for an open contour, None where he has not been asked.
+    """
     unit = program.unit
     _refuse_far(contour, unit)
     usual = decimals_shown(Kind.LENGTH, unit)
@@ -56,18 +59,22 @@ def block_of(contour: Contour, program: Program) -> ImportedBlock:
         block = _block(contour, program, decimals)
         moved = _moved(block, contour.pieces, program)
         if moved is not None:
-            notes = _notes(contour, decimals, usual)
-            return ImportedBlock(block, decimals, moved, notes)
+            if side is not None and not contour.closed:
+                block = replace(block, cutter_comp=side)
+            return ImportedBlock(block, decimals, moved, _notes(contour, decimals, usual, asked=side is not None))
     raise NotTaken(f"Chain {contour.number} cannot be written as segments: its arcs are too flat or too short.")
 
 
 def taken(
-    program: Program, contours: Sequence[Contour], *, replace_empty: bool = True
+    program: Program, contours: Sequence[Contour], side: CutterComp | None = None
 ) -> tuple[Program, list[ImportedBlock]]:
-    """The program with a block for each contour, in their order; an only block without segments is replaced."""
-    made = [block_of(contour, program) for contour in contours]
+    """The program with a block for each contour, in their order; an only block without segments is replaced.
+
+    `side` is the operator's answer for open contours.
+    """
+    made = [block_of(contour, program, side) for contour in contours]
     kept = program.blocks
-    if replace_empty and len(kept) == 1 and not kept[0].segments and kept[0].x_start is None:
+    if len(kept) == 1 and not kept[0].segments and kept[0].x_start is None:
         kept = ()
         first = program.blocks[0]
         made = [replace(item, block=replace(item.block, tool=first.tool)) for item in made]
@@ -94,7 +101,7 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
             )
 
 
-def _notes(contour: Contour, decimals: int, usual: int) -> tuple[str, ...]:
+def _notes(contour: Contour, decimals: int, usual: int, *, asked: bool) -> tuple[str, ...]:
     notes = []
     if decimals != usual:
         notes.append(f"Chain {contour.number} has {decimals} decimals: with {usual} it would move too far.")
@@ -102,7 +109,7 @@ def _notes(contour: Contour, decimals: int, usual: int) -> tuple[str, ...]:
         notes.append(
             f"{len(contour.pieces):,} segments: the form shows them, the look-ahead of a control may not. FIT ARCS?"
         )
-    if not contour.closed:
+    if not contour.closed and not asked:
         notes.append(f"Chain {contour.number} is open: choose CUTTER COMP. on START.")
     return tuple(notes)
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from app.__main__ import main
-from app.documents.drawing_files import Worker, contour_finder, drawing_bytes, drawing_reader
+from app.documents.drawing_files import Worker, contour_finder, drawing_bytes, drawing_lister
 from app.documents.files import load
 from app.documents.programs import example
-from core.importing.contours import ImportOptions
+from core.importing.contours import ContourList
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
 from core.program.solve.block import solve_block
@@ -143,17 +144,18 @@ def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
     assert [segment.x_end for segment in back.segments] == [segment.x_end for segment in original.segments]
 
 
-def test_a_drawing_as_the_only_argument_is_told_where_it_goes(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([str(DATA / "d01-square.dxf")]) == 2
-    assert "is a drawing: cutcomp import" in capsys.readouterr().err
+def test_a_drawing_that_is_not_there_is_told_before_the_screens(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([str(DATA / "gone.dxf")]) == 2
+    assert "there is no such drawing" in capsys.readouterr().err
 
 
 def test_a_screen_reads_and_lists_a_drawing_in_workers() -> None:
     path = DATA / "d14-layers.dxf"
-    drawing = drawing_reader(drawing_bytes(path), path.name).result()
-    assert drawing.unit is not None
-    listed = contour_finder(drawing, ImportOptions.usual(drawing.unit)).result()
+    listed = drawing_lister(drawing_bytes(path), path.name, None).result()
+    assert isinstance(listed, ContourList)
     assert [contour.kind.value for contour in listed.contours] == ["OUTSIDE", "HOLE"]
+    holes = replace(listed.options, layers=frozenset(("HOLES",)))
+    assert len(contour_finder(listed.drawing, holes).result().contours) == 1
     with pytest.raises(DrawingError) as refused:
-        drawing_reader(drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf").result()
+        drawing_lister(drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf", None).result()
     assert refused.value.readable == 1

@@ -189,6 +189,11 @@ def test_a_start_is_moved_to_corners_sides_and_typed_places() -> None:
     assert before.start == pytest.approx(corners[3])
     assert len(before.pieces) == 4
     assert started_at_side(contour, 1).start == pytest.approx((0.0, 5.0))
+    at_corner = started_at_corner(contour, 1)
+    assert [started_at_side(at_corner, step).start for step in (1, -1)] == [
+        started_at_side(contour, 1).start,
+        contour.start,
+    ]
     typed = started_at(contour, (3.0, -2.0))
     assert typed.start == pytest.approx((3.0, 0.0))
     assert len(typed.pieces) == 5

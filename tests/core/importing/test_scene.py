@@ -6,7 +6,7 @@ from time import process_time
 
 from core.draw.scene import Style, Symbol
 from core.importing.listing import rows_of, table
-from core.importing.scene import contours_scene
+from core.importing.scene import background, contours_scene
 from core.units import Unit
 from tests.core.importing.drawings import circle_of_lines, dxf, listed, square
 
@@ -16,7 +16,7 @@ LIMIT = 4.0
 
 def test_the_chosen_contour_is_full_and_has_a_start_and_a_direction() -> None:
     contours = listed(dxf(*square(0, 0, 20), *square(5, 5, 5))).contours
-    scene = contours_scene(contours, {2}, Unit.MM)
+    scene = contours_scene(background(contours), contours[1:], Unit.MM)
     styles = [(layer.style, layer.dashed) for layer in scene.layers]
     assert styles == [(Style.RAPID, True), (Style.SURFACE, False)]
     assert [mark.symbol for mark in scene.marks] == [Symbol.START, Symbol.ARROW]
@@ -26,8 +26,7 @@ def test_the_chosen_contour_is_full_and_has_a_start_and_a_direction() -> None:
 
 def test_many_pieces_are_drawn_as_boxes() -> None:
     contours = listed(circle_of_lines(3000)).contours
-    layer = contours_scene(contours, set(), Unit.MM).layers[0]
-    assert len(layer.path) == 4
+    assert len(background(contours).path) == 4
 
 
 def test_three_thousand_entities_are_listed_in_two_seconds() -> None:

@@ -1,0 +1,777 @@
+"""IMPORT: the contours of a DXF drawing as a list beside the drawing; those that are picked become blocks."""
+
+from __future__ import annotations
+
+from asyncio import to_thread
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import ClassVar, Final, TypeVar
+
+from textual import on, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.content import Content
+from textual.timer import Timer
+from textual.widgets import DataTable, Input, Label, Static
+
+from app.documents.drawing_files import (
+    Done,
+    Progress,
+    Worker,
+    contour_finder,
+    drawing_bytes,
+    drawing_lister,
+    prepare_workers,
+)
+from app.documents.programs import empty_program
+from app.screens.base import BaseScreen
+from app.screens.dialogs import GO_BACK, Answer, ChooseSeveral, NumberEntry, NumberForm, Question
+from app.session.messages import Sentence, Tone
+from app.session.session import Session
+from app.session.words import length, place
+from app.widgets.contour_table import ContourTable
+from app.widgets.drawing import Drawing
+from app.widgets.softkeys import Softkey
+from core.draw.characters import Mode
+from core.draw.scene import Layer
+from core.draw.view import View
+from core.geometry.piece import Line, Side
+from core.importing.contour import (
+    Contour,
+    fit_sentence,
+    fitted_contour,
+    reversed_contour,
+    started_at,
+    started_at_corner,
+    started_at_side,
+    started_at_usual_place,
+)
+from core.importing.contours import FIT, MAX_TOLERANCE, Branch, ContourList, ImportOptions, with_joined
+from core.importing.drawing import Drawing as ReadDrawing
+from core.importing.drawing import DrawingError, DrawingUnit
+from core.importing.listing import Row, matching, rows_of, sentences, unit_question
+from core.importing.scene import MAX_PIECES, background, contours_scene
+from core.importing.segments import MAX_SEGMENTS, ImportedBlock, NotTaken, taken
+from core.pipeline.plot import Drawn, SceneSubject
+from core.program.edit import FormPlace
+from core.program.file.read import StoreError
+from core.program.model import CutterComp, Program
+from core.units import Kind, Unit, from_mm, to_mm
+
+Result = TypeVar("Result")
+
+PAUSE: Final = 0.15
+"""Seconds that the cursor rests on a row of a large drawing before the row is drawn."""
+
+MAX_NOTES: Final = 2
+"""Notes about what was taken that are told at once."""
+
+PROMPT: Final = (
+    "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row x n, / filters."
+)
+LARGE: Final = "+ - zoom, arrows move, 0 shows all, n p next chain and the one before, Space marks, F7 or Esc the list."
+STAGES: Final = {
+    "reading": "Reading",
+    "fitting": "Fitting arcs to curves",
+    "cleaning": "Cleaning up",
+    "chaining": "Chaining",
+    "nesting": "Nesting",
+}
+"""What a worker does, in words."""
+
+
+class Backdrop:
+    """All contours of a list as one layer; made in the thread that draws it first."""
+
+    def __init__(self, contours: Sequence[Contour]) -> None:
+        self.contours = tuple(contours)
+
+    @cached_property
+    def layer(self) -> Layer:
+        """The layer."""
+        return background(self.contours)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Picked:
+    """What the drawing shows: all contours dim, the chosen ones full; `view` is what somebody zoomed to."""
+
+    backdrop: Backdrop
+    chosen: tuple[Contour, ...]
+    unit: Unit
+    view: View | None = None
+
+    def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
+        """The picture in columns x rows cells."""
+        scene = contours_scene(self.backdrop.layer, self.chosen, self.unit)
+        return SceneSubject(scene, self.unit, self.view).drawn(columns, rows, mode)
+
+
+class ContoursDrawing(Drawing, can_focus=True):
+    """The drawing with keys to enlarge and move it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
+        Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
+        Binding("0,home", "screen.zoom(0)", "Whole drawing", show=False),
+        Binding("left", "screen.pan(-1, 0)", "Move left", show=False),
+        Binding("right", "screen.pan(1, 0)", "Move right", show=False),
+        Binding("up", "screen.pan(0, 1)", "Move up", show=False),
+        Binding("down", "screen.pan(0, -1)", "Move down", show=False),
+        Binding("n,pagedown", "screen.next_row(1)", "Next chain", show=False),
+        Binding("p,pageup", "screen.next_row(-1)", "Chain before", show=False),
+        Binding("space", "screen.mark", "Mark", show=False),
+        Binding("enter", "screen.take", "Take", show=False),
+        Binding("m", "app.next_characters", "Characters", show=False),
+    ]
+
+
+class ImportScreen(BaseScreen):
+    """One drawing file; `fresh` where the program was begun for it and takes the drawing's unit."""
+
+    AUTO_FOCUS: ClassVar[str | None] = "#contours"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "leave", "Back", show=False),
+        Binding("slash", "filter", "Filter", show=False),
+        Binding("b", "branch", "Branch", show=False),
+    ]
+    SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
+        Softkey("TAKE", "take", "TAKE", lambda screen: screen.contour is not None, "The list is empty."),
+        Softkey("LAYERS", "layers", "LAYERS", lambda screen: screen.drawing is not None, "No drawing is read."),
+        Softkey("FIT ARCS", "fit", "FIT", lambda screen: screen.contour is not None, "The list is empty."),
+        Softkey("TOLERANCE", "tolerance", "TOL", lambda screen: screen.options is not None, "No drawing is read."),
+        Softkey("START", "start", "START", lambda screen: screen.contour is not None, "The list is empty."),
+        Softkey("REVERSE", "reverse", "REVERSE", lambda screen: screen.contour is not None, "The list is empty."),
+        Softkey("DRAW", "large", "DRAW"),
+        Softkey("EXIT takes nothing", "app.back", "EXIT"),
+    )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("Spc", "MARK"), ("/", "FILTER"), ("?", "KEYS, HELP"))
+
+    def __init__(self, path: Path, *, fresh: bool = False) -> None:
+        super().__init__()
+        self.path, self._fresh = path, fresh
+        self.drawing: ReadDrawing | None = None
+        self.options: ImportOptions | None = None
+        self.listed: ContourList | None = None
+        self.marked: set[int] = set()
+        self.lines: dict[int, Contour] = {}
+        """The contours as they were before FIT ARCS, by number."""
+        self._unfolded: set[int] = set()
+        self._backdrop = Backdrop(())
+        self._working, self._stopped = "", False
+        self._timer: Timer | None = None
+        self._failed = ""
+
+    def compose_body(self) -> ComposeResult:
+        """Title, list, what is to be said of the row with the cursor, the drawing."""
+        with Vertical(id="import", classes="panel"):
+            with Horizontal(classes="head"):
+                yield Label("IMPORT", classes="head-label")
+                yield Label(id="import-file", classes="head-kind", markup=False)
+            yield ContourTable(id="contours")
+            with Horizontal(id="filter-line", classes="field"):
+                yield Label("FILTER", classes="label")
+                yield Input(id="filter", compact=True)
+            yield Static(id="import-about", markup=False)
+        yield ContoursDrawing(id="import-drawing")
+
+    def on_mount(self) -> None:
+        """Begin to read."""
+        super().on_mount()
+        self._show_title()
+        prepare_workers()
+        self._read()
+
+    def show_session(self, session: Session) -> None:
+        """Nothing of the session stands here."""
+
+    @property
+    def unit(self) -> Unit:
+        """The unit of the program that the contours go to."""
+        own = self.options.unit.program_unit if self._fresh and self.options is not None else None
+        return own or self.current_session.program.unit
+
+    # ---- reading and listing, in a process of its own
+
+    @work(exclusive=True, group="import")
+    async def _read(self) -> None:
+        """Read the file and list its contours; asks whether a damaged one is taken, and for a unit that is missing."""
+        try:
+            data = await to_thread(drawing_bytes, self.path)
+            result = await self._read_whole(data)
+        except (StoreError, DrawingError) as error:
+            self._fail(str(error))
+            return
+        if result is None:
+            self.action_close()
+        elif isinstance(result, ContourList):
+            self._take_list(result)
+        else:
+            await self._list_after_question(result)
+
+    async def _read_whole(self, data: bytes) -> ReadDrawing | ContourList | None:
+        unit = None if self._fresh else self.current_session.program.unit
+        try:
+            return await self._done(lambda: drawing_lister(data, self.path.name, unit))
+        except DrawingError as error:
+            if error.code != "DXF_DAMAGED" or error.readable is None:
+                raise
+            answers = [Answer("YES", "what can be read"), Answer("NO", "nothing")]
+            word = await self.app.push_screen_wait(Question("DAMAGED", [error.text, "Take it?"], answers, "NO"))
+            if word != "YES":
+                return None
+        return await self._done(lambda: drawing_lister(data, self.path.name, unit, damaged=True))
+
+    async def _list_after_question(self, drawing: ReadDrawing) -> None:
+        """Ask for the unit where the file names none; then the list, unless a layer cannot be taken."""
+        self.drawing, unit = drawing, drawing.unit
+        if unit is None:
+            question = [f"{unit_question(drawing)}.", "In which unit is it drawn?"]
+            safe = "INCH" if self.current_session.program.unit is Unit.IN else "MM"
+            word = await self.app.push_screen_wait(Question("UNITS?", question, [Answer("INCH"), Answer("MM")], safe))
+            if word == GO_BACK:
+                self.action_close()
+                return
+            unit = DrawingUnit.IN if word == "INCH" else DrawingUnit.MM
+        self.options = ImportOptions.usual(unit, None if self._fresh else self.current_session.program.unit)
+        await self._list_again(self.options)
+
+    def _list(self, options: ImportOptions) -> None:
+        """The list by other options."""
+        self._list_in_worker(options)
+
+    @work(exclusive=True, group="import")
+    async def _list_in_worker(self, options: ImportOptions) -> None:
+        await self._list_again(options)
+
+    async def _list_again(self, options: ImportOptions) -> None:
+        drawing = self.drawing
+        assert drawing is not None
+        try:
+            self._take_list(await self._done(lambda: contour_finder(drawing, options)))
+        except DrawingError as error:
+            remedy = " F2 LAYERS leaves its layer out." if error.code == "NOT_FLAT" else ""
+            self._fail(f"{error.text}{remedy}")
+
+    async def _done(self, start: Callable[[], Worker[Result]]) -> Result:
+        """The result of a process; its progress is told, Esc ends it."""
+        self._stopped, self._failed = False, ""
+        self._tell_progress(Progress("reading", 0, 1))
+        worker = await to_thread(start)
+        try:
+            while not self._stopped:
+                message = await to_thread(worker.poll, 0.1)
+                if isinstance(message, Done):
+                    return message.value
+                if message is not None:
+                    self._tell_progress(message)
+            raise DrawingError("STOPPED", "Stopped. Nothing was changed.")
+        finally:
+            self._working = ""
+            worker.cancel()
+
+    def _tell_progress(self, progress: Progress) -> None:
+        percent = 100 * progress.done // max(progress.whole, 1)
+        self._working = f"{STAGES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %.  Esc stops."
+        self.said = None
+        self.refresh_frame()
+
+    def _fail(self, text: str) -> None:
+        """Tell why there is no list, or no other one."""
+        if self._stopped and self.listed is None:
+            self.action_close()
+            return
+        self._failed = "" if self.listed is not None else text
+        self.say(text, Tone.WARNING if self._stopped else Tone.ERROR)
+
+    def _take_list(self, listed: ContourList) -> None:
+        self.drawing, self.options, self.listed = listed.drawing, listed.options, listed
+        self.marked.clear()
+        self.lines.clear()
+        self._unfolded.clear()
+        self._backdrop = Backdrop(listed.contours)
+        self.quiet()
+        self._show_rows(1)
+        if not listed.contours:
+            self.say("These layers hold no contour. F2 chooses others.", Tone.WARNING)
+
+    # ---- the list
+
+    @property
+    def table(self) -> ContourTable:
+        """The list."""
+        return self.query_exactly_one(ContourTable)
+
+    @property
+    def picture(self) -> ContoursDrawing:
+        """The drawing."""
+        return self.query_exactly_one(ContoursDrawing)
+
+    @property
+    def contour(self) -> Contour | None:
+        """The contour with the cursor, the first one of a row of several."""
+        row = self.table.current if self.is_mounted else None
+        return None if row is None else self._contour(row.first.number)
+
+    @property
+    def row_numbers(self) -> tuple[int, ...]:
+        """The numbers of the contours in the row with the cursor."""
+        row = self.table.current
+        return () if row is None else tuple(contour.number for contour in row.contours)
+
+    @property
+    def chosen(self) -> tuple[Contour, ...]:
+        """The contours that are marked, else those of the row with the cursor, in the order of the list."""
+        return tuple(self._contour(number) for number in sorted(self.marked or self.row_numbers))
+
+    def _contour(self, number: int) -> Contour:
+        assert self.listed is not None
+        return self.listed.contours[number - 1]
+
+    def _show_rows(self, at: int) -> None:
+        """The list anew, the cursor on a contour."""
+        listed = self.listed
+        if listed is None:
+            return
+        text = self.query_exactly_one("#filter", Input).value
+        contours = matching(listed.contours, text, self.unit) if text.strip() else listed.contours
+        rows: list[Row] = []
+        for row in rows_of(contours):
+            rows += [Row((each,)) for each in row.contours] if row.first.number in self._unfolded else [row]
+        self.table.fill(rows, self.unit, self.marked, at)
+        self._show_title()
+        self._show_row()
+
+    def _show_title(self) -> None:
+        words = self.path.name
+        if self.options is not None and self.drawing is not None:
+            count, most = len(self.options.layers or self.drawing.layers), len(self.drawing.layers)
+            source = " ($INSUNITS)" if self.drawing.unit is not None else ""
+            words += f"  {self.options.unit}{source}  layers {count} of {most}"
+        if self.marked:
+            words += f"  {len(self.marked)} marked"
+        self.query_exactly_one("#import-file", Label).update(words)
+
+    def _show_row(self) -> None:
+        """What is to be said of the row with the cursor, and its drawing."""
+        self.query_exactly_one("#import-about", Static).update(Content("\n").join(self._about()))
+        self.refresh_frame()
+        if self._timer is not None:
+            self._timer.stop()
+        many = sum(len(contour.pieces) for contour in self._backdrop.contours) > MAX_PIECES
+        if many:
+            self._timer = self.set_timer(PAUSE, self._draw)
+        else:
+            self._draw()
+
+    def _draw(self) -> None:
+        drawing, contour = self.picture, self.contour
+        before = drawing.subject
+        view = before.view if isinstance(before, Picked) and before.backdrop is self._backdrop else None
+        drawing.characters = self.host.characters
+        if contour is None:
+            drawing.heading, drawing.subject = "DRAWING", None
+            return
+        marked = f"   {len(self.marked)} marked" if self.marked else ""
+        drawing.heading = f"chain {contour.number}  {contour.kind}{marked}"
+        drawing.subject = Picked(self._backdrop, self.chosen, self.unit, view)
+
+    def _about(self) -> list[Content]:
+        """Start and direction, what is wrong with it or was made of it, and what reading has done."""
+        contour, listed, unit = self.contour, self.listed, self.unit
+        if listed is None:
+            return []
+        first, second = "", Content("")
+        if contour is not None:
+            first = f" start {place(contour.start, unit)}{start_words(contour)}"
+            second = self._remark(contour)
+        return [Content(first), second, Content.styled(" " + "  ".join(sentences(listed, unit)), "$c-label")]
+
+    def _remark(self, contour: Contour) -> Content:
+        branch = self._branch_of(contour)
+        if branch is not None:
+            ways = len(branch.contours) - 1
+            return Content.styled(f" branch at {place(branch.at, self.unit)}: {ways} ways. B chooses.", "$c-warn")
+        if contour.problems:
+            return Content.styled(f" {contour.kind} {'; '.join(contour.problems)}.", "$c-warn")
+        if contour.fitted is not None:
+            return Content(f" {fit_sentence(contour, self.unit)}. F3 brings the lines back.")
+        return Content(f" {len(contour.layers)} layers: {', '.join(contour.layers)}" if len(contour.layers) > 1 else "")
+
+    @on(DataTable.RowHighlighted)
+    def _highlighted(self, event: DataTable.RowHighlighted) -> None:
+        event.stop()
+        if not self._failed:
+            self.quiet()
+        self._show_row()
+
+    @on(DataTable.RowSelected)
+    def _selected(self, event: DataTable.RowSelected) -> None:
+        event.stop()
+        self.action_take()
+
+    def action_mark(self) -> None:
+        """Mark the row with the cursor, or take its mark off; the cursor goes on."""
+        numbers = set(self.row_numbers)
+        self.marked = self.marked - numbers if numbers <= self.marked else self.marked | numbers
+        self.table.show_marks(self.marked)
+        self._show_title()
+        self._show_row()
+        if self.table.has_focus:
+            self.table.action_cursor_down()
+
+    def action_unfold(self, wide: bool) -> None:
+        """A row of several circles as a row each, or as one again."""
+        contour, numbers = self.contour, self.row_numbers
+        if contour is None or self.listed is None:
+            return
+        if wide and len(numbers) > 1:
+            self._unfolded.add(numbers[0])
+            self._show_rows(contour.number)
+        elif not wide:
+            rows = [[each.number for each in row.contours] for row in rows_of(self.listed.contours)]
+            first = next((numbers[0] for numbers in rows if contour.number in numbers), 0)
+            if first in self._unfolded:
+                self._unfolded.remove(first)
+                self._show_rows(first)
+
+    def action_next_row(self, by: int) -> None:
+        """The next chain, or the one before."""
+        self.table.move_cursor(row=self.table.cursor_row + by)
+
+    # ---- filter
+
+    def action_filter(self) -> None:
+        """Type what a row must hold: a layer, a kind, a length, a size."""
+        self.add_class("-filtering")
+        self.query_exactly_one("#filter", Input).focus()
+
+    @on(Input.Changed, "#filter")
+    def _filtered(self, event: Input.Changed) -> None:
+        event.stop()
+        contour = self.contour
+        self._show_rows(0 if contour is None else contour.number)
+
+    @on(Input.Submitted, "#filter")
+    def _filter_done(self, event: Input.Submitted) -> None:
+        event.stop()
+        self.table.focus()
+        self.set_class(bool(event.value.strip()), "-filtering")
+
+    # ---- softkeys
+
+    def _change(self, change: Callable[[Contour], Contour], contours: Collection[Contour]) -> None:
+        """Put other contours in the place of some; their rows stay."""
+        assert self.listed is not None
+        made = {contour.number: change(contour) for contour in contours}
+        self.listed = replace(
+            self.listed, contours=tuple(made.get(contour.number, contour) for contour in self.listed.contours)
+        )
+
+    def action_reverse(self) -> None:
+        """Travel the contours the other way; the proposed side of the tool changes with it."""
+        self._change(reversed_contour, self.chosen)
+        self._show_row()
+
+    def action_start(self) -> None:
+        """Ask for another start of the contour with the cursor."""
+        self._start()
+
+    @work(exclusive=True, group="question")
+    async def _start(self) -> None:
+        contour, unit = self.contour, self.unit
+        if contour is None:
+            return
+        lines = [f"chain {contour.number} starts at {place(contour.start, unit)}"]
+        word = await self.app.push_screen_wait(Question("START", lines, START_ANSWERS, START_ANSWERS[0].word))
+        if word == "X Y":
+            entries = [NumberEntry(f"{axis} START", Kind.LENGTH, "0") for axis in "XY"]
+            values = await self.app.push_screen_wait(
+                NumberForm("START", ["The place of the chain that is nearest."], entries, unit)
+            )
+            if values:
+                x, y = (to_mm(value, unit) for value in values)
+                self._change(lambda each: started_at(each, (x, y)), [contour])
+        elif word != GO_BACK:
+            self._change(STARTS[word], [contour])
+        self._show_row()
+
+    def action_fit(self) -> None:
+        """Fit arcs to the contours' runs of lines; those that are fitted are lines again."""
+        self._fit()
+
+    @work(exclusive=True, group="question")
+    async def _fit(self) -> None:
+        await self._fit_chosen()
+
+    async def _fit_chosen(self) -> None:
+        contours, options = self.chosen, self.options
+        assert options is not None
+        if any(contour.number in self.lines for contour in contours):
+            self._change(lambda each: self.lines.pop(each.number, each), contours)
+            self._after_fit("The lines are back.")
+            return
+        self.say("Fitting arcs.")
+        made = await to_thread(lambda: [fitted_contour(contour, options.fit or FIT[self.unit]) for contour in contours])
+        better = [new for old, new in zip(contours, made, strict=True) if new.drawn < old.drawn]
+        if not better:
+            self.say(f"FIT ARCS finds no arc within {length(options.fit, self.unit)}. F4 changes FIT.")
+            return
+        self.lines |= {contour.number: self._contour(contour.number) for contour in better}
+        new = {contour.number: contour for contour in better}
+        self._change(lambda each: new[each.number], better)
+        self._after_fit("  ".join(fit_sentence(contour, self.unit) for contour in better[:MAX_NOTES]))
+
+    def _after_fit(self, text: str) -> None:
+        assert self.listed is not None
+        contour = self.contour
+        self._backdrop = Backdrop(self.listed.contours)
+        self._show_rows(0 if contour is None else contour.number)
+        self.call_after_refresh(self.say, text)
+
+    def action_tolerance(self) -> None:
+        """Ask for the tolerance of joints and the fit of arcs, then list anew."""
+        self._tolerance()
+
+    @work(exclusive=True, group="question")
+    async def _tolerance(self) -> None:
+        options, unit = self.options, self.unit
+        if options is None:
+            return
+        most = from_mm(MAX_TOLERANCE[unit], unit)
+        values = [("TOLERANCE", options.tolerance), ("FIT", options.fit)]
+        entries = [NumberEntry(name, Kind.LENGTH, length(value, unit), most) for name, value in values]
+        lines = ["Ends within TOLERANCE are joined. Arcs leave curves and lines by FIT at most. The list is made anew."]
+        typed = await self.app.push_screen_wait(NumberForm("TOLERANCE", lines, entries, unit))
+        if typed:
+            tolerance, fit = (to_mm(value, unit) for value in typed)
+            self._list(replace(options, tolerance=tolerance, fit=fit or FIT[unit]))
+
+    def action_layers(self) -> None:
+        """Ask for the layers, then list anew."""
+        self._layers()
+
+    @work(exclusive=True, group="question")
+    async def _layers(self) -> None:
+        drawing, options = self.drawing, self.options
+        if drawing is None or options is None:
+            return
+        rows = [(layer, layer) for layer in drawing.layers]
+        chosen = await self.app.push_screen_wait(ChooseSeveral("LAYERS", rows, options.layers or drawing.layers))
+        if chosen is None:
+            return
+        if not chosen:
+            self.say("No layer is marked: nothing was changed.", Tone.WARNING)
+            return
+        self._list(replace(options, layers=None if len(chosen) == len(rows) else chosen))
+
+    def _branch_of(self, contour: Contour) -> Branch | None:
+        """The first branch that an open contour ends at and another one too."""
+        branches = () if self.listed is None else self.listed.branches
+        return next((each for each in branches if contour.number in each.contours and len(each.contours) > 1), None)
+
+    def action_branch(self) -> None:
+        """Ask on which of the ways at a branch the contour with the cursor goes on."""
+        self._ask_branch()
+
+    @work(exclusive=True, group="question")
+    async def _ask_branch(self) -> None:
+        contour = self.contour
+        branch = None if contour is None else self._branch_of(contour)
+        if contour is None or branch is None:
+            self.say("This chain does not end at a branch.")
+            return
+        ways = [self._contour(number) for number in branch.contours if number != contour.number]
+        words = [(f"CHAIN {way.number}", f"{length(way.length, self.unit)} long") for way in ways]
+        answers = [Answer(f"{row} {chain}", long) for row, (chain, long) in enumerate(words, 1)]
+        title = f"branch at {place(branch.at, self.unit)}: {len(ways)} ways"
+        lines = [f"On which does chain {contour.number} go on?"]
+        word = await self.app.push_screen_wait(Question(title, lines, answers, GO_BACK))
+        if word != GO_BACK:
+            self._join(contour, ways[int(word.split()[0]) - 1])
+
+    def _join(self, contour: Contour, way: Contour) -> None:
+        assert self.listed is not None
+        joined = with_joined(self.listed, contour.number, way.number)
+        if joined is None:
+            self.say(f"Chain {way.number} does not meet chain {contour.number} there.", Tone.ERROR)
+            return
+        total = contour.length + way.length
+        made = min(joined.contours, key=lambda each: abs(each.length - total))
+        self._take_list(joined)
+        self._show_rows(made.number)
+        text = f"Chain {made.number}: {made.drawn} pieces, {'closed' if made.closed else 'open'}."
+        self.call_after_refresh(self.say, f"{text} Chains are numbered anew.")
+
+    def action_large(self) -> None:
+        """The drawing on the whole desk, or the list again."""
+        self.toggle_class("-large")
+        (self.picture if self.has_class("-large") else self.table).focus()
+        self.refresh_frame()
+
+    def action_zoom(self, steps: int) -> None:
+        """Enlarge or shrink about the middle of the window; 0 shows the whole drawing."""
+        drawing, subject = self.picture, self.picture.subject
+        if isinstance(subject, Picked) and drawing.drawn is not None:
+            drawing.subject = replace(subject, view=drawing.drawn.view.zoom(ZOOM**steps) if steps else None)
+
+    def action_pan(self, right: int, up: int) -> None:
+        """Move the window over the drawing, but never far away from it."""
+        drawing, subject = self.picture, self.picture.subject
+        if isinstance(subject, Picked) and drawing.drawn is not None:
+            view = drawing.drawn.view.pan(PAN * right, PAN * up, drawing.size.width, drawing.size.height)
+            if view.touches(drawing.drawn.bounds, FARTHEST):
+                drawing.subject = replace(subject, view=view)
+
+    def action_leave(self) -> None:
+        """Stop what is being worked out, else out of the large drawing, out of the filter, out of the screen."""
+        filter_text = self.query_exactly_one("#filter", Input)
+        if self._working:
+            self._stopped = True
+        elif self.has_class("-large"):
+            self.action_large()
+        elif self.has_class("-filtering"):
+            self.remove_class("-filtering")
+            filter_text.value = ""
+            self.table.focus()
+        else:
+            self.action_close()
+
+    def action_close(self) -> None:
+        """Leave the screen; the program stays as it is."""
+        self.app.call_later(self.app.run_action, "app.back")
+
+    # ---- take
+
+    def action_take(self) -> None:
+        """Make a block of each contour that is chosen, in one edit."""
+        self._take()
+
+    @work(exclusive=True, group="question")
+    async def _take(self) -> None:
+        contours = self.chosen
+        if not contours or self._working:
+            return
+        count = max(len(contour.pieces) for contour in contours)
+        if count > MAX_SEGMENTS and not all(contour.number in self.lines for contour in contours):
+            lines = [f"{count:,} segments: the form shows them, the look-ahead of a control may not."]
+            answers = [Answer("FIT ARCS", "then look at the list"), Answer("TAKE", "as they are")]
+            word = await self.app.push_screen_wait(Question("MANY SEGMENTS", lines, answers, "FIT ARCS"))
+            if word == "FIT ARCS":
+                await self._fit_chosen()
+            if word != "TAKE":
+                return
+        side = None
+        if open_ones := [contour.number for contour in contours if not contour.closed]:
+            side = await self._asked_side(open_ones)
+            if side is None:
+                return
+        await self._make_blocks(contours, side)
+
+    async def _asked_side(self, numbers: Sequence[int]) -> CutterComp | None:
+        """CUTTER COMP. of open contours, which nothing proposes."""
+        several = f"{len(numbers)} open chains" if len(numbers) > 1 else f"chain {numbers[0]}, which is open"
+        answers = [Answer("LEFT"), Answer("RIGHT"), Answer("ON", "the tool's center on the chain")]
+        word = await self.app.push_screen_wait(
+            Question("CUTTER COMP.?", [f"Side of the tool on {several}, along travel:"], answers, GO_BACK)
+        )
+        return None if word == GO_BACK else CutterComp(word)
+
+    async def _make_blocks(self, contours: Sequence[Contour], side: CutterComp | None) -> None:
+        program = self.current_session.program
+        if self.unit is not program.unit:
+            program = empty_program(self.unit)
+        self.say("Writing the segments.")
+        try:
+            made, blocks = await to_thread(taken, program, contours, side)
+        except NotTaken as error:
+            self.say(str(error), Tone.ERROR)
+            return
+        if self.host.apply(made, f"IMPORT {self.path.name}"):
+            self._show_taken(made, blocks)
+
+    def _show_taken(self, made: Program, blocks: Sequence[ImportedBlock]) -> None:
+        """The form of the first block that was made, and what is to be known of all of them."""
+        first = len(made.blocks) - len(blocks) + 1
+        self.host.move(FormPlace(first))
+        self.host.action_contour()
+        which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
+        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4)
+        notes = [note for block in blocks for note in block.notes]
+        if notes:
+            rest = f" {len(notes) - MAX_NOTES} more notes." if len(notes) > MAX_NOTES else ""
+            text = f"{' '.join(notes[:MAX_NOTES])}{rest}"
+            self.app.call_later(self.host.say, text, Tone.WARNING)
+
+    # ---- words
+
+    def prompt_text(self) -> Sentence:
+        """What is being worked out, why there is no list, else what the keys do."""
+        if self._working:
+            return Sentence(self._working)
+        if self._failed:
+            return Sentence(self._failed, Tone.ERROR)
+        return Sentence(LARGE if self.has_class("-large") else PROMPT)
+
+    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
+        """Mark, filter, branch."""
+        return (
+            ("MARK", "screen.mark", "Space"),
+            ("FILTER", "screen.filter", "/"),
+            ("BRANCH", "screen.branch", "B: where an open chain goes on"),
+        )
+
+    def help_lines(self) -> tuple[str, ...]:
+        """The keys, then what reading has done."""
+        told = () if self.listed is None else tuple(sentences(self.listed, self.unit))
+        return (*HELP_LINES, *told)
+
+
+ZOOM: Final = 1.25
+"""One press enlarges by this factor."""
+PAN: Final = 0.125
+"""One arrow moves the window by this part of it."""
+FARTHEST: Final = 2.0
+"""The window may move so many times the whole drawing away from it."""
+
+START_ANSWERS: Final = (
+    Answer("NEXT CORNER"),
+    Answer("CORNER BEFORE"),
+    Answer("SIDE", "middle of the next one"),
+    Answer("BACK ONE SIDE", "middle of the one before"),
+    Answer("LONGEST", "middle of the longest side"),
+    Answer("X Y", "typed"),
+)
+STARTS: Final[dict[str, Callable[[Contour], Contour]]] = {
+    "NEXT CORNER": lambda contour: started_at_corner(contour, 1),
+    "CORNER BEFORE": lambda contour: started_at_corner(contour, -1),
+    "SIDE": lambda contour: started_at_side(contour, 1),
+    "BACK ONE SIDE": lambda contour: started_at_side(contour, -1),
+    "LONGEST": started_at_usual_place,
+}
+"""What the answers to START do."""
+
+HELP_LINES: Final = (
+    "Each row is one chain of the drawing: closed ones by size, holes after what they lie in, open ones last.",
+    "Space marks a row, Enter or F1 makes a MILL CONTOUR block of each marked chain, in one edit.",
+    "F3 FIT ARCS makes arcs of runs of short lines; F3 again brings the lines back.",
+    "F5 START moves the start, F6 REVERSE turns the direction; CUTTER COMP. follows it.",
+    "B asks where an open chain goes on at a branch.",
+)
+
+
+def start_words(contour: Contour) -> str:
+    """What the start is, the direction of travel and the side of the tool."""
+    if not contour.closed:
+        return "  open: TAKE asks for CUTTER COMP."
+    side = "LEFT" if contour.side is Side.LEFT else "RIGHT"
+    if contour.circle is not None:
+        where = ""
+    elif contour.pieces == started_at_usual_place(contour).pieces:
+        where = f"  mid longest {'side' if any(isinstance(p, Line) for p in contour.pieces) else 'arc'}"
+    else:
+        where = "  side" if len(contour.pieces) > contour.drawn else "  corner"
+    return f"{where}  {contour.turn.name}  {side}"

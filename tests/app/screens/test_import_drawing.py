@@ -1,0 +1,405 @@
+"""IMPORT by keys: a drawing's contours listed, changed, picked and taken as blocks in one edit."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from app.app import CutcompApp
+from app.documents import drawing_files
+from app.documents.drawing_files import Done
+from app.documents.programs import empty_program
+from app.documents.service import DocumentService
+from app.documents.settings import Settings, SettingsFile
+from app.file_actions import session_of
+from app.screens.dialogs import ChooseSeveral, NumberForm, Question
+from app.screens.import_drawing import ImportScreen
+from app.session.messages import Tone
+from app.session.session import Session
+from app.widgets.contour_table import ContourTable
+from app.widgets.prompt import Prompt
+from core.importing.contour import Contour
+from core.program.edit import FormPlace
+from core.program.file.write import dumps
+from core.program.model import CutterComp
+from core.units import Unit
+from tests.app.widget_pilot import SURROUNDINGS, Operator
+from tests.core.importing.drawings import circle, circle_of_lines, dxf, line, square
+
+DATA = Path(__file__).parents[2] / "data" / "dxf"
+
+
+class Here:
+    """Does a worker's work in this process: a process of its own for each test would take most of the time."""
+
+    def __init__(self, function: Callable[..., object], *arguments: object) -> None:
+        self.function, self.arguments = function, arguments
+
+    def poll(self, _wait: float = 0.0) -> Done[object]:
+        return Done(self.function(*self.arguments, progress=lambda *_: None))
+
+    def cancel(self) -> None:
+        pass
+
+
+REAL_WORKER = drawing_files.Worker
+
+
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.documents.drawing_files.Worker", Here)
+
+
+class Importer(Operator):
+    """An operator with IMPORT in front of him."""
+
+    @property
+    def importing(self) -> ImportScreen:
+        return next(screen for screen in self.app.screen_stack if isinstance(screen, ImportScreen))
+
+    @property
+    def contour(self) -> Contour:
+        assert self.importing.contour is not None
+        return self.importing.contour
+
+    async def ready(self) -> None:
+        """Wait until the drawing is listed, refused, or something is asked."""
+        for _ in range(400):
+            await self.pilot.pause(0.01)
+            at_rest = not isinstance(self.app.screen, ImportScreen) or not self.app.screen._working
+            if at_rest and (self.app.screen is not self.importing or self.importing.said or self.importing.listed):
+                break
+        await self.settle()
+
+    async def until(self, true: Callable[[], object]) -> None:
+        for _ in range(400):
+            if true():
+                await self.settle()
+                return
+            await self.pilot.pause(0.01)
+        raise AssertionError(self.app.screen)
+
+    @property
+    def rows(self) -> list[list[str]]:
+        table = self.importing.query_exactly_one(ContourTable)
+        return [[cell.plain.strip() for cell in table.get_row_at(row)] for row in range(table.row_count)]
+
+    @property
+    def said(self) -> str:
+        prompt = self.importing.query_exactly_one(Prompt)
+        return f"{prompt.sentence.tone}: {prompt.sentence.text}"
+
+    @property
+    def about(self) -> str:
+        return str(self.importing.query_exactly_one("#import-about").render())
+
+
+@asynccontextmanager
+async def importer(
+    source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
+) -> AsyncIterator[Importer]:
+    """An operator who opens a drawing with an empty program in front of him."""
+    path = source if isinstance(source, Path) else tmp_path / "part.dxf"
+    if isinstance(source, bytes):
+        path.write_bytes(source)
+    app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
+    async with app.run_test(size=size) as pilot:
+        one = Importer(app, pilot)
+        await one.settle()
+        app.show_drawing(path, fresh=fresh)
+        await pilot.pause()
+        await one.ready()
+        yield one
+
+
+async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
+        assert one.rows == [
+            ["1", "OUTSIDE", "0", "4", "140.000", "40.000 x 30.000"],
+            ["2", "HOLE", "HOLES", "4", "100.000", "30.000 x 20.000"],
+        ]
+        assert "start X 20.000 Y 0.000  mid longest side  CW  LEFT" in one.about
+        assert "largest gap none" in one.about
+        title = str(one.importing.query_exactly_one("#import-file").render())
+        assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
+        await one.press("down")
+        assert one.importing.picture.heading == "chain 2  HOLE"
+
+
+async def test_marked_contours_become_blocks_in_one_edit_that_undo_takes_back(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
+        before = one.session.program
+        await one.press("space", "space", "enter")
+        await one.until(lambda: one.session.program is not before)
+        assert [block.cutter_comp for block in one.session.program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
+        assert one.session.history.undo_count == 1
+        assert type(one.app.screen).__name__ == "ContourScreen"
+        assert one.session.place == FormPlace(1)
+        await one.press("ctrl+z")
+        assert dumps(one.session.program) == dumps(before)
+
+
+async def test_the_contours_come_after_the_blocks_of_the_program(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
+        await one.press("down", "f1")
+        await one.until(lambda: len(one.session.program.blocks[0].segments))
+        app = one.app
+        app.show_drawing(DATA / "d01-square.dxf")
+        await one.pilot.pause()
+        await one.ready()
+        await one.press("enter")
+        await one.until(lambda: len(one.session.program.blocks) == 2)
+        assert one.session.place == FormPlace(2)
+
+
+async def test_a_program_begun_for_a_drawing_takes_its_unit_and_others_keep_theirs(tmp_path):
+    for fresh, unit in ((True, Unit.MM), (False, Unit.IN)):
+        async with importer(DATA / "d01-square.dxf", tmp_path, unit=Unit.IN, fresh=fresh) as one:
+            length = one.rows[0][4]
+            assert length == ("140.000" if fresh else "5.5118")
+            await one.press("enter")
+            await one.until(lambda one=one: len(one.session.program.blocks[0].segments))
+            assert one.session.program.unit is unit
+
+
+async def test_a_drawing_without_unit_asks_for_it_with_both_sizes(tmp_path):
+    async with importer(DATA / "d04-nounits.dxf", tmp_path) as one:
+        assert isinstance(one.app.screen, Question)
+        assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in one.app.screen.lines[0]
+        assert one.app.screen.safe == "MM"
+        await one.press("i")
+        await one.until(lambda: one.importing.listed)
+        assert one.rows[0][4] == "3556.000"
+
+
+async def test_a_unit_that_is_not_told_leaves_the_screen(tmp_path):
+    async with importer(DATA / "d04-nounits.dxf", tmp_path) as one:
+        await one.press("escape")
+        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+
+
+@pytest.mark.parametrize(("key", "taken"), [("f1", True), ("y", True), ("enter", False), ("f2", False)])
+async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
+    async with importer(DATA / "d19-cut-off.dxf", tmp_path) as one:
+        assert isinstance(one.app.screen, Question)
+        assert one.app.screen.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
+        await one.press(key)
+        if taken:
+            await one.until(lambda: one.importing.listed)
+            assert "what comes after it is missing" in " ".join(one.importing.help_lines())
+        else:
+            await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        (DATA / "d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
+        (DATA / "d17-empty.dxf", "in model space: 1 TEXT was skipped."),
+        (DATA / "gone.dxf", "gone.dxf cannot be read: No such file or directory."),
+        (dxf(line((0, 0), (5, 5)), [(0, "LINE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]), "F2 LAYERS"),
+    ],
+)
+async def test_what_cannot_be_listed_is_told_and_the_screen_stays(source, words, tmp_path):
+    async with importer(source, tmp_path) as one:
+        await one.until(lambda: words in one.said)
+        assert one.said.startswith(Tone.ERROR)
+        await one.press("f1", "down")
+        assert one.importing.listed is None
+        await one.press("escape")
+        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+
+
+async def test_a_layer_that_is_not_flat_is_left_out_by_layers(tmp_path):
+    slope = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
+    async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as one:
+        assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in one.said
+        await one.press("f2")
+        assert isinstance(one.app.screen, ChooseSeveral)
+        await one.press("down", "space", "enter")
+        await one.until(lambda: one.importing.listed)
+        assert len(one.rows) == 1
+
+
+async def test_too_much_is_told_with_number_and_limit(tmp_path, monkeypatch):
+    monkeypatch.setattr("core.importing.dxf.MAX_ENTITIES", 3)
+    async with importer(dxf(*square(0, 0, 10)), tmp_path) as one:
+        assert "4" in one.said
+        assert "3" in one.said
+
+
+async def test_an_open_chain_tells_its_gap_and_the_tolerance_that_joins_it(tmp_path):
+    async with importer(DATA / "d06-gap-open.dxf", tmp_path) as one:
+        assert one.rows[0][1] == "OPEN"
+        assert "would join it" in one.about
+        await one.press("f4")
+        assert isinstance(one.app.screen, NumberForm)
+        await one.press(*["backspace"] * 8, "'9", "enter")
+        assert isinstance(one.app.screen, NumberForm), "more than the largest tolerance"
+        await one.press("backspace", "'.", "'1", "enter", "enter")
+        await one.until(lambda: one.importing.contour and one.contour.closed)
+        assert one.rows[0][1] == "OUTSIDE"
+
+
+async def test_an_open_chain_asks_for_the_side_and_takes_nothing_without(tmp_path):
+    async with importer(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 10))), tmp_path) as one:
+        before = one.session.program
+        await one.press("enter")
+        await one.until(lambda: isinstance(one.app.screen, Question))
+        await one.press("enter")
+        assert one.session.program is before
+        await one.press("enter")
+        await one.until(lambda: isinstance(one.app.screen, Question))
+        await one.press("r")
+        await one.until(lambda: one.session.program is not before)
+        assert one.session.program.blocks[0].cutter_comp is CutterComp.RIGHT
+
+
+async def test_the_branch_question_joins_a_chain_with_one_of_the_ways(tmp_path):
+    ends = (line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5)))
+    async with importer(dxf(*ends), tmp_path) as one:
+        assert [row[1] for row in one.rows] == ["OPEN"] * 3
+        assert "branch at X 10.000 Y 0.000: 2 ways. B chooses." in one.about
+        await one.press("b")
+        await one.until(lambda: isinstance(one.app.screen, Question))
+        assert one.app.screen.question == "branch at X 10.000 Y 0.000: 2 ways"
+        await one.press("f1")
+        await one.until(lambda: len(one.rows) == 2)
+        assert sorted(row[3] for row in one.rows) == ["1", "2"]
+        await one.press("down", "b")
+        await one.until(lambda: "does not end at a branch" in one.said or isinstance(one.app.screen, Question))
+
+
+async def test_start_and_reverse_change_the_block(tmp_path):
+    async with importer(DATA / "d01-square.dxf", tmp_path) as one:
+        assert (one.contour.turn.name, one.contour.start) == ("CW", (20.0, 0.0))
+        await one.press("f6")
+        assert "CCW  RIGHT" in one.about
+        await one.press("f5", "n")
+        await one.until(lambda: one.contour.start != (20.0, 0.0))
+        assert one.contour.start == (40.0, 0.0)
+        assert "corner" in one.about
+        await one.press("f5", "x")
+        await one.until(lambda: isinstance(one.app.screen, NumberForm))
+        await one.press("backspace", "'9", "enter", "backspace", "'3", "'3", "enter")
+        await one.until(lambda: one.contour.start == (9.0, 30.0))
+        await one.press("enter")
+        await one.until(lambda: one.session.program.blocks[0].segments)
+        block = one.session.program.blocks[0]
+        assert (block.x_start.value, block.y_start.value) == (9.0, 30.0)
+        assert block.cutter_comp is CutterComp.RIGHT
+
+
+async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
+    async with importer(circle_of_lines(300), tmp_path) as one:
+        assert one.rows[0][3] == "300"
+        await one.press("f3")
+        await one.until(lambda: one.rows[0][3] == "1")
+        assert "300 lines -> 1 ARC, off by 0." in one.about
+        await one.press("f3")
+        await one.until(lambda: one.rows[0][3] == "300")
+
+
+async def test_more_than_five_hundred_segments_advise_fit_arcs_before_they_are_taken(tmp_path):
+    async with importer(circle_of_lines(600), tmp_path) as one:
+        await one.press("enter")
+        await one.until(lambda: isinstance(one.app.screen, Question))
+        assert "segments: the form shows them, the look-ahead of a control may not." in one.app.screen.lines[0]
+        await one.press("enter")
+        await one.until(lambda: one.rows[0][3] == "1")
+        await one.press("enter")
+        await one.until(lambda: one.session.program.blocks[0].segments)
+        assert len(one.session.program.blocks[0].segments) == 1
+
+
+async def test_equal_circles_fold_into_one_row_that_opens(tmp_path):
+    data = dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)))
+    async with importer(data, tmp_path) as one:
+        assert [row[5] for row in one.rows] == ["50.000 x 50.000", "dia. 2.000 x 6"]
+        await one.press("down", "right")
+        assert len(one.rows) == 7
+        await one.press("down", "space", "left")
+        assert [row[0] for row in one.rows] == ["1", "-    2"]
+        await one.press("enter")
+        await one.until(lambda: one.session.program.blocks[0].segments)
+        assert len(one.session.program.blocks) == 1
+
+
+async def test_the_filter_holds_back_what_does_not_match(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
+        await one.press("slash", "'h", "'o", "'l", "'e")
+        assert [row[1] for row in one.rows] == ["HOLE"]
+        await one.press("enter", "space")
+        assert one.importing.marked == {2}
+        await one.press("escape")
+        assert len(one.rows) == 2
+
+
+async def test_the_drawing_alone_zooms_and_goes_from_chain_to_chain(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
+        await one.press("f7", "n", "plus")
+        assert one.importing.picture.has_focus
+        assert one.contour.number == 2
+        assert one.importing.picture.subject.view is not None
+        await one.press("0", "space", "escape")
+        assert one.importing.picture.subject.view is None
+        assert one.importing.marked == {2}
+        assert one.importing.table.has_focus
+
+
+@pytest.mark.parametrize("size", [(60, 20), (80, 24), (132, 43)])
+async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path, size=size) as one:
+        assert one.importing.table.size.height >= 7
+        assert one.importing.picture.display is (size[0] >= 80)
+        await one.press("f7")
+        assert one.importing.picture.outer_size.width == one.importing.query_exactly_one("#desk").size.width
+        await one.press("f7", "f1")
+        await one.until(lambda: one.session.program.blocks[0].segments)
+
+
+async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "plate.dxf").write_bytes(dxf(*square(0, 0, 10)))
+    service = DocumentService(state=tmp_path / "own")
+    settings = SettingsFile(tmp_path / "settings.toml", Settings())
+    program = service.new(Unit.MM).document
+    app = CutcompApp(session_of(program), surroundings=SURROUNDINGS, service=service, settings_file=settings)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Importer(app, pilot)
+        await one.settle()
+        await one.press("ctrl+k", *["'i", "'m", "'p", "'o", "'r", "'t"], "'d")
+        await one.press("ctrl+k")
+        await app.run_action("app.import_drawing")
+        await one.settle()
+        await one.press("p", "l", "a", "t", "e", "full_stop", "d", "x", "f", "enter")
+        await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
+        await one.ready()
+        assert one.rows[0][1] == "OUTSIDE"
+        await one.press("escape")
+    service.stop()
+
+
+async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatch):
+    monkeypatch.setattr("app.documents.drawing_files.Worker", REAL_WORKER)
+    monkeypatch.setattr("app.documents.drawing_files._read_and_list", wait_for_ever)
+    path = tmp_path / "slow.dxf"
+    path.write_bytes(dxf(*square(0, 0, 10)))
+    app = CutcompApp(Session.of(empty_program(Unit.MM)), surroundings=SURROUNDINGS)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Importer(app, pilot)
+        await one.settle()
+        app.show_drawing(path)
+        await pilot.pause()
+        await one.until(lambda: "Esc stops." in one.said)
+        await one.press("escape")
+        await one.until(lambda: type(app.screen).__name__ == "ContourScreen")
+
+
+def wait_for_ever(*_arguments: object, progress: object) -> int:
+    while progress:
+        pass
+    return 0
