@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from textual import on, work
 from textual.binding import Binding, BindingType
+from textual.events import Key
 from textual.reactive import var
 from textual.screen import Screen
 from textual.timer import Timer
@@ -26,6 +27,7 @@ from app.session.block_findings import Entry
 from app.session.derivation import Request, advised, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
+from app.terminal.split_keys import TOLD
 from app.transform_actions import TransformActions
 from app.widgets.status import Surroundings
 from core.pipeline.derived import DerivedBlock
@@ -189,6 +191,11 @@ class CutcompApp(FileActions, TransformActions):
         self._advise_later()
         if session.program is not before.program:
             self._derive(Request(session.program))
+
+    def on_key(self, event: Key) -> None:
+        """Keys that nobody took: of what a slow link has split, and of what was pasted in part, say so."""
+        if event.key in TOLD:
+            self.say(TOLD[event.key], Tone.WARNING)
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line of the screen in front."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, say
 from app.documents.files import load, load_from
-from app.painted.widgets.words import segment
+from app.session.words import segment_name
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.file.read import StoreError
 from core.program.model import Number, Program
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import argparse
 
     from core.advice.lookahead_table import Table
-    from core.output.nc import Refusal
+    from core.output.nc import Posted, Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
 DASH: Final = "-"
@@ -91,7 +91,7 @@ def _status(derived: Derived, number: int | None) -> int:
 def _report(derived: Derived, number: int | None) -> None:
     for found in _chosen(derived, number):
         for finding in found.findings:
-            where = f", {segment(finding.segment)}" if finding.segment else ""
+            where = f", {segment_name(finding.segment)}" if finding.segment else ""
             say(f"block {found.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
 
 
@@ -138,12 +138,11 @@ def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Tabl
 
 def post(options: argparse.Namespace) -> int:
     """`cutcomp post`: NC text, or the reasons why there is none."""
-    from app.cli.posting import nc_text
     from core.output.nc import Posted
 
     control = _control(options)
     derived = _derived(options.file)
-    result = nc_text(derived, _name(options.file), options.override, control)
+    result = _nc_text(derived, _name(options.file), options.override, control)
     _report(derived, None)
     if not isinstance(result, Posted):
         say(f"nothing was posted. {result.text}{_words(result, options)}")
@@ -154,6 +153,15 @@ def post(options: argparse.Namespace) -> int:
         say(f"{note.severity}: {sentence(note, derived.program.unit)}")
     _deliver(result.text, options.output)
     return _status(derived, None)
+
+
+def _nc_text(derived: Derived, name: str, override: str | None, control: str | None) -> Posted | Refusal:
+    """The path of the tool's center, or the program of a control that compensates by itself, by its full name."""
+    from core.pipeline.post import post_center_path, post_control_program
+
+    if control is not None:
+        return post_control_program(derived, name=name, control=control)
+    return post_center_path(derived, name=name, override=override)
 
 
 def _words(result: Refusal, options: argparse.Namespace) -> str:

@@ -10,9 +10,7 @@ from app.cli.shell import UNUSABLE, prepare, say
 
 def proof(arguments: list[str]) -> int:
     """Run the command; returns the exit status."""
-    prepare()
     from app.cli.control_options import Unusable, control_of, tools_of, unit_of
-    from app.cli.screens import run
     from app.documents.programs import is_nc
     from core.pipeline.checking import Asked
 
@@ -26,6 +24,9 @@ def proof(arguments: list[str]) -> int:
     if options.file.is_file() and not is_nc(options.file):
         say(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
         return UNUSABLE
+    prepare()
+    from app.cli.screens import run
+
     return run(options.file, asked=asked)
 
 

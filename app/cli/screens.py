@@ -77,7 +77,6 @@ def made(
     from app.file_actions import session_of
     from app.terminal import character_set, driver, key_sequences
     from app.terminal.capabilities import monochrome
-    from app.terminal.key_order import WidgetDriver
 
     browser = in_browser()
     key_sequences.teach()
@@ -107,7 +106,7 @@ def made(
 
         app.driver_class = BrowserDriver
     else:
-        app.driver_class = WidgetDriver
+        app.driver_class = driver.TerminalDriver
         character_set.settle(sys.__stderr__, name)
     return app
 

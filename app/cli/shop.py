@@ -14,8 +14,8 @@ from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from app.documents import times
 from app.documents.files import load, save, write_output
 from app.documents.lock import Held, myself, release, take
+from app.documents.questions import held_sentence
 from app.documents.tool_tables import merged, read_table, tool_line
-from app.painted.keeping import holder
 from core.finding import Finding
 from core.program.file.read import StoreError
 from core.program.model import Program
@@ -79,7 +79,7 @@ def tools(options: argparse.Namespace) -> int:
         # where no lock can be written, the program cannot either, and says so
         lock = take(options.file, myself(now))
     if isinstance(lock, Held):
-        say(f"nothing was imported: {holder(lock.owner, now)} TOOL SETUP there imports a table, too.")
+        say(f"nothing was imported: {held_sentence(lock.owner, now)} TOOL SETUP there imports a table, too.")
         return UNUSABLE
     try:
         return _imported(options)

@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import Any, Final
 from zlib import crc32
 
 from app.documents.files import short_name, sync_folder, write_all
@@ -26,9 +26,6 @@ SUFFIX: Final = ".cutcomp-journal"
 
 NAMELESS: Final[int] = getattr(os, "O_TMPFILE", 0)
 """Opens a file without a name in a folder; 0 where the system has none."""
-
-LARGEST_KEPT: Final = 1_000_000
-"""Bytes of a journal that is kept in memory over a save; of a longer one undo after the next crash ends there."""
 
 
 @dataclass(slots=True)
@@ -47,17 +44,6 @@ class JournalFile:
     handle: int | None = None
     program: Path | None = None
     aside: Path | None = None
-
-    @classmethod
-    def resumed(cls, path: Path, length: int, total: int) -> Self:
-        """The journal of a program that died, cut after its last whole line; OSError if that cannot be done."""
-        handle = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
-        try:
-            os.ftruncate(handle, length)
-        except OSError:
-            os.close(handle)
-            raise
-        return cls(path, total=total, length=length, handle=handle)
 
     def add(self, records: Iterable[Record]) -> None:
         """Put lines on the disk, with those that could not be written before; OSError keeps them for the next time."""
@@ -155,15 +141,6 @@ class JournalFile:
             raise
         sync_folder(self.path.parent)
         return handle
-
-    def put_away(self) -> bool:
-        """Remove the file after a save; its lines go first into the next one.  False where they are too many."""
-        kept = self.length + len(self.unwritten) <= LARGEST_KEPT
-        if kept and self.handle is not None:
-            written = os.pread(self.handle, self.length, 0)
-            kept, self.unwritten = len(written) == self.length, written + self.unwritten
-        self.remove()
-        return kept
 
     def remove(self) -> None:
         """Remove the file, wherever it stands by now; never another one in its place."""

@@ -56,8 +56,6 @@ class Run(NamedTuple):
 
 Line = list[Cell | None]
 """None: nobody knows what stands there, and nowhere else in that line."""
-Texts = list[tuple[str, str]]
-"""Texts of a line, each with the parameters of its control sequence."""
 
 
 @dataclass(slots=True)
@@ -92,17 +90,6 @@ class Shown:
             return slim(data)
         self.lines = self.lines or [[None] * columns for _ in range(rows)]
         return self._sent(picture.over(self.lines), picture.cursor)
-
-    def paint(self, texts: Iterable[tuple[int, Texts]]) -> str | None:
-        """What has to be sent so that these lines stand; None while nothing is known of the terminal.
-
-        Every line is as long as the terminal is wide, and its cursor stays where it is.
-        """
-        columns, rows = self._measured()
-        lines = [(row, line_of(one)) for row, one in texts if row < rows]
-        if not self.lines or self.cursor is None or any(len(line) != columns for _, line in lines):
-            return None
-        return self._sent(lines, self.cursor)
 
     def _measured(self) -> tuple[int, int]:
         """Columns and rows of the terminal, of which nothing is known any more if they have changed."""
@@ -164,14 +151,6 @@ class Cells(dict[str, Cell]):
 
 
 _styled: Final = lru_cache(256)(Cells)
-
-
-def line_of(texts: Texts) -> Line:
-    """The cells of texts side by side."""
-    line: Line = []
-    for text, codes in texts:
-        line += map(_styled(read(codes) if codes else PLAIN).__getitem__, text)
-    return line
 
 
 def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:

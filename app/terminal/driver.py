@@ -16,14 +16,15 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any, Final
 
 from textual import events
-from textual._ansi_sequences import ANSI_SEQUENCES_KEYS, SYNC_END, SYNC_START
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 from textual.message import Message
 
 from app.terminal.capabilities import ascii_only
-from app.terminal.cell_diff import Shown, Texts
+from app.terminal.cell_diff import Shown
 from app.terminal.character_set import ASCII, UTF_8, charset
+from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import TOLD, Joined, delay
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ PLAIN: Final = ("linux", "vt1", "vt2")
 class TerminalDriver(LinuxDriver):
     """A driver that replaces what it cannot read, and takes the end of its input for a hangup.
 
-    It sends what differs from what the terminal shows, and all of it when that may have been written over.
+    It sends what differs from what the terminal shows, and all of it when that may have been written over.  Keys reach
+    the App one at a time.
     """
 
     def __init__(
@@ -54,25 +56,16 @@ class TerminalDriver(LinuxDriver):
         super().__init__(app, debug=debug, mouse=mouse, size=size)
         self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING))
         self.suspended = False
+        self.keys = KeyOrder(app)
 
     def write(self, data: str) -> None:
         """A picture on its way to the terminal, in as few bytes as show it."""
         if sent := self.shown.write(data):
             super().write(sent)
 
-    def paint(self, lines: list[tuple[int, Texts]]) -> bool:
-        """Lines of the picture as they have become, at once; False while nobody knows what stands on the terminal."""
-        if self.suspended or not self._app._running or self._app._closed:
-            return False
-        sent = self.shown.paint(lines)
-        if sent:
-            # in one piece: every piece wakes the thread that sends it
-            super().write(f"{SYNC_START}{sent}{SYNC_END}" if self._app._sync_available else sent)
-        return sent is not None
-
     def send_message(self, message: Message) -> None:
-        """A key on its way to the App: straight into its queue, in the order of the keys, and by way of no task."""
-        self._loop.call_soon_threadsafe(self._app.post_message, message)
+        """What comes from the terminal, to the App in its turn; called in the thread that reads."""
+        self._loop.call_soon_threadsafe(self.keys.take, message)
 
     def anew(self) -> None:
         """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""

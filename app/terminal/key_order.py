@@ -16,26 +16,10 @@ from textual.app import App
 from textual.message import Message
 from textual.message_pump import MessagePump
 
-from app.terminal.driver import TerminalDriver
-
 LONGEST_WAIT: Final = 1.0
 """Seconds after which the next key is handed on in any case: a widget that was removed answers nothing."""
 FEWEST_ROUNDS: Final = 2
 """One behind the key, one behind the message of a binding that it has run."""
-
-
-class WidgetDriver(TerminalDriver):
-    """The driver for screens made of widgets."""
-
-    def __init__(
-        self, app: App[Any], *, debug: bool = False, mouse: bool = True, size: tuple[int, int] | None = None
-    ) -> None:
-        super().__init__(app, debug=debug, mouse=mouse, size=size)
-        self.keys = KeyOrder(app)
-
-    def send_message(self, message: Message) -> None:
-        """What comes from the terminal, to the App in its turn; called in the thread that reads."""
-        self._loop.call_soon_threadsafe(self.keys.take, message)
 
 
 class KeyOrder:

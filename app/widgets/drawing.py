@@ -143,7 +143,7 @@ class Drawing(Widget):
     def _show(self, picture: Drawn | None) -> None:
         self.drawn = picture
         self._frame()
-        before, self._strips = self._strips, self._painted()
+        before, self._strips = self._strips, self._styled()
         if len(before) != len(self._strips):
             self.refresh()
             return
@@ -151,7 +151,7 @@ class Drawing(Widget):
             if old != new:
                 self.refresh(Region(0, y, self.size.width, 1))
 
-    def _painted(self) -> list[Strip]:
+    def _styled(self) -> list[Strip]:
         """The picture's rows in the looks of the style sheet."""
         if self.drawn is None:
             return []
@@ -177,7 +177,7 @@ class Drawing(Widget):
         """Other colors: the same picture in them."""
         super().notify_style_update()
         if self.drawn is not None and self.is_attached:
-            self._strips = self._painted()
+            self._strips = self._styled()
 
     def render_line(self, y: int) -> Strip:
         """One row of the picture."""

@@ -1,7 +1,7 @@
 """Single lines and arcs as plain numbers: what a person types and what a drawing gives.
 
 A point is a pair (x, y) in millimeters.  This module and `construct` need no numpy, so that a form can
-be solved and painted before it is loaded; whole paths are `core.geometry.path.Path`.
+be solved and shown before it is loaded; whole paths are `core.geometry.path.Path`.
 """
 
 from __future__ import annotations

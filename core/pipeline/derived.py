@@ -1,4 +1,4 @@
-"""What is known of a program, block by block.  Needs no numpy, so that a first screen can be painted without."""
+"""What is known of a program, block by block.  Needs no numpy, so that a first screen can be shown without."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
 """What the first paint waits for: the screen that is seen, and none of those that are not."""
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -12,32 +11,30 @@ from tests.terminal import running
 STARTED = """
 import sys
 from pathlib import Path
-from app import __main__
-from app.cli import screens as main
+from app.__main__ import guarded
+from app.app import CutcompApp
+from app.terminal.driver import TerminalDriver
 
 out = Path(sys.argv.pop())
-guarded = main.guarded
+write = TerminalDriver.write
 
-def ready(app):
-    out.write_text("\\n".join(sys.modules))
-    app.exit()
+def writing(driver, data):
+    if "MILL CONTOUR" in data and not out.exists():
+        out.write_text("\\n".join(sys.modules))
+    write(driver, data)
 
-def hooked(*given, **named):
-    # not before the program itself has imported it
-    from app.painted.application import CutcompApp
+def standing(app):
+    app.set_timer(0.01, app.exit)
 
-    CutcompApp.on_ready = ready
-    return guarded(*given, **named)
-
-main.guarded = hooked
-__main__.guarded()
+TerminalDriver.write, CutcompApp.on_ready = writing, standing
+guarded()
 """
 FORCED = """
 import os
 import sys
 from pathlib import Path
 from app.__main__ import guarded
-from app.painted.application import CutcompApp
+from app.app import CutcompApp
 from app.terminal.driver import TerminalDriver
 
 out = Path(sys.argv.pop())
@@ -61,22 +58,13 @@ def standing(app):
 os.fsync, TerminalDriver.write, CutcompApp.on_ready = forcing, writing, standing
 guarded()
 """
-ROOT = Path(__file__).parents[2]
-FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program"}
+FORM = {"base", "contour", "contour_cells", "dialogs", "enter_stops", "form_screen", "values"}
 LATER = {
-    "app.painted.filing",
-    "app.painted.guide",
-    "app.painted.recovery",
-    "app.painted.starting",
     "app.cli.commands",
+    "app.nc_proof.screen",
     "argparse",
-    "app.painted.journal",
-    "hashlib",
-    "importlib.resources",
     "numpy",
-    "ssl",
-    "textual.widgets._select",
-    "textual.widgets._tree",
+    "shapely",
 }
 
 
@@ -100,7 +88,7 @@ def told(script: str, tmp_path: Path, *arguments: str) -> list[str]:
 
 def screens(modules: set[str]) -> set[str]:
     """The modules of the screens among them."""
-    return {name.removeprefix("app.painted.screens.") for name in modules if name.startswith("app.painted.screens.")}
+    return {name.removeprefix("app.screens.") for name in modules if name.startswith("app.screens.")}
 
 
 @pytest.fixture
@@ -110,16 +98,10 @@ def part(tmp_path: Path) -> str:
     return str(path)
 
 
-def test_a_file_loads_the_form_and_the_list_below_it_alone(tmp_path: Path, part: str) -> None:
+def test_a_file_loads_the_form_alone(tmp_path: Path, part: str) -> None:
     modules = loaded(tmp_path, part)
     assert screens(modules) == FORM
     assert modules & LATER == set()
-
-
-def test_without_a_file_the_start_screen_comes_too(tmp_path: Path) -> None:
-    modules = loaded(tmp_path)
-    assert screens(modules) == FORM | {"start"}
-    assert "numpy" not in modules
 
 
 def test_no_more_than_the_lock_is_forced_to_the_disk_before_the_first_paint(tmp_path: Path, part: str) -> None:
@@ -127,28 +109,3 @@ def test_no_more_than_the_lock_is_forced_to_the_disk_before_the_first_paint(tmp_
     before, behind = forced[: forced.index("PAINT")], forced[forced.index("PAINT") + 1 :]
     assert [Path(name).name for name in before] == [".part.toml.cutcomp-lock"]
     assert any("settings" in name for name in behind)
-
-
-def test_what_textual_collects_for_others_is_there_when_it_is_asked_for() -> None:
-    asked = """
-from app.painted.beforehand import prepare
-prepare()
-import sys, textual.app, textual._types
-assert "textual.widgets._tree" not in sys.modules
-from textual.types import IgnoreReturnCallbackType
-assert "textual.widgets._tree" not in sys.modules
-from textual.types import DirEntry
-import textual.types
-from textual.widgets._directory_tree import DirEntry as real
-assert DirEntry is real is textual.types.DirEntry
-assert IgnoreReturnCallbackType is textual.types.IgnoreReturnCallbackType
-try:
-    from textual.types import Nothing
-except ImportError:
-    print("as ever")
-assert "ssl" not in sys.modules
-import ssl
-assert ssl.create_default_context()
-"""
-    done = subprocess.run([sys.executable, "-c", asked], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert (done.stdout, done.stderr) == ("as ever\n", "")

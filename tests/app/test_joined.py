@@ -13,8 +13,6 @@ from textual._xterm_parser import XTermParser
 
 from app.terminal.driver import messages
 from app.terminal.split_keys import CLICK, DELAY, ESC, LATE, MOST, PASTING, REST, TOGETHER, TORN, UNENDED, Joined, delay
-from core.program.model import Number
-from tests.app.operator import Operator
 
 TAILS = ("[A", "[D", "[5~", "[18~", "[1;5H", "[[A", "[Z", "OS", "OP", "OM", "[?2026;1$y", "[<0;3;4M", "[99~")
 LONG = 60.0
@@ -162,13 +160,6 @@ def test_a_paste_without_an_end_ends_two_seconds_after_its_last_byte() -> None:
     assert list(joined.tick(103.4)) == []
     assert list(joined.tick(103.5)) == [UNENDED]
     assert list(joined.feed("7", 103.6)) == ["7"]
-
-
-def test_pasted_text_without_an_end_is_said_and_a_half_typed_number_stays() -> None:
-    one = Operator.at().press("tab", "1", UNENDED)
-    assert one.said.startswith("! Pasted text came without its end: nothing of it was taken.")
-    one.press("2", "enter")
-    assert one.block.tool == Number(12.0)
 
 
 def test_a_paste_of_any_length_holds_no_more_than_its_beginning() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.terminal.cell_diff import Line, Picture, Shown, Texts, line_of, neighbors
+from app.terminal.cell_diff import Line, Picture, Shown
 from app.terminal.fewer_bytes import slim
 
 COLUMNS, ROWS = 12, 4
@@ -39,15 +39,6 @@ class Watched:
         sent = self.shown.write(data)
         pyte.Stream(self.ours).feed(sent)
         pyte.Stream(self.whole).feed(data)
-        return sent
-
-    def paint(self, lines: dict[int, Texts]) -> str | None:
-        """Whole lines by themselves, beside the same as Textual sends it."""
-        sent = self.shown.paint(lines.items())
-        pyte.Stream(self.ours).feed(sent or "")
-        for row, texts in lines.items():
-            styled = "".join(f"\x1b[{codes}m{text}\x1b[0m" for text, codes in texts)
-            pyte.Stream(self.whole).feed(f"\x1b[{row + 1};1H{styled}\x1b[1;1H")
         return sent
 
     def resize(self, columns: int, rows: int) -> None:
@@ -105,53 +96,6 @@ def test_the_terminal_shows_what_everything_would_show(data: list[str], erases: 
         assert watched.alike
 
 
-def filled(texts: Texts) -> Texts:
-    """A line of the terminal's width."""
-    room = COLUMNS - sum(len(text) for text, _ in texts)
-    return [*texts, (" " * room, "44")]
-
-
-wide = st.lists(st.tuples(st.sampled_from(TEXTS[:-1]), st.sampled_from(STYLES)), max_size=3).map(filled)
-
-
-@given(st.lists(st.one_of(st.dictionaries(st.integers(0, ROWS - 1), wide, min_size=1), pictures), max_size=8))
-def test_lines_by_themselves_are_what_textual_would_send(data: list[dict[int, Texts] | str]) -> None:
-    watched = Watched()
-    watched.write(covering())
-    for one in data:
-        if isinstance(one, str):
-            watched.write(one)
-        else:
-            assert watched.paint(one) is not None
-        assert watched.alike
-
-
-def test_a_line_by_itself_costs_its_changed_cells_and_the_cursors_way() -> None:
-    watched = Watched()
-    watched.write(covering("a", ""))
-    assert watched.paint({1: [("aab", ""), ("a" * 9, "")]}) == "\x1b[2;3Hb\x1b[H"
-    assert watched.paint({1: [("aaba", ""), ("a" * 8, "")]}) == ""
-
-
-def test_no_line_is_sent_by_itself_while_nothing_is_known() -> None:
-    watched = Watched()
-    line: Texts = [("b" * COLUMNS, "")]
-    assert watched.shown.paint([(1, line)]) is None
-    watched.write(covering("a"))
-    watched.shown.forget()
-    assert watched.shown.paint([(1, line)]) is None
-    watched.write(covering("a"))
-    assert watched.shown.paint([(1, line)]) is not None
-    watched.resize(COLUMNS + 1, ROWS)
-    assert watched.shown.paint([(1, line)]) is None
-
-
-def test_a_line_of_another_width_is_not_sent_by_itself() -> None:
-    watched = Watched()
-    watched.write(covering("a"))
-    assert watched.shown.paint([(1, [("b" * (COLUMNS - 1), "")])]) is None
-
-
 @given(pictures, pictures)
 def test_somebody_elses_writing_is_gone_with_the_next_whole_picture(before: str, after: str) -> None:
     watched = Watched()
@@ -173,13 +117,6 @@ def test_only_cells_that_differ_are_sent() -> None:
     watched = Watched()
     watched.write(covering("a"))
     assert watched.write("\x1b[2;1H\x1b[44maaaaaabaaaaa\x1b[0m\x1b[1;1H") == "\x1b[2;7H\x1b[44mb\x1b[H\x1b[0m"
-
-
-def test_cells_side_by_side_in_one_style_are_one_text() -> None:
-    line = line_of([("ab", "1"), ("cde", "1"), ("f g", "4")])
-    bold, under = (cell.style for cell in (line[0], line[7]) if cell is not None)
-    assert list(neighbors(line, [0, 1, 2, 4, 5, 6, 7])) == [(0, "abc", bold), (4, "e", bold), (5, "f g", under)]
-    assert not list(neighbors(line, []))
 
 
 def test_a_short_way_is_written_over() -> None:

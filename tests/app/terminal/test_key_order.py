@@ -7,6 +7,7 @@ from random import Random
 from textual import events
 
 from app.terminal.key_order import KeyOrder
+from app.terminal.split_keys import TORN, UNENDED
 from core.program.model import Number
 from tests.app.widget_pilot import Operator, operator
 
@@ -27,6 +28,17 @@ async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
         segment = one.session.block.segments[0]
         assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
         assert one.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
+
+
+async def test_a_key_that_was_split_and_a_paste_without_an_end_are_told_and_what_is_half_typed_stays():
+    async with operator() as one:
+        await one.press("tab", "1")
+        for key, begins in ((TORN, "The link split a key"), (UNENDED, "Pasted text came without its end")):
+            one.app.post_message(events.Key(key, None))
+            await one.settle()
+            assert one.prompt.startswith(begins)
+        await one.press("2", "enter")
+        assert one.session.block.tool == Number(12.0)
 
 
 async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():

@@ -1,1 +1,0 @@
-"""The screens painted row by row."""

@@ -1,0 +1,62 @@
+"""The document that a name on the command line means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.cli.screens import begin
+from app.documents.files import load
+from app.documents.programs import example
+from app.documents.service import DocumentService, Opened, Trouble
+from core.program.file.write import dumps
+
+
+@pytest.fixture
+def service(own: Path) -> Iterator[DocumentService]:
+    service = DocumentService(state=own)
+    yield service
+    service.stop()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder, with the pocket as pk2.toml."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pk2.toml").write_text(dumps(load(example("pocket"))))
+    return tmp_path
+
+
+def opened(service: DocumentService, name: str) -> Opened[Any]:
+    result = begin(service, Path(name), None)
+    assert isinstance(result, Opened)
+    return result
+
+
+def test_a_name_without_suffix_opens_what_save_as_made_of_it(service: DocumentService, folder: Path) -> None:
+    document = opened(service, "pk2").document
+    assert document.program == load(folder / "pk2.toml")
+    assert document.file.path == Path("pk2.toml")
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_name_without_suffix_that_is_nowhere_becomes_what_save_as_makes_of_it(service: DocumentService) -> None:
+    result = opened(service, "new")
+    assert result.document.file.path == Path("new.toml")
+    assert result.notice.text == "new.toml does not exist yet: saving makes it."
+
+
+def test_a_file_that_is_there_keeps_its_name(service: DocumentService, folder: Path) -> None:
+    (folder / "pk2").write_text(dumps(load(example("notch"))))
+    document = opened(service, "pk2").document
+    assert (document.file.path, document.program) == (Path("pk2"), load(example("notch")))
+
+
+def test_without_work_the_fault_of_the_file_is_told(service: DocumentService, folder: Path) -> None:
+    (folder / "pk2.toml").write_bytes(b"no program")
+    result = begin(service, Path("pk2.toml"), None)
+    assert isinstance(result, Trouble)
+    assert "pk2.toml" in result.text

@@ -1,0 +1,36 @@
+"""Posting for a control that compensates by itself, from the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+from app.documents.programs import example
+
+
+def test_post_control_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "part.nc"
+    assert main(["post", str(example("plate-mm")), "--control", "nine-series:b", "-o", str(out)]) in (0, 1)
+    assert "G41 D2 G1" in out.read_text()
+    assert "takes corners differently" in capsys.readouterr().err
+
+
+def test_refusals_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    part = str(example("pocket"))
+    assert main(["post", part, "--control", "linuxcnc"]) == 1
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert "nothing was posted. Segment 8:" in streams.err
+    assert main(["post", part, "--control", "siemens"]) == 2
+    assert "No such control" in capsys.readouterr().err
+    assert main(["post", part, "--control", "linuxcnc", "--override", "POST WITH GOUGE"]) == 2
+    assert "leave out --control" in capsys.readouterr().err
+
+
+def test_proof_refuses_what_it_cannot_open(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["proof", str(tmp_path), "--control", "siemens"]) == 2
+    assert "No such control" in capsys.readouterr().err
+    assert main(["proof", str(tmp_path / "none.nc"), "--tool", "x"]) == 2
+    assert "--tool x" in capsys.readouterr().err
