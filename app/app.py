@@ -67,6 +67,7 @@ class CutcompApp(FileActions, TransformActions):
         Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
         Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
         Binding("ctrl+q", "quit", "Quit", show=False, priority=True),
+        Binding("ctrl+l", "redraw", "Redraw the screen", show=False, priority=True),
         Binding("ctrl+g", "help", "Help", show=False),
         Binding("ctrl+s", "save", "Save", show=False, priority=True),
         Binding("ctrl+o", "home", "Open", show=False, priority=True),
@@ -379,6 +380,13 @@ class CutcompApp(FileActions, TransformActions):
         if isinstance(self.screen, HelpScreen) or not isinstance(self.screen, BaseScreen):
             return
         self.push_screen(HelpScreen(self.screen.current_field, self.screen.help_lines()))
+
+    def action_redraw(self) -> None:
+        """Send the whole screen again: others may have written on the terminal."""
+        # the driver needs a terminal, which not every system has
+        from app.terminal.driver import redraw
+
+        redraw(self)
 
     def action_next_characters(self) -> None:
         """Draw with the next set of characters that the terminal has."""

@@ -136,6 +136,15 @@ class TerminalDriver(LinuxDriver):
                     self.process_message(message)
 
 
+def redraw(app: App[Any]) -> None:
+    """Send everything again, whatever others have written on the terminal."""
+    driver = app._driver
+    if isinstance(driver, TerminalDriver):
+        driver.anew()
+    else:
+        app.refresh()
+
+
 def messages(parser: XTermParser, key: str) -> Iterator[Message]:
     """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
     if key in TOLD:
