@@ -1,4 +1,4 @@
-"""Every report and benchmark that README names says how it is used, and runs nothing when asked that."""
+"""Every report and benchmark that tests/REPORTS.md names says how it is used, and runs nothing when asked that."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = (ROOT / "README.md").read_text().partition("| command, after")[2].partition("\n\n")[0]
+TABLE = (ROOT / "tests" / "REPORTS.md").read_text().partition("| command, after")[2].partition("\n\n")[0]
 MODULES = re.findall(r"`(tests\.[a-z0-9_.]+)", TABLE)
 
 
