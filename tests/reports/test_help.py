@@ -14,7 +14,7 @@ TABLE = (ROOT / "tests" / "REPORTS.md").read_text().partition("| command, after"
 MODULES = re.findall(r"`(tests\.[a-z0-9_.]+)", TABLE)
 
 
-def test_readme_names_the_reports_and_benchmarks() -> None:
+def test_the_page_names_the_reports_and_benchmarks() -> None:
     assert len(MODULES) > 15
 
 
