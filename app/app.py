@@ -28,11 +28,14 @@ from app.session.derivation import Request, advised, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
 from app.terminal.split_keys import TOLD
+from app.session.work import Work
 from app.transform_actions import TransformActions
 from app.widgets.status import Surroundings
+from app.work_actions import WorkActions
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, FormPlace, Refused
 from core.program.model import Program
+from core.progress import Stopped
 
 if TYPE_CHECKING:
     from textual.command import Provider
@@ -52,7 +55,7 @@ def _actions() -> type[Provider]:
     return Actions
 
 
-class CutcompApp(FileActions, TransformActions):
+class CutcompApp(FileActions, TransformActions, WorkActions):
     """The only place where the session changes.
 
     `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session
@@ -71,6 +74,7 @@ class CutcompApp(FileActions, TransformActions):
         Binding("ctrl+g", "help", "Help", show=False),
         Binding("ctrl+s", "save", "Save", show=False, priority=True),
         Binding("ctrl+o", "home", "Open", show=False, priority=True),
+        Binding("escape", "stop_work", "Stop", show=False, priority=True),
     ]
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
@@ -103,9 +107,11 @@ class CutcompApp(FileActions, TransformActions):
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self._wanted: Request | None = None
-        self._deriving = False
+        self._deriving: tuple[Request, Work] | None = None
         self._table_wanted: DerivedBlock | None = None
-        self._making_table = False
+        self._making_table: tuple[DerivedBlock, Work] | None = None
+        self.stopped: Program | DerivedBlock | None = None
+        """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
         self._advice_timer: Timer | None = None
         self.set_reactive(CutcompApp.session, session)
         self.set_reactive(CutcompApp.shown, session)
@@ -210,57 +216,94 @@ class CutcompApp(FileActions, TransformActions):
         self._advise_later()
         if program is not None:
             self._derive(Request(program, trial=True))
-        elif self.shown is not self.session or self._wanted is not None:
-            self._wanted = self._wanted if self._wanted is not None and not self._wanted.trial else None
+            return
+        if self.shown is not self.session:
             self.shown = self.session
+        if self._wanted is not None and self._wanted.trial:
+            self._wanted = None
+        if not self.session.derived_block.known and self._wanted is None:
+            self._derive(Request(self.session.program))
 
     def _derive(self, request: Request) -> None:
-        """Have a program derived; of several that wait only the newest is."""
-        self._wanted = request
-        if not self._deriving:
-            self._deriving, self._wanted = True, None
-            self._derive_in_thread(request)
+        """Have a program derived; of several that wait only the newest is, and one nobody waits for is given up."""
+        running = self._deriving
+        if running is None:
+            self._deriving = running = request, self.begin_work(self._calculation_stopped)
+            self._derive_in_thread(*running)
+        elif running[0].program is not request.program or running[1].stopped:
+            self._wanted = request
+            if running[0].trial or not request.trial:
+                running[1].stopped = True
 
     @work(thread=True, group="derive")
-    def _derive_in_thread(self, request: Request) -> None:
-        self.post_message(ProgramDerived(derived(request), request.trial))
+    def _derive_in_thread(self, request: Request, work: Work) -> None:
+        try:
+            result = derived(request, work)
+        except Stopped:
+            result = None
+        self.post_message(ProgramDerived(result, request.trial))
 
     @on(ProgramDerived)
     def _program_derived(self, message: ProgramDerived) -> None:
-        self._deriving = False
-        if message.derived.program is self.session.program:
-            self.session = self.session.knowing(message.derived)
-            self.shown = self.session
-        elif message.trial and self._wanted is None:
-            self.shown = self.session.trying(message.derived)
-        if self._wanted is not None:
-            self._derive(self._wanted)
+        if self._deriving is not None:
+            self.end_work(self._deriving[1])
+        self._deriving, wanted, self._wanted, result = None, self._wanted, None, message.derived
+        if result is not None and result.program is self.session.program:
+            self.session = self.session.knowing(result)
+            if wanted is None or not wanted.trial:
+                self.shown = self.session
+        elif result is not None and message.trial and wanted is None:
+            self.shown = self.session.trying(result)
+        if wanted is not None:
+            self._derive(wanted)
         else:
             self._make_table()
 
     def _make_table(self) -> None:
         """Have the look-ahead table of the block in front made, where it is not known yet."""
-        block = self.session.derived_block
-        if self._making_table or not block.known or (self.session.table and self.session.table[0] is block):
+        block, running = self.session.derived_block, self._making_table
+        if running is not None and running[0] is not block:
+            running[1].stopped = True
+        known = not block.known or self.stopped is block or (self.session.table and self.session.table[0] is block)
+        if running is not None or known:
             self._advise_later()
             return
-        self._making_table = True
-        self._make_table_in_thread(block, self.session.program)
+        self._making_table = block, self.begin_work(self._calculation_stopped)
+        self._make_table_in_thread(block, self.session.program, self._making_table[1])
 
     @work(thread=True, group="table")
-    def _make_table_in_thread(self, block: DerivedBlock, program: Program) -> None:
-        self.post_message(TableMade(block, lookahead_table(block, program)))
+    def _make_table_in_thread(self, block: DerivedBlock, program: Program, work: Work) -> None:
+        try:
+            self.post_message(TableMade(block, lookahead_table(block, program, work)))
+        except Stopped:
+            self.post_message(TableMade(None, None))
 
     @on(TableMade)
     def _table_made(self, message: TableMade) -> None:
-        if not message.advised:
-            self._making_table = False
-        trial = self.shown is not self.session
-        self.session = self.session.with_table(message.block, message.table)
-        if not trial:
-            self.shown = self.session
+        if not message.advised and self._making_table is not None:
+            self.end_work(self._making_table[1])
+            self._making_table = None
+        if message.block is not None:
+            trial = self.shown is not self.session
+            self.session = self.session.with_table(message.block, message.table)
+            if not trial:
+                self.shown = self.session
         if not message.advised:
             self._make_table()
+
+    def _calculation_stopped(self) -> None:
+        """Esc has stopped the derivation or the table: it is begun again by an edit, or when it is asked for."""
+        block = self.session.derived_block
+        self.stopped = block if block.known else self.session.program
+        self.say("Stopped. Any edit calculates again, or Ctrl+K and CALCULATE.", Tone.WARNING)
+
+    def action_calculate(self) -> None:
+        """Begin again what Esc has stopped."""
+        self.stopped = None
+        if self.session.derived_block.known:
+            self._make_table()
+        else:
+            self._derive(Request(self.session.program))
 
     def _advise_later(self) -> None:
         """Stop looking for what would help; begin again once no key has come for a while."""
@@ -272,7 +315,7 @@ class CutcompApp(FileActions, TransformActions):
     def _advise(self) -> None:
         """Have notes added to the look-ahead table of the block in front, where they are not known yet."""
         table, block = self.session.lookahead_table, self.session.derived_block
-        if table is not None and not table.complete and self.shown is self.session and not self._deriving:
+        if table is not None and not table.complete and self.shown is self.session and self._deriving is None:
             self._advise_in_thread(block, self.session.program, table)
 
     @work(thread=True, group="advice", exclusive=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 from textual.message import Message
 
 from app.documents.nc_text import NcText
+from core.progress import Progress, silent
 
 if TYPE_CHECKING:
     from core.controls.control_tools import ToolTable
@@ -65,21 +66,21 @@ class Compared(Message):
     answers: tuple[Answer, ...]
 
 
-def run(question: Question) -> Result:
+def run(question: Question, progress: Progress = silent) -> Result:
     """The program on its control without the verdicts, which take longer than the run."""
     from core.controls.registry import UnknownControl
     from core.pipeline.nc_proof import run_program
 
-    proof = run_program(question.text.data, question.control, question.tools, question.unit)
+    proof = run_program(question.text.data, question.control, question.tools, question.unit, progress)
     assert not isinstance(proof, UnknownControl), proof.text
     return _result(question, proof, judged=False)
 
 
-def judge(result: Result) -> Result:
+def judge(result: Result, progress: Progress = silent) -> Result:
     """The same with the verdicts."""
     from core.pipeline.nc_proof import with_verdicts
 
-    return _result(result.question, with_verdicts(result.proof), judged=True)
+    return _result(result.question, with_verdicts(result.proof, progress), judged=True)
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:

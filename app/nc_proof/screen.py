@@ -24,11 +24,13 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
+from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolTable
 from core.finding import Finding, Severity
+from core.progress import Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
@@ -41,6 +43,8 @@ READING: Final = (
 EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
 STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
 """How much < and > change a diameter."""
+RUN_SHARE: Final = 0.5
+"""The part of the work that the run takes; the verdicts take the rest."""
 ZOOM: Final = 1.25
 """One press enlarges by this factor."""
 ORDER: Final = tuple(Severity)
@@ -94,6 +98,8 @@ class ProofScreen(BaseScreen):
             self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
         self.view_of: View | None = None
+        self.stopped = False
+        self._work: Work | None = None
 
     def compose_body(self) -> ComposeResult:
         """Titles, listing, drawing, findings."""
@@ -218,21 +224,42 @@ class ProofScreen(BaseScreen):
     # ---- the control's run
 
     def _ask(self, question: Question) -> None:
-        self.question = question
+        self.question, self.stopped = question, False
+        if self._work is not None:
+            self.host.end_work(self._work)
+        self._work = self.host.begin_work(self._run_stopped)
         self._show_titles()
-        self._run(question)
+        self._run(question, self._work)
 
     @work(thread=True, exclusive=True, group="proof")
-    def _run(self, question: Question) -> None:
-        result = run(question)
-        self.post_message(Ran(result))
-        self.post_message(Ran(judge(result)))
+    def _run(self, question: Question, work: Work) -> None:
+        try:
+            result = run(question, part(work, 0.0, RUN_SHARE))
+            self.post_message(Ran(result))
+            self.post_message(Ran(judge(result, part(work, RUN_SHARE, 1.0))))
+        except Stopped:
+            # whoever stopped it shows so
+            return
+
+    def on_unmount(self) -> None:
+        """Nobody waits for the result any more."""
+        if self._work is not None:
+            self.host.end_work(self._work)
+
+    def _run_stopped(self) -> None:
+        """Esc has stopped the run: nothing is known of the text, or nothing judged, until it is run again."""
+        self.stopped = True
+        self._show_titles()
+        self.say("Stopped. C chooses the control and runs the program again.", Tone.WARNING)
 
     @on(Ran)
     def _ran(self, event: Ran) -> None:
         event.stop()
         if event.result.question is not self.question:
             return
+        if event.result.judged and self._work is not None:
+            self.host.end_work(self._work)
+            self._work = None
         self.result = event.result
         marks: dict[int, Severity] = {}
         for finding in event.result.findings:
@@ -259,6 +286,8 @@ class ProofScreen(BaseScreen):
         self.query_exactly_one("#proof-outcome", Static).update(self._outcome())
 
     def _outcome(self) -> Content:
+        if self.stopped:
+            return Content.styled(" stopped: not run to its end, not judged", "$c-warn")
         if self.result is None:
             return Content(" running ...")
         answer = self.result.answer

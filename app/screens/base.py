@@ -15,6 +15,7 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
@@ -33,6 +34,7 @@ from app.documents.document import NcDocument
 from app.session.block_findings import Entry as FindingEntry
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
+from app.session.work import Work
 from app.widgets.prompt import Prompt
 from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
 from app.widgets.status import Status, Surroundings
@@ -75,6 +77,20 @@ class Host(Protocol):
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line of the screen in front."""
+
+    def begin_work(self, on_stop: Callable[[], None]) -> Work:
+        """A piece of work begins in a thread; `on_stop` is called where Esc stops it."""
+
+    def end_work(self, work: Work) -> None:
+        """It is done, or its result is not wanted any more."""
+
+    @property
+    def longest_work(self) -> Work | None:
+        """What has been going on longest, where that is long enough to be shown."""
+
+    @property
+    def stopped(self) -> object:
+        """The program, or the block, that is not worked out since Esc has stopped it."""
 
     def now(self) -> datetime:
         """The time of day, in its zone."""
@@ -190,6 +206,7 @@ class BaseScreen(Screen[None]):
     def on_screen_resume(self) -> None:
         """Catch up with what has changed while another screen was in front."""
         self._follow(self.host.session)
+        self.show_work(self.host.longest_work)
 
     def _follow(self, session: Session) -> None:
         if self.is_current and session is not self.session:
@@ -204,6 +221,10 @@ class BaseScreen(Screen[None]):
             return
         self.query_exactly_one(Prompt).show(self.said or self.prompt_text())
         self.query_exactly_one(Softkeys).refresh_keys()
+
+    def show_work(self, work: Work | None) -> None:
+        """How far long work is, on the status line."""
+        self.query_exactly_one(Status).show_work("" if work is None else work.text)
 
     def forget_typed(self) -> None:
         """Forget what has been typed and not been taken."""

@@ -20,6 +20,7 @@ from app.screens.form_screen import FormScreen
 from app.session.block_findings import Entry, block_findings, remedy
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
+from app.session.work import Work
 from app.widgets.field import LISTED, ChoiceField, NumberField
 from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
@@ -251,6 +252,14 @@ class ContourScreen(FormScreen):
         findings.characters, findings.entries = characters, self.entries
         self._show_lists(shown)
         self._show_picture(shown)
+
+    def show_work(self, work: Work | None) -> None:
+        """How far it is also stands in the title of the verdict, which is the last one until it is done."""
+        super().show_work(work)
+        verdict, shown = self.query_exactly_one(Verdict), self.host.shown
+        if verdict.case is not None and not shown.derived_block.known:
+            stopped = self.host.stopped is shown.program
+            verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
 
     def _show_lists(self, shown: Session) -> None:
         segments = self.query_exactly_one(SegmentList)

@@ -41,6 +41,7 @@ ACTIONS: Final = (
     ("REPEAT SEGMENTS, ROTATED", "app.repeat_rotated", "copies of segments, each turned on"),
     ("UNDO", "app.undo", "Ctrl+Z"),
     ("REDO", "app.redo", "Ctrl+Y"),
+    ("CALCULATE", "app.calculate", "again, after Esc has stopped it"),
     ("CHARACTERS", "app.next_characters", "braille, half blocks or ASCII"),
     ("LIGHT / DARK", "app.light_or_dark", "the other colors"),
     ("KEYS, HELP", "app.help", "? or Ctrl+G"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
@@ -20,9 +21,11 @@ from app.screens.entry_screen import EntryScreen
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
+from app.session.work import Work
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS
 from core.program.file.read import StoreError
+from core.progress import Stopped
 
 if TYPE_CHECKING:
     from core.program.model import Program
@@ -60,6 +63,8 @@ class PostScreen(EntryScreen):
         super().__init__(text)
         self.choice = CENTER_PATH
         self.made: NcText | None = None
+        self.stopped = False
+        self._work: Work | None = None
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
@@ -101,18 +106,39 @@ class PostScreen(EntryScreen):
         self.query_exactly_one("#post-controls").focus()
 
     def _make(self, program: Program) -> None:
-        self.made = None
+        self.made, self.stopped = None, False
+        if self._work is not None:
+            self.host.end_work(self._work)
+        self._work = self.host.begin_work(self._make_stopped)
         self._show()
-        self._make_in_thread(program, self.choice)
+        self._make_in_thread(program, self.choice, self._work)
 
     @work(thread=True, exclusive=True, group="post")
-    def _make_in_thread(self, program: Program, choice: str) -> None:
-        self.post_message(NcMade(program, choice, nc_text(program, Path(self._text or "part").stem, choice)))
+    def _make_in_thread(self, program: Program, choice: str, work: Work) -> None:
+        name = Path(self._text or "part").stem
+        try:
+            self.post_message(NcMade(program, choice, nc_text(program, name, choice, progress=work)))
+        except Stopped:
+            # whoever stopped it shows so
+            return
+
+    def on_unmount(self) -> None:
+        """Nobody waits for the result any more."""
+        if self._work is not None:
+            self.host.end_work(self._work)
+
+    def _make_stopped(self) -> None:
+        """Esc has stopped it: Enter begins again."""
+        self.stopped = True
+        self._show()
 
     @on(NcMade)
     def _nc_made(self, event: NcMade) -> None:
         event.stop()
-        if event.program is self.current_session.program and event.choice == self.choice:
+        if event.program is self.current_session.program and event.choice == self.choice and not self.stopped:
+            if self._work is not None:
+                self.host.end_work(self._work)
+                self._work = None
             self.made = event.made
             self._show()
 
@@ -128,7 +154,8 @@ class PostScreen(EntryScreen):
         """What stands against posting, else that it is ready and what is to be known with it."""
         marks, session = MARKS[self.host.characters], self.current_session
         if self.made is None:
-            return [Content.styled(" The NC text is being made.", "$c-label")]
+            text = "Stopped. Enter makes the NC text." if self.stopped else "The NC text is being made."
+            return [Content.styled(f" {text}", "$c-label")]
         against = [Content.styled(f" {marks.gouge} {text}", "$c-err") for text in self.made.against]
         notes = [Content.styled(f" {marks.warning} {text}", "$c-warn") for text in self.made.notes]
         ready = [] if against else [Content.styled(f" {marks.good} Ready to post.", "$c-good")]
@@ -151,6 +178,9 @@ class PostScreen(EntryScreen):
 
     @work(exclusive=True, group="posting")
     async def _post(self, text: str) -> None:
+        if self.stopped:
+            self._make(self.current_session.program)
+            return
         if self.made is None:
             self.say("The NC text is still being made: press Enter again.", Tone.WARNING)
             return
@@ -183,7 +213,7 @@ class PostScreen(EntryScreen):
             if await self.app.push_screen_wait(asked) != "REPLACE":
                 return
         # made again under the name that was typed; nothing stale is written
-        made = nc_text(session.program, path.stem, self.choice, override)
+        made = await asyncio.to_thread(nc_text, session.program, path.stem, self.choice, override)
         if made.against and override is None:
             self.say(f"NOT POSTED: {made.against[0]}", Tone.ERROR)
             return

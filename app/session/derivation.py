@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
+from core.progress import Progress, silent
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
@@ -21,18 +22,18 @@ class Request:
     trial: bool = False
 
 
-def derived(request: Request) -> Derived:
+def derived(request: Request, progress: Progress = silent) -> Derived:
     """Everything that follows from a program; imports the numeric libraries, which the first paint does without."""
     from core.pipeline.derive import derive
 
-    return derive(request.program)
+    return derive(request.program, progress)
 
 
-def lookahead_table(block: DerivedBlock, program: Program) -> Table | None:
+def lookahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
     """What every look-ahead value makes of a block, None where there is nothing to compensate."""
     from core.pipeline.derive import look_ahead_table
 
-    return look_ahead_table(block, program)
+    return look_ahead_table(block, program, progress)
 
 
 def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callable[[], bool]) -> Iterator[Table]:

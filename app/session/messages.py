@@ -30,16 +30,16 @@ class Sentence(NamedTuple):
 
 @dataclass
 class ProgramDerived(Message):
-    """A worker has derived a program; `trial` where it is that of a half-typed number."""
+    """A worker has derived a program, None where it was stopped; `trial` for that of a half-typed number."""
 
-    derived: Derived
+    derived: Derived | None
     trial: bool
 
 
 @dataclass
 class TableMade(Message):
-    """A worker has made the look-ahead table of a block, or added notes to it: `advised`."""
+    """A worker has made the look-ahead table of a block, or added notes to it: `advised`; no block: stopped."""
 
-    block: DerivedBlock
+    block: DerivedBlock | None
     table: Table | None
     advised: bool = False

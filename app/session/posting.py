@@ -12,6 +12,7 @@ from app.session.words import length, segment_name, segment_numbers
 from core.finding import Finding
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
+from core.progress import Progress, silent
 from core.units import Unit, sentence
 
 CENTER_PATH: Final = "center path"
@@ -38,7 +39,9 @@ def choices() -> tuple[tuple[str, str], ...]:
     return ((CENTER_PATH, "the tool's center path, without G41 or G42: any control"), *own)
 
 
-def nc_text(program: Program, name: str, choice: str, override: str | None = None) -> NcText:
+def nc_text(
+    program: Program, name: str, choice: str, override: str | None = None, progress: Progress = silent
+) -> NcText:
     """The NC text of a program; everything is derived anew, so nothing stale is posted.
 
     `name` is that of the file, `override` a phrase the operator typed to post a path that gouges.
@@ -48,7 +51,7 @@ def nc_text(program: Program, name: str, choice: str, override: str | None = Non
     from core.pipeline.derive import derive
     from core.pipeline.post import post_center_path, post_control_program
 
-    derived, unit = derive(program), program.unit
+    derived, unit = derive(program, progress), program.unit
     if choice == CENTER_PATH:
         result = post_center_path(derived, name=name, override=OVERRIDE if override else None)
     else:

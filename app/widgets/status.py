@@ -1,4 +1,4 @@
-"""The status line: units, free room on the disk, what is saved and can be undone, the clock."""
+"""The status line: units, free room on the disk or how far long work is, what is saved and undone, the clock."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Status(Horizontal):
         super().__init__(id="status")
         self.surroundings = surroundings
         self._texts: dict[str, str] = {}
-        self._unit = ""
+        self._unit = self._work = ""
 
     def compose(self) -> ComposeResult:
         """Three labels."""
@@ -51,7 +51,7 @@ class Status(Horizontal):
         """The time of day and the free room."""
         free = self.surroundings.free()
         self._show("clock", self.surroundings.clock())
-        self._show("units", f"Prog Units: {self._unit}   Free: {size_text(free)}")
+        self._show("units", f"Prog Units: {self._unit}   {self._work or f'Free: {size_text(free)}'}")
         self.query_exactly_one("#units").set_class(free < LOW_ON_DISK, "-warning")
 
     def show(self, session: Session) -> None:
@@ -63,6 +63,12 @@ class Status(Horizontal):
         self._show("undo", "   ".join(text for text in texts if text))
         if session.program.unit != self._unit:
             self._unit = str(session.program.unit)
+            self.read_machine()
+
+    def show_work(self, text: str) -> None:
+        """How far long work is, in place of the free room; empty for none."""
+        if text != self._work:
+            self._work = text
             self.read_machine()
 
     def _show(self, name: str, text: str) -> None:

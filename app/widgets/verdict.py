@@ -73,7 +73,7 @@ class Case:
     """The path the verdict is about: that of the block, or of a row of the look-ahead table.
 
     `working` is the part of the calculation that is done, None where all of it is; the verdict is the last one until
-    then.
+    then, and also where the calculation was `stopped`.
     """
 
     block: DerivedBlock
@@ -81,6 +81,7 @@ class Case:
     unit: Unit
     row: Row | None = None
     working: float | None = None
+    stopped: bool = False
 
     @property
     def judgment(self) -> Judgment | None:
@@ -134,7 +135,7 @@ class Verdict(Vertical):
     def _show(self) -> None:
         if not self.is_mounted or self.case is None:
             return
-        self.set_class(self.case.working is not None, "-working")
+        self.set_class(self.case.working is not None or self.case.stopped, "-working")
         self.border_title = title(self.case)
         marks = MARKS[self.characters]
         for name, line in (("strip", strip(self.case, marks)), ("chips", chips(self.case, marks))):
@@ -149,6 +150,7 @@ def title(case: Case) -> str:
     if block.side is None:
         return "CUTTER COMP. ON: the tool center runs on the contour"
     known = "" if case.working is None else f"  working {round(100 * case.working)} %"
+    known = "  stopped" if case.stopped else known
     name = "PATH BEST" if case.control_path is None and block.paths is not None else _lookahead(case)
     return f"{name}{known or _effect(case)}"
 

@@ -10,6 +10,7 @@ from core.comp.lookahead import HIGHEST, LOWEST, recommended
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side
+from core.progress import Progress, part, silent
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 
@@ -88,19 +89,27 @@ class Table:
         return self.rows[value - LOWEST]
 
 
-def table_of(trial: Trial) -> Table:
+def table_of(trial: Trial, progress: Progress = silent) -> Table:
     """The table of a contour: a value is judged by its finish path and by the roughing passes before it."""
+    count = 1 + len(trial.stocks)
+    shares = [part(progress, at / count, (at + 1) / count) for at in range(count)]
     finish = trial.paths(trial.radius)
-    verdicts = _verdicts(trial, trial.radius, finish)
+    verdicts = _verdicts(trial, trial.radius, finish, shares[0])
     rougher = trial.radius if trial.rougher is None else trial.rougher
-    passes = [_verdicts(trial, rougher, trial.paths(rougher + stock)) for stock in trial.stocks]
+    passes = [
+        _verdicts(trial, rougher, trial.paths(rougher + stock), share)
+        for stock, share in zip(trial.stocks, shares[1:], strict=True)
+    ]
     rough = list(zip(*passes, strict=True)) or [()] * len(VALUES)
     rows = tuple(Row(*row) for row in zip(VALUES, finish, verdicts, rough, strict=True))
     return Table(rows, recommended(rows))
 
 
-def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...]) -> list[Verdict]:
+def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...], progress: Progress) -> list[Verdict]:
     """What a cutter of this radius does on each path; one that several values share is judged once."""
     distinct = {path.tested: path for path in paths}
-    verdicts = {key: judge(trial.surface, trial.side, cutter, path.whole) for key, path in distinct.items()}
+    verdicts = {}
+    for done, (key, path) in enumerate(distinct.items()):
+        progress(done / len(distinct))
+        verdicts[key] = judge(trial.surface, trial.side, cutter, path.whole)
     return [verdicts[path.tested] for path in paths]

@@ -22,6 +22,7 @@ from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
+from core.progress import Progress, silent
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
@@ -84,7 +85,7 @@ def smallest_gouge(unit: Unit) -> float:
     return to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, unit), unit)
 
 
-def judge_run(run: ControlRun) -> tuple[Judged, ...]:
+def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...]:
     """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines.
 
     There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
@@ -92,8 +93,11 @@ def judge_run(run: ControlRun) -> tuple[Judged, ...]:
     """
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
-    least = smallest_gouge(run.unit)
-    return tuple(_seen(result, least) for stretch in run.stretches for result in _judge_stretch(run, stretch))
+    least, results = smallest_gouge(run.unit), list[Judged]()
+    for done, stretch in enumerate(run.stretches):
+        progress(done / len(run.stretches))
+        results += [_seen(result, least) for result in _judge_stretch(run, stretch)]
+    return tuple(results)
 
 
 def _seen(result: Judged, least: float) -> Judged:

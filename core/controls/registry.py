@@ -25,6 +25,7 @@ from core.controls.klartext.reader import is_klartext_text
 from core.controls.makers import fanuc, haas, linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
+from core.progress import Progress, silent
 from core.units import Unit
 
 NO_TOOLS: Final = ToolTable()
@@ -132,8 +133,10 @@ def run(
     tools: ToolTable = NO_TOOLS,
     unit: Unit | None = None,
     library: ProgramLibrary = NO_LIBRARY,
+    *,
+    progress: Progress = silent,
 ) -> ControlRun | UnknownControl:
-    """A program's text on a control, by the control's full or short name; never raises for any text.
+    """A program's text on a control, by the control's full or short name; never raises for any text but Stopped.
 
     `unit` counts where the text names none, None for the one in which the control usually starts.  `library` finds
     the programs that a control calls from its memory.
@@ -145,9 +148,10 @@ def run(
     entry = CONTROLS[name]
     make = entry.variants[variant]
     if entry.dialect is None or make is None:
-        made = klartext.run_klartext(text, tools)
+        made = klartext.run_klartext(text, tools, progress=progress)
     else:
-        made = execute(text, full, replace(entry.dialect, unit=unit or entry.dialect.unit), tools, make, library)
+        dialect = replace(entry.dialect, unit=unit or entry.dialect.unit)
+        made = execute(text, full, dialect, tools, make, library, progress)
     return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
 
 

@@ -34,21 +34,31 @@ from core.pipeline.jobs import job
 from core.pipeline.outline import outline_block
 from core.pipeline.parameters import parameter, stocks
 from core.program.model import PathChoice, Program
+from core.progress import Progress, part, silent
 from core.verify.judge import judge_together
 
+OUTLINED = 0.4
+"""The part of the work on a block that is done when its fields are solved."""
+JUDGED = 0.9
+"""The part that is done when its paths are judged."""
 
-def derive(program: Program) -> Derived:
-    """Everything that follows from a program."""
-    numbers = range(1, len(program.blocks) + 1)
-    return Derived(program, tuple(derive_block(program, number) for number in numbers))
+
+def derive(program: Program, progress: Progress = silent) -> Derived:
+    """Everything that follows from a program; `progress` may raise Stopped."""
+    count = len(program.blocks)
+    blocks = (derive_block(program, at + 1, part(progress, at / count, (at + 1) / count)) for at in range(count))
+    return Derived(program, tuple(blocks))
 
 
-def derive_block(program: Program, number: int) -> DerivedBlock:
+def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:
     """Everything that follows for block `number`, counted from 1."""
     block = outline_block(program, number)
+    progress(OUTLINED)
     if not block.solved.pieces or block.radius is None:
         return replace(block, known=True)
-    return _with_findings(block, _work(block, program), program)
+    work = _work(block, program, part(progress, OUTLINED, JUDGED))
+    progress(JUDGED)
+    return _with_findings(block, work, program)
 
 
 def with_better_paths(derived: Derived) -> Derived:
@@ -66,7 +76,7 @@ def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
     return better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
 
 
-def _work(block: DerivedBlock, program: Program) -> BlockPaths:
+def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPaths:
     """The surface of a block, its paths and the verdict on them."""
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
@@ -77,8 +87,10 @@ def _work(block: DerivedBlock, program: Program) -> BlockPaths:
     control = contour.control(block.radius)
     best = contour.best(block.radius) if program.parameters.path is PathChoice.BEST else None
     loops = contour.loops(control, best)
+    progress(0.3)
     verdict = judge_together(surface, block.side, block.radius, [loop.whole for loop in loops])
-    return BlockPaths(surface, loops, control, verdict, _rough(block, contour), best)
+    progress(0.6)
+    return BlockPaths(surface, loops, control, verdict, _rough(block, contour, progress), best)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -118,7 +130,7 @@ class _Contour:
         )
 
 
-def _rough(block: DerivedBlock, contour: _Contour) -> tuple[RoughPass, ...]:
+def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[RoughPass, ...]:
     if block.solved.tool_diameter is None:
         return ()
     passes = []
@@ -129,6 +141,7 @@ def _rough(block: DerivedBlock, contour: _Contour) -> tuple[RoughPass, ...]:
         loops = contour.loops(control, best)
         verdict = judge_together(contour.surface, contour.side, radius, [loop.whole for loop in loops])
         passes.append(RoughPass(stock, loops, control, verdict))
+        progress(0.6)
     return tuple(passes)
 
 
@@ -151,10 +164,10 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
     return replace(block, findings=by_severity((*findings, *further)))
 
 
-def look_ahead_table(block: DerivedBlock, program: Program) -> Table | None:
+def look_ahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
     trial = trial_of(block, program)
-    return None if trial is None else table_of(trial)
+    return None if trial is None else table_of(trial, progress)
 
 
 def trial_of(block: DerivedBlock, program: Program) -> Trial | None:

@@ -17,6 +17,7 @@ from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_s
 from core.geometry.path import Path
 from core.geometry.path_parts import parts_between
 from core.geometry.piece import Point
+from core.progress import Progress, silent
 from core.units import Unit
 
 
@@ -33,15 +34,17 @@ class Proof:
         return self.run.stretches[0].plane if self.run.stretches else Plane.XY
 
 
-def run_program(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
+def run_program(
+    text: bytes, control: str, tools: ToolTable, unit: Unit | None = None, progress: Progress = silent
+) -> Proof | UnknownControl:
     """The program on a control, without the verdicts, which take longer than the run."""
-    result = run(text, control, tools, unit)
+    result = run(text, control, tools, unit, progress=progress)
     return result if isinstance(result, UnknownControl) else Proof(result, ())
 
 
-def with_verdicts(proof: Proof) -> Proof:
+def with_verdicts(proof: Proof, progress: Progress = silent) -> Proof:
     """The same with its verdicts."""
-    return Proof(proof.run, judge_run(proof.run))
+    return Proof(proof.run, judge_run(proof.run, progress))
 
 
 def fixed_scene(proof: Proof) -> Scene:

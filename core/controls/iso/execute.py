@@ -17,6 +17,10 @@ from core.controls.iso.macro_flow import MacroFlow, ProgramLibrary
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.moves import Moves
 from core.controls.program_text import lines_of
+from core.progress import Progress, silent
+
+LINES_BETWEEN: Final = 200
+"""Lines between two words on how far the run is."""
 
 
 def no_library(_: int) -> None:
@@ -33,6 +37,7 @@ def execute(
     tools: ToolTable,
     make: MakeControl,
     library: ProgramLibrary = NO_LIBRARY,
+    progress: Progress = silent,
 ) -> ControlRun:
     """A program on the control of this name that `make` gives; never raises for any text."""
     log = Log(rule_names=dialect.rule_names)
@@ -46,7 +51,7 @@ def execute(
         flow = Flow(lines, dialect, log, machine)
     stopped_at = None
     try:
-        _run(flow, machine)
+        _run(flow, machine, progress)
     except AlarmError as alarm:
         log.add(alarm.finding)
         stopped_at = alarm.line
@@ -57,10 +62,14 @@ def execute(
     return _by_main_lines(made, flow) if isinstance(flow, MacroFlow) else made
 
 
-def _run(flow: Flow, machine: Machine) -> None:
+def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
     """Runs lines until the program ends."""
+    run_lines = 0
     while flow.at < len(flow.lines):
         line = flow.at = flow.at + 1
+        run_lines += 1
+        if run_lines % LINES_BETWEEN == 0:
+            progress(line / len(flow.lines))
         flow.count_repeat(line)
         for block in flow.blocks(line):
             machine.step(block)

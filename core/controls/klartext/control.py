@@ -17,9 +17,13 @@ from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
+from core.progress import Progress, silent
 
 MAX_REPEATED_BLOCKS: Final = 50_000
 """Blocks that jumps and repeats may run again before the run is given up."""
+
+BLOCKS_BETWEEN: Final = 200
+"""Blocks between two words on how far the run is."""
 
 MAX_CALL_DEPTH: Final = 19
 """Subprograms that may call one another."""
@@ -38,7 +42,7 @@ _PASSED_OVER: Final = frozenset((15, 16, 18, 20, 26, 27))
 _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
-def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRun:
+def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Progress = silent) -> ControlRun:
     """A program in Klartext with these tools, run with a share of each tool's radius; never raises for any text.
 
     Tools of the table count before TOOL DEF of the same number.
@@ -49,7 +53,7 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRu
     state = State(log, WaitingElement(center), tools, blocks, _labels(blocks), share)
     stopped_at = None
     try:
-        _run_blocks(state)
+        _run_blocks(state, progress)
         state.waiting.flush()
         center.finish()
     except AlarmError as alarm:
@@ -60,12 +64,14 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRu
     return ControlRun("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
 
 
-def _run_blocks(state: State) -> None:
+def _run_blocks(state: State, progress: Progress) -> None:
     left = len(state.blocks) + MAX_REPEATED_BLOCKS
     while state.next < len(state.blocks) and not state.ended:
         block = state.blocks[state.next]
         state.next += 1
         left -= 1
+        if left % BLOCKS_BETWEEN == 0:
+            progress(state.next / len(state.blocks))
         if left < 0:
             text = f"More than {MAX_REPEATED_BLOCKS} repeated blocks: the run ends here, not judged. Repeat fewer."
             state.stop("LIMIT", text, block)

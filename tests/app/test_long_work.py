@@ -1,0 +1,125 @@
+"""Long work: the status line tells how far it is, Esc stops it, and it can be begun again."""
+
+from __future__ import annotations
+
+from threading import Event
+from time import sleep
+
+import pytest
+
+import app.app as app_module
+import app.nc_proof.screen as proof_module
+import app.screens.post as post_module
+from app.documents.document import NcDocument
+from app.documents.nc_text import NcText
+from app.session import work
+from app.widgets.status import Status
+from tests.app.widget_pilot import Operator, operator
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch):
+    """Work is long as soon as it has begun."""
+    monkeypatch.setattr(work, "SHOWN_AFTER", 0.0)
+    monkeypatch.setattr(work, "STOPS_AFTER", 0.0)
+    monkeypatch.setattr("app.work_actions.SHOWN_AFTER", 0.02)
+
+
+class Slow:
+    """Work that is at 40 % until it may go on."""
+
+    def __init__(self, monkeypatch, module, name):
+        self.real, self.go, self.stopped = getattr(module, name), Event(), False
+        monkeypatch.setattr(module, name, self)
+
+    def __call__(self, *about, progress=None):
+        told = progress or about[-1]
+        while not self.go.is_set():
+            try:
+                told(0.4)
+            except work.Stopped:
+                self.stopped = True
+                raise
+            sleep(0.005)
+        return self.real(*about) if progress is None else self.real(*about, progress=progress)
+
+
+def status(one: Operator) -> str:
+    return str(one.screen.query_exactly_one(Status).query_exactly_one("#units").render())
+
+
+async def seen(one: Operator, text: str) -> None:
+    """Wait until the status line says so."""
+    while text not in status(one):
+        await one.pilot.pause(0.01)
+
+
+async def test_a_long_derivation_tells_how_far_it_is_and_escape_stops_it(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, app_module, "derived")
+        await one.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await seen(one, "working 40 %, Esc stops")
+        verdict = one.screen.query_exactly_one("#verdict")
+        assert "working 40 %" in str(verdict.border_title)
+        await one.press("escape")
+        assert slow.stopped
+        assert "Free:" in status(one)
+        assert "stopped" in str(verdict.border_title)
+        assert one.prompt == "Stopped. Any edit calculates again, or Ctrl+K and CALCULATE."
+        slow.go.set()
+        one.app.action_calculate()
+        await one.settle()
+        assert one.session.derived_block.known
+        assert "stopped" not in str(verdict.border_title)
+
+
+async def test_a_half_typed_number_that_is_given_up_leaves_nothing_uncalculated(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, app_module, "derived")
+        await one.pilot.press("tab", "2", "enter", "down", "4")
+        slow.go.set()
+        await one.press("tab", "ctrl+z", "ctrl+z")
+        assert one.session.derived_block.known
+        assert one.app.shown is one.session
+
+
+async def test_a_long_table_is_stopped_and_made_when_it_is_asked_for(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, app_module, "lookahead_table")
+        await one.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await seen(one, "working 40 %, Esc stops")
+        await one.press("escape")
+        assert slow.stopped
+        assert one.session.lookahead_table is None
+        slow.go.set()
+        one.app.action_calculate()
+        await one.settle()
+        assert one.session.lookahead_table is not None
+
+
+async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, post_module, "nc_text")
+        one.app.action_post()
+        await one.pilot.pause()
+        await seen(one, "working 40 %")
+        await one.press("escape")
+        assert slow.stopped
+        assert "Stopped. Enter makes the NC text." in str(one.screen.query_exactly_one("#post-findings").render())
+        slow.go.set()
+        await one.press("enter")
+        await one.pilot.pause(0.2)
+        assert one.screen.made is not None
+        assert "Free:" in status(one)
+
+
+async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, proof_module, "run")
+        one.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
+        await one.pilot.pause()
+        await seen(one, "working 20 %")
+        await one.press("escape")
+        assert slow.stopped
+        assert "stopped" in str(one.screen.query_exactly_one("#proof-outcome").render())
+        assert type(one.screen).__name__ == "ProofScreen"
