@@ -27,8 +27,8 @@ from app.session.block_findings import Entry
 from app.session.derivation import Request, advised, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
 from app.session.session import SEGMENT, Session
-from app.terminal.split_keys import TOLD
 from app.session.work import Work
+from app.terminal.split_keys import TOLD
 from app.transform_actions import TransformActions
 from app.widgets.status import Surroundings
 from app.work_actions import WorkActions
