@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from app.cli import lifeline
-from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, prepare, say
+from app.cli.shell import HELP, NOTHING_ASKED, SHOP_HELP, UNUSABLE, TerminalOptions, prepare, say
 from app.documents.naming import is_drawing
 
 
@@ -48,10 +48,12 @@ def _parsed(given: list[str]) -> int:
     if given[0] in COMMANDS:
         return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
     options = screen_parser().parse_args(given)
-    return screens(options.file, example=options.example, characters=options.characters, light=options.light)
+    return screens(
+        options.file, options.example, TerminalOptions(options.characters, light=options.light, mouse=options.mouse)
+    )
 
 
-def screens(file: Path | None, *, example: str | None = None, characters: str = "", light: bool = False) -> int:
+def screens(file: Path | None, example: str | None = None, options: TerminalOptions = NOTHING_ASKED) -> int:
     """The screens on a program, an NC file or a drawing, an example part, or the start screen; returns the status."""
     if file is not None and is_drawing(file) and not file.is_file():
         say(f"{file}: there is no such drawing.")
@@ -60,7 +62,7 @@ def screens(file: Path | None, *, example: str | None = None, characters: str = 
     prepare()
     from app.cli.screens import run
 
-    return run(file, example=example, characters=characters, light=light)
+    return run(file, example=example, options=options)
 
 
 def guarded() -> None:

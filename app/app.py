@@ -431,6 +431,17 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
         redraw(self)
 
+    def action_mouse(self) -> None:
+        """Take the mouse, or leave it to the terminal."""
+        # the driver needs a terminal, which not every system has
+        from app.terminal.driver import has_mouse, take_mouse
+
+        take_mouse(self, not has_mouse(self))
+        words = (
+            "Clicks act here." if has_mouse(self) else "The mouse is the terminal's again: it marks and copies text."
+        )
+        self.say(words)
+
     def action_next_characters(self) -> None:
         """Draw with the next set of characters that the terminal has."""
         here = self.character_sets.index(self.characters)

@@ -39,6 +39,7 @@ def screen_parser() -> argparse.ArgumentParser:
         default="",
         help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
     )
+    parser.add_argument("--mouse", action="store_true", help="clicks act on fields, softkeys, lists and drawings")
     parser.add_argument("--light", action="store_true", help="dark ink on light paper")
     return parser
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from app.cli.shell import UNUSABLE, say
+from app.cli.shell import NOTHING_ASKED, UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.naming import is_drawing, program_named
 from app.documents.service import DocumentService, Notice, Opened, Trouble
@@ -25,13 +25,11 @@ def run(
     *,
     example: str | None = None,
     asked: Asked | None = None,
-    characters: str = "",
-    light: bool = False,
+    options: TerminalOptions = NOTHING_ASKED,
 ) -> int:
     """Show the screens on a program, an NC file, a drawing, an example or HOME; returns the exit status.
 
-    `asked` holds the control, the tools and the unit of an NC file; `characters` are those that the operator wants the
-    drawing in.
+    `asked` holds the control, the tools and the unit of an NC file.
     """
     from app.terminal import driver
 
@@ -52,9 +50,9 @@ def run(
         say(opened.text)
         return UNUSABLE
     home = path is None and example is None
-    app = made(service, opened, home, asked, characters, light=light)
+    app = made(service, opened, options, asked, home=home)
     app.drawing = drawing
-    return guarded(service, app)
+    return guarded(service, app, mouse=options.mouse)
 
 
 def in_browser() -> bool:
@@ -70,7 +68,7 @@ def begin(service: DocumentService, path: Path | None, example: str | None) -> O
 
 
 def made(
-    service: DocumentService, opened: Opened[Any], home: bool, asked: Asked | None, characters: str, *, light: bool
+    service: DocumentService, opened: Opened[Any], options: TerminalOptions, asked: Asked | None, *, home: bool
 ) -> CutcompApp:
     """The App on a document, as the terminal and the settings of last time have it."""
     from app.app import CutcompApp
@@ -86,15 +84,15 @@ def made(
     if trouble and opened.notice is None:
         opened = replace(opened, notice=Notice(trouble, warning=True))
     environment = character_set.own(os.environ)
-    name, character_sets = ("", driver.MODES) if browser else driver.characters(environment, characters)
-    if settings.characters in character_sets and not characters:
+    name, character_sets = ("", driver.MODES) if browser else driver.characters(environment, options.characters)
+    if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
     program = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
     app = CutcompApp(
         session_of(program),
         character_sets=character_sets,
         few_colors=not browser and driver.few_colors(os.environ),
-        light=light or settings.theme == "light",
+        light=options.light or settings.theme == "light",
         service=service,
         opened=opened,
         settings_file=SettingsFile(settings_file(), settings),
@@ -111,14 +109,14 @@ def made(
     return app
 
 
-def guarded(service: DocumentService, app: CutcompApp) -> int:
+def guarded(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -> int:
     """Run the App to its end, wanted or not; what is not saved stays in the journals."""
     from app.terminal.signals import Safety
 
     safety = Safety(lambda status: app.exit(status, return_code=status), service.stop)
     safety.arm()
     try:
-        app.run(mouse=False)
+        app.run(mouse=mouse)
     finally:
         service.stop()
     if safety.status is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from dataclasses import dataclass
 from typing import Final
 
 CLEAN: Final = 0
@@ -25,6 +26,18 @@ SHOP_HELP: Final = {
 
 SWITCH_SECONDS: Final = 0.0005
 """How long a thread calculates before another one that waits has its turn; a tenth of what is usual."""
+
+
+@dataclass(frozen=True, slots=True)
+class TerminalOptions:
+    """What the operator asks of the terminal: characters to draw with (empty: what it has), light paper, the mouse."""
+
+    characters: str = ""
+    light: bool = False
+    mouse: bool = False
+
+
+NOTHING_ASKED: Final = TerminalOptions()
 
 
 def prepare() -> None:

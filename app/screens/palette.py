@@ -44,6 +44,7 @@ ACTIONS: Final = (
     ("CALCULATE", "app.calculate", "again, after Esc has stopped it"),
     ("CHARACTERS", "app.next_characters", "braille, half blocks or ASCII"),
     ("LIGHT / DARK", "app.light_or_dark", "the other colors"),
+    ("MOUSE", "app.mouse", "clicks act here, or the terminal marks text with it"),
     ("KEYS, HELP", "app.help", "? or Ctrl+G"),
     ("QUIT", "app.quit", "Ctrl+Q"),
 )

@@ -145,6 +145,21 @@ def redraw(app: App[Any]) -> None:
         app.refresh()
 
 
+def has_mouse(app: App[Any]) -> bool:
+    """Whether clicks reach the program."""
+    return isinstance(app._driver, TerminalDriver) and app._driver._mouse
+
+
+def take_mouse(app: App[Any], wanted: bool) -> None:
+    """Take the mouse from the terminal, which needs it to mark and copy text, or give it back."""
+    driver = app._driver
+    if isinstance(driver, TerminalDriver):
+        # Textual switches it only where it is in use
+        driver._mouse = True
+        driver._enable_mouse_support() if wanted else driver._disable_mouse_support()
+        driver._mouse = wanted
+
+
 def messages(parser: XTermParser, key: str) -> Iterator[Message]:
     """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
     if key in TOLD:

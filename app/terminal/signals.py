@@ -22,7 +22,9 @@ from typing import Any, Final
 SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT)
 GRACE: Final = 2.0
 """Seconds the program has to end by itself."""
-LEAVING: Final = b"\x1b[?2026l\x1b[0m\x1b[?2004l\x1b[?7h\x1b[?1004l\x1b[?1049l\x1b[?25h"
+LEAVING: Final = (
+    b"\x1b[?2026l\x1b[0m\x1b[?2004l\x1b[?7h\x1b[?1004l\x1b[?1000l\x1b[?1003l\x1b[?1015l\x1b[?1006l\x1b[?1049l\x1b[?25h"
+)
 """Everything that was switched on in the terminal, off again; the screen from before comes back."""
 
 

@@ -64,3 +64,19 @@ def test_the_child_of_a_server_needs_no_terminal() -> None:
         child.stdin.close()
         child.stdout.close()
         child.wait(10)
+
+
+def test_clicks_act_where_the_mouse_is_asked_for_and_are_the_terminal_s_again_by_the_palette() -> None:
+    with running([*PROGRAM, "--example", "pocket", "--mouse"]) as terminal:
+        terminal.until("of 11", longest=30)
+        terminal.read(quiet=0.5)
+        assert b"\x1b[?1006h" in terminal.seen
+        # the softkey F6 TOOL SETUP, in column 64 and row 11
+        terminal.send(b"\x1b[<0;64;11M\x1b[<0;64;11m")
+        terminal.until("TOOL SETUP   ", "1 tool", longest=10)
+        assert b"\x1b[?1006l" not in terminal.seen
+        terminal.send(b"\x0bmouse")
+        terminal.until("clicks act here", longest=10)
+        terminal.send(b"\r")
+        terminal.until("terminal's again", longest=10)
+        assert b"\x1b[?1006l" in terminal.seen
