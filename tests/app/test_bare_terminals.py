@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,10 +12,10 @@ from app.documents.lock import take
 from app.documents.programs import example
 from app.terminal.capabilities import ascii_only, monochrome
 from app.terminal.driver import characters
-from tests.app.kept import ELSEWHERE
-from tests.terminal import running
+from tests.app.documents.typist import ELSEWHERE
+from tests.terminal import cutcomp, running
 
-PROGRAM = [sys.executable, "-m", "app"]
+PROGRAM = cutcomp()
 PENS = re.compile(rb"\x1b\[([0-9;]*)m")
 
 

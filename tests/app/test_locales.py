@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-import sys
 
 import pytest
 
 from app.terminal.character_set import charset, own
 from tests.reports.matrix import stray
-from tests.terminal import running
+from tests.terminal import cutcomp, running
 
-PROGRAM = [sys.executable, "-m", "app", "--example", "pocket"]
+PROGRAM = cutcomp("--example", "pocket")
 BRAILLE = re.compile("[\u2801-\u28ff]")
 NONE = {"LANG": None}
 """No variable of the locale at all."""

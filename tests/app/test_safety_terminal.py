@@ -13,9 +13,9 @@ import pytest
 
 from app.documents.files import load
 from core.program.model import Number
-from tests.terminal import Terminal, running
+from tests.terminal import Terminal, cutcomp, running
 
-PROGRAM = [sys.executable, "-m", "app"]
+PROGRAM = cutcomp()
 
 
 def status(terminal: Terminal, longest: float = 10.0) -> int:
@@ -33,7 +33,7 @@ def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
     part = tmp_path / "part.toml"
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
-        terminal.send(b"\t\xb0")
+        terminal.send(b"\xb0")
         terminal.send(b"\xff\xfe\xc3")
         terminal.send(b"\x1b")
         terminal.read(quiet=0.4)
@@ -92,14 +92,11 @@ def test_a_locale_of_eight_bits_gets_a_drawing_in_ascii() -> None:
 FAULTY = """
 import sys
 from pathlib import Path
-from app.painted.desk import Desk
+from app.app import CutcompApp
 
-press = Desk.press
-def faulty(self, key, character=None):
-    if character == "!":
-        raise RuntimeError("a fault of our own")
-    return press(self, key, character)
-Desk.press = faulty
+def faulty(self):
+    raise RuntimeError("a fault of our own")
+CutcompApp.action_redo = faulty
 
 from app.cli.screens import run
 sys.exit(run(Path(sys.argv[1])))
@@ -110,9 +107,9 @@ def test_a_fault_of_our_own_ends_with_a_status_and_keeps_the_work(tmp_path: Path
     part = tmp_path / "part.toml"
     with running([sys.executable, "-c", FAULTY, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
-        terminal.send(b"\t7\t")
+        terminal.send(b"7\t")
         terminal.until("undo 1")
-        terminal.send(b"!")
+        terminal.send(b"\x19")
         assert status(terminal) not in (0, None)
     assert [one.name for one in tmp_path.iterdir()] == [".part.toml.cutcomp-journal"]
     with running([*PROGRAM, str(part)]) as terminal:
@@ -154,12 +151,12 @@ def stopped(terminal: Terminal, number: signal.Signals) -> None:
 @pytest.mark.parametrize("number", [signal.SIGTSTP, signal.SIGSTOP])
 def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: signal.Signals) -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
-        terminal.until("look-ahead 1!")
+        terminal.until("GOUGE none")
         before = terminal.text.splitlines()[:23]
         stopped(terminal, number)
-        spoilt(terminal, "look-ahead")
+        spoilt(terminal, "GOUGE none")
         os.kill(terminal.pid, signal.SIGCONT)
-        terminal.until("look-ahead 1!")
+        terminal.until("GOUGE none")
         terminal.read(quiet=0.3)
         assert terminal.text.splitlines()[:23] == before
         terminal.send(b"\t\t\t\t12345")
@@ -168,9 +165,9 @@ def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: 
 
 def test_a_screen_that_was_written_on_is_painted_again_by_a_key_or_a_size_that_is_the_same() -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
-        terminal.until("look-ahead 1!")
+        terminal.until("GOUGE none")
         for ask in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
-            spoilt(terminal, "look-ahead")
+            spoilt(terminal, "GOUGE none")
             ask()
-            terminal.until("look-ahead 1!")
+            terminal.until("GOUGE none")
             assert "$ ls" not in terminal.text

@@ -6,7 +6,6 @@ import os
 import random
 import shutil
 import signal
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,9 +17,9 @@ from app.documents.files import load
 from app.documents.programs import example
 from core.program.model import Number
 from tests.reports.relay import Line, relayed
-from tests.terminal import Terminal, running
+from tests.terminal import Terminal, cutcomp, running
 
-PROGRAM = [sys.executable, "-m", "app"]
+PROGRAM = cutcomp()
 ESC = b"\x1b"
 CAME_TORN = "The link split a key in two"
 

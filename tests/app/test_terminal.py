@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -13,7 +12,7 @@ import pytest
 
 from app.documents.programs import example
 from app.terminal.key_sequences import VT100_PLUS
-from tests.terminal import Terminal, running
+from tests.terminal import Terminal, cutcomp, running
 
 ROOT = Path(__file__).parents[2]
 ESC = b"\x1b"
@@ -24,13 +23,12 @@ TITLES = {4: "PROGRAM PARAMETERS", 5: "PART SETUP", 6: "TOOL SETUP", 7: "zoom", 
 
 
 @contextmanager
-def cutcomp(folder: Path, name: str = "overrun-square", more: Mapping[str, str] | None = None) -> Iterator[Terminal]:
+def on_example(folder: Path, name: str = "overrun-square", more: Mapping[str, str] | None = None) -> Iterator[Terminal]:
     """The program on a copy of an example, its first verdict on the screen."""
     file = folder / f"{name}.toml"
     shutil.copy(example(name), file)
     own = {"HOME": str(folder), "XDG_STATE_HOME": str(folder), "XDG_DATA_HOME": str(folder), "PYTHONPATH": str(ROOT)}
-    arguments = [sys.executable, "-m", "app", str(file)]
-    with running(arguments, environment={**own, **(more or {})}, cwd=str(folder)) as terminal:
+    with running(cutcomp(str(file)), environment={**own, **(more or {})}, cwd=str(folder)) as terminal:
         terminal.until("MILL CONTOUR", longest=30.0)
         terminal.until("best", longest=30.0)
         yield terminal
@@ -60,7 +58,7 @@ def function_keys() -> dict[str, tuple[bytes, int]]:
 
 
 def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         for name, (sequence, number) in function_keys().items():
             terminal.send(sequence)
             try:
@@ -72,7 +70,7 @@ def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
 
 
 def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         assert "CUTCOMP LOOKAHEAD CAL      2" in terminal.text
         terminal.send(b"\t" * 11 + b"4\r")
         terminal.until("CUTCOMP LOOKAHEAD USR      4")
@@ -82,7 +80,7 @@ def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
 
 
 def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         terminal.send(ESC)
         terminal.until("1 to 8 press the softkey now")
         terminal.send(b"6")
@@ -92,7 +90,7 @@ def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("byte", [b"\xb0", b"\xff", b"\xc3(", b"\x80\x81\x82"])
 def test_a_byte_that_is_not_utf_8_ends_nothing(tmp_path: Path, byte: bytes) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         terminal.send(b"\t\t\t\t7" + byte)
         terminal.read(quiet=0.3)
         assert terminal.ended() is None
@@ -101,14 +99,14 @@ def test_a_byte_that_is_not_utf_8_ends_nothing(tmp_path: Path, byte: bytes) -> N
 
 
 def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         terminal.read(quiet=1.0)
         assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(20)) <= CLOCK
 
 
 @pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}, {"TERM": "xterm", "NO_COLOR": "1"}], ids=str)
 def test_letters_differ_from_their_ground_and_the_cursor_from_letters(tmp_path: Path, more: dict[str, str]) -> None:
-    with cutcomp(tmp_path, more=more) as terminal:
+    with on_example(tmp_path, more=more) as terminal:
         terminal.send(b"\t\t\t\t")
         terminal.read(quiet=0.5)
         line = terminal.screen.buffer[6]
@@ -119,7 +117,7 @@ def test_letters_differ_from_their_ground_and_the_cursor_from_letters(tmp_path: 
 
 
 def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
-    with cutcomp(tmp_path) as terminal:
+    with on_example(tmp_path) as terminal:
         terminal.send(b"\t9\r\x11")
         terminal.until("LEAVE")
         terminal.send(b"l")
@@ -128,8 +126,7 @@ def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
 
 def test_a_file_that_cannot_be_used_is_one_sentence_and_status_2(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_text("format = 1\nunits = 'IN'\nshape = 3\n")
-    arguments = [sys.executable, "-m", "app", str(tmp_path / "bad.toml")]
-    with running(arguments, environment={"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}) as terminal:
+    with running(cutcomp(str(tmp_path / "bad.toml")), environment={"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}) as terminal:
         assert status(terminal) == 2
         assert "line 3" in terminal.text
         assert "shape" in terminal.text

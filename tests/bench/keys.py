@@ -150,7 +150,7 @@ def answer(terminal: Terminal, key: bytes) -> Answer:
     return Answer(sum(len(data) for *_, data in came), changed[0], finished[0], (changed[1], finished[1]))
 
 
-def until_rest(terminal: Terminal) -> Iterator[tuple[float, float, bytes]]:
+def until_rest(terminal: Terminal, longest: float = LONGEST) -> Iterator[tuple[float, float, bytes]]:
     """What a program sends, each with its time and the work done by then, until it neither sends nor calculates."""
     still, used, begun = 0, -1.0, time.perf_counter()
     while still < LOOKS:
@@ -162,8 +162,8 @@ def until_rest(terminal: Terminal) -> Iterator[tuple[float, float, bytes]]:
         spent = worked(terminal.pid)
         still = 0 if at_work(terminal.pid) or spent - used > TICK else still + 1
         used = spent
-        if time.perf_counter() - begun > LONGEST:
-            raise AssertionError(f"not at rest after {LONGEST} s:\n{terminal.text}")
+        if time.perf_counter() - begun > longest:
+            raise AssertionError(f"not at rest after {longest} s:\n{terminal.text}")
 
 
 def first_paint(arguments: list[str], text: str) -> float:

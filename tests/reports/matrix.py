@@ -1,8 +1,9 @@
 """The program under every kind of terminal, its screen compared cell by cell: `python -m tests.reports.matrix`.
 
 TERM x colors x locale x drawing characters x size, and the function keys of every mode of PuTTY.  What stands on a
-terminal emulator's screen after every key is compared with what the App draws without a terminal; the bytes are
-looked through for anything a terminal would not take; the cursor has to be seen, without any color too.
+terminal emulator's screen after every key is compared with what was recorded on an xterm, where every picture was also
+painted anew; the bytes are looked through for anything a terminal would not take; the cursor has to be seen, without
+any color too.
 """
 
 from __future__ import annotations
@@ -12,22 +13,20 @@ import re
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.documents.files import load
-from app.documents.programs import example
-from app.painted.session import Session
-from app.painted.widgets.rows import Look
 from app.terminal.character_set import lookalike
-from tests.reports.reference import Reference, keys_of
+from tests.reports.recorded import Picture, Step, difference, keys_of, masked, recorded
 from tests.reports.terminals import (
     FUNCTION_KEYS,
+    MODES,
     PUTTY,
     SIZES,
     XTERM,
@@ -37,27 +36,31 @@ from tests.reports.terminals import (
     sampled,
     sent,
 )
-from tests.terminal import Terminal, running
+from tests.terminal import Terminal, cutcomp, running
 
 ROOT: Final = Path(__file__).parents[2]
 PART: Final = "pocket"
-PATIENCE: Final = 10.0
+PATIENCE: Final = 30.0
 """Seconds until a screen counts as wrong."""
 KNOWN: Final = re.compile(rb"\x1b\[[0-9;?<>=]*\$?[a-zA-Z]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|\x1b[78=>]|[\r\n]")
 """Control sequences with one meaning everywhere."""
 HEX: Final = re.compile(r"[0-9a-f]{6}")
 
 SCRIPT: Final = (
-    keys_of(["tab"] * 4, [*"1..5"], "enter", "ctrl+z")
-    + keys_of(["tab"] * 7, "4", "enter", "shift+tab", "f4", "f8", "f3")
-    + keys_of("ctrl+z", "ctrl+z", "?", "f8", "f8", "enter", "tab")
-    + keys_of("f4", "f8", "f5", "f8", "f6", "f2", "f1", "f8", "pagedown", "f1", "ctrl+z", "f2", "f8")
-    + keys_of("f7", "f1", "f2", "f3", "f8", "f4", "f5", "f6", "f8", "f8")
-    + keys_of("f3", "f1", "f7", "f7", "f2", "f8", "f7", "f6", "f8", "enter")
+    # a number that cannot be read, and all that is on START
+    keys_of("ctrl+home", ["tab"] * 5, [*"1..5"], "enter", "ctrl+z", "up", "shift+tab", "up", "up", "up", "f1", "f2")
+    + keys_of(["tab"] * 11, "4", "enter", "f3", "f4", "tab", "f7", "f8", "f8", "f5", "f7", "f8", "f8")
+    # TOOL SETUP with its import, the look-ahead table
+    + keys_of("f6", "f2", "f1", "f7", "f8", "f3", "f2", "f8", "f8")
+    + keys_of("ctrl+home", ["tab"] * 11, "space", "down", "f3", "f7", "f8", "f8")
+    # segments, the two lists, HELP, DRAW with its keys
+    + keys_of("ctrl+home", "pagedown", "f2", "f1", "ctrl+z", "f9", "f9", "f10", "f10", "?", "f8")
+    + keys_of("f7", "f1", "f2", "f3", "f4", "f5", "f8")
+    # PROGRAM, POST, HOME
+    + keys_of("f8", "f2", "f1", "f4", "f8", "f5", "f8", "f6", "f8", "f7", "f8", "f3", "f2", "escape", "f8")
+    + keys_of("f8", "f4", "f8", "f8", "escape", "enter")
 )
-"""Every softkey at least once: an error, a USR look-ahead, every setup screen, DRAW, PROGRAM and its three sets."""
-MARKED: Final = {"ERR": SCRIPT.index("ctrl+z"), "USR": SCRIPT.index("f4"), "CAL": 0}
-"""Keys before which a mark stands on the screen."""
+"""Every softkey at least once: an error, a USR look-ahead, every setup screen, DRAW, PROGRAM, HOME."""
 
 
 @dataclass
@@ -82,64 +85,62 @@ class Lost(Exception):
 
 @dataclass
 class Seat:
-    """One terminal with the program on it, beside the App that tells what must be seen."""
+    """One terminal with the program on it, beside the pictures that must be seen there, one after the other."""
 
     kind: Kind
     terminal: Terminal
-    reference: Reference
+    expected: Iterator[Picture]
     size: tuple[int, int]
     sequences: tuple[str, ...]
     tally: Tally
+    last: Picture | None = None
 
-    def press(self, key: str) -> None:
-        """A key typed here and there, and the two screens compared."""
-        self.terminal.send(sent(key, self.sequences))
-        self.reference.press(key)
-        self.compare(key)
+    def step(self, step: Step) -> None:
+        """A key typed or another size, and the screen compared with the next picture."""
+        if isinstance(step, tuple):
+            self.size = step
+            self.terminal.resize(*step)
+        else:
+            self.terminal.send(sent(step, self.sequences))
+        self.compare(step)
 
-    def compare(self, after: str) -> None:
-        """Wait until the screen is right; tell what is wrong if it never is."""
+    def compare(self, after: Step) -> None:
+        """Wait until the screen is the next picture; tell what is wrong if it never is."""
+        self.last = next(self.expected)
+        self.again(after)
+
+    def again(self, after: Step) -> None:
+        """Wait until the screen is the last picture."""
+        assert self.last is not None
+        right = self.last
         begun = time.monotonic()
         while True:
             self.terminal.read(quiet=0.02, longest=0.1)
-            difference = self.difference()
-            if not difference:
+            trouble = self.trouble(right)
+            if not trouble:
                 break
             if time.monotonic() - begun > PATIENCE:
-                self.wrong(f"after {after}: {difference}")
+                self.wrong(f"after {after}: {trouble}")
                 raise Lost
         self.tally.screens += 1
 
     def wrong(self, text: str) -> None:
         self.tally.wrong.append(f"{self.kind} {self.size}: {text}")
 
-    def difference(self) -> str:
+    def trouble(self, right: Picture) -> str:
         """The first line that is not as it must be, or the cursor that is not seen; empty when all is well."""
-        columns, rows = self.size
-        expected = self.reference.lines(columns, rows)
-        shown = list(self.terminal.screen.display)
+        lines = right.lines
         if self.kind.characters != "utf-8":
-            expected = [lookalike(line) for line in expected]
-        for number, (one, other) in enumerate(zip(expected, shown, strict=True)):
-            # clock and free memory are this machine's
-            status = number == rows - 1 and rows >= 6
-            if one[:18] != other[:18] if status else one != other:
-                return f"line {number}: {other!r} instead of {one!r}"
-        return self.invisible()
+            lines = tuple(lookalike(line) for line in lines)
+        shown = Picture(masked(self.terminal.screen.display), right.cursor)
+        return difference(shown, Picture(lines, right.cursor)) or self.invisible(right)
 
-    def invisible(self) -> str:
+    def invisible(self, right: Picture) -> str:
         """Where the cursor is, but is not seen."""
-        columns, rows = self.size
-        for y, row in enumerate(self.reference.rows(columns, rows)):
-            x = 0
-            for span in row:
-                for column in range(x, x + len(span.text)):
-                    cell = self.terminal.screen.buffer[y][column]
-                    if span.look is Look.CURSOR and not stands_out(cell, self.kind.shown):
-                        return f"cursor at {column}, {y} is not seen: {cell}"
-                    if span.look is Look.CARET and not cell.underscore:
-                        return f"caret at {column}, {y} is not seen: {cell}"
-                x += len(span.text)
+        for column, row in sorted(right.cursor):
+            cell = self.terminal.screen.buffer[row][column]
+            if not stands_out(cell, self.kind.shown):
+                return f"cursor at {column}, {row} is not seen: {cell}"
         return ""
 
 
@@ -174,22 +175,41 @@ def colors_wrong(terminal: Terminal, colors: Colors) -> str:
     return "" if direct == (colors is Colors.TRUE) else f"direct colors: {direct}"
 
 
+Recordings = dict[tuple[tuple[int, int], str, tuple[Step, ...]], list[Picture]]
+RECORDINGS: Final[Recordings] = {}
+"""What was recorded in this process or handed to it."""
+
+
+def pictures(size: tuple[int, int], mode: str, steps: tuple[Step, ...]) -> list[Picture]:
+    """The pictures of a script, recorded once."""
+    if (size, mode, steps) not in RECORDINGS:
+        RECORDINGS[size, mode, steps] = recorded(["--characters", mode, "--example", PART], steps, size)
+    return RECORDINGS[size, mode, steps]
+
+
+def recording(size: tuple[int, int], mode: str, steps: tuple[Step, ...]) -> Recordings:
+    """One of them, for another process."""
+    return {(size, mode, steps): pictures(size, mode, steps)}
+
+
 @contextmanager
-def seated(kind: Kind, size: tuple[int, int], sequences: tuple[str, ...], tally: Tally) -> Iterator[Seat]:
-    """A seat with the first verdict on its screen; what it was sent is looked through in the end."""
-    option = ["--characters", kind.asked] if kind.asked else []
-    arguments = [sys.executable, "-m", "app", "--example", PART, *option]
+def seated(
+    kind: Kind, size: tuple[int, int], steps: tuple[Step, ...], sequences: tuple[str, ...], tally: Tally, mode: str
+) -> Iterator[Seat]:
+    """A seat with the first screen; what it was sent is looked through in the end."""
+    option = ["--characters", mode] if mode != kind.modes[0] or kind.asked else []
+    expected = iter(pictures(size, mode, steps))
     own = {**kind.environment, "PYTHONPATH": str(ROOT)}
     with (
         TemporaryDirectory() as folder,
-        running(arguments, columns=size[0], rows=size[1], environment=own, cwd=folder) as terminal,
+        running(
+            cutcomp("--example", PART, *option), columns=size[0], rows=size[1], environment=own, cwd=folder
+        ) as terminal,
         suppress(Lost),
     ):
         if kind.characters != "utf-8":
             terminal.stream.select_other_charset("@")
-        reference = Reference(replace(Session.of(load(example(PART))), title=PART))
-        reference.desk = replace(reference.desk, mode=kind.modes[0], modes=kind.modes)
-        seat = Seat(kind, terminal, reference, size, sequences, tally)
+        seat = Seat(kind, terminal, expected, size, sequences, tally)
         tally.runs += 1
         seat.compare("the start")
         yield seat
@@ -197,52 +217,39 @@ def seated(kind: Kind, size: tuple[int, int], sequences: tuple[str, ...], tally:
             seat.wrong(trouble)
 
 
-def marks(seat: Seat, step: int) -> None:
-    """What must be readable before a step of the script."""
-    for mark, there in MARKED.items():
-        if there == step and seat.size != SIZES[-1] and mark not in seat.terminal.text:
-            seat.wrong(f"{mark} is not on the screen")
+def resizing(sizes: Sequence[tuple[int, int]]) -> tuple[Step, ...]:
+    """The form and DRAW on every size."""
+    return tuple(step for size in sizes for step in (size, "f7", "f8"))
 
 
-def drawn(seat: Seat, sizes: Iterable[tuple[int, int]]) -> None:
-    """Every size and every way of drawing that this terminal is here for: the form and DRAW on each."""
-    while seat.reference.desk.mode != seat.kind.only_here[0]:
-        next_mode(seat)
-    for _ in seat.kind.only_here:
-        for size in sizes:
-            seat.size = size
-            seat.terminal.resize(*size)
-            seat.compare(f"a resize to {size}")
-            seat.press("f7")
-            seat.press("f8")
-            seat.tally.combinations[f"{size[0]}x{size[1]} {seat.reference.desk.mode}"] += 1
-        next_mode(seat)
-
-
-def next_mode(seat: Seat) -> None:
-    """The key that changes the characters, on DRAW."""
-    for key in ("f7", "f7", "f8"):
-        seat.press(key)
+def drawn(kind: Kind, mode: str, sizes: tuple[tuple[int, int], ...], tally: Tally) -> None:
+    """One way of drawing that this terminal is here for, on every size."""
+    steps = resizing(sizes)
+    with seated(kind, SIZES[0], steps, (), tally, mode) as seat:
+        for step in steps:
+            seat.step(step)
+            if step == "f8":
+                tally.combinations[f"{seat.size[0]}x{seat.size[1]} {mode}"] += 1
 
 
 def one_kind(kind: Kind, number: int, sizes: tuple[tuple[int, int], ...] = SIZES) -> Tally:
     """One terminal: the script on a size of its own, then every size with every way of drawing."""
     tally = Tally()
     sequences = FUNCTION_KEYS.get(kind.term, XTERM) if number % 2 == 0 else ()
-    with seated(kind, sizes[number % len(sizes)], sequences, tally) as seat:
-        for step, key in enumerate(SCRIPT):
-            marks(seat, step)
-            seat.press(key)
-        drawn(seat, sizes)
+    with seated(kind, sizes[number % len(sizes)], SCRIPT, sequences, tally, kind.modes[0]) as seat:
+        for key in SCRIPT:
+            seat.step(key)
+    for mode in kind.only_here:
+        drawn(kind, mode, sizes, tally)
     return tally
 
 
 def one_mode(name: str) -> Tally:
     """The script by the function keys of one of PuTTY's modes."""
     tally = Tally()
-    with seated(Kind("putty", Colors.MANY, "UTF-8"), SIZES[0], PUTTY[name], tally) as seat:
+    with seated(Kind("putty", Colors.MANY, "UTF-8"), SIZES[0], SCRIPT, PUTTY[name], tally, MODES[0]) as seat:
         for key in SCRIPT:
-            seat.press(key)
+            seat.step(key)
     tally.wrong = [f"PuTTY's mode {name}: {one}" for one in tally.wrong]
     return tally
 
@@ -261,6 +268,18 @@ def report(tallies: dict[str, Tally]) -> Iterator[str]:
         f"{sum(whole.combinations.values())} combinations in {whole.runs} runs, {whole.screens} screens compared, "
         f"failures {len(whole.wrong)}"
     )
+
+
+def record_all(pool: ProcessPoolExecutor) -> Recordings:
+    """Every picture that is compared with."""
+    wanted: list[tuple[tuple[int, int], str, tuple[Step, ...]]] = [
+        (size, mode, SCRIPT) for size, mode in product(SIZES, MODES)
+    ]
+    wanted += [(SIZES[0], mode, resizing(SIZES)) for mode in MODES]
+    made: Recordings = {}
+    for one in pool.map(recording, *zip(*wanted, strict=True)):
+        made |= one
+    return made
 
 
 def gathered(pool: ProcessPoolExecutor, every: tuple[Kind, ...]) -> dict[str, Tally]:
@@ -283,6 +302,9 @@ def main() -> int:
     every = kinds() if options.all else sampled()
     print(f"{len(every)} of {len(kinds())} terminals with colors and locale; --all runs them all")
     with ProcessPoolExecutor(options.at_once) as pool:
+        recordings = record_all(pool)
+    print(f"{sum(map(len, recordings.values()))} pictures recorded", flush=True)
+    with ProcessPoolExecutor(options.at_once, initializer=RECORDINGS.update, initargs=(recordings,)) as pool:
         tallies = gathered(pool, every)
     print("\n".join(report(tallies)))
     return 1 if any(tally.wrong for tally in tallies.values()) else 0

@@ -1,8 +1,8 @@
 """Memory of the real program under random keys: `python -m tests.reports.memory --minutes 60`.
 
 The program runs in a pseudo-terminal of its own, with its threads, its driver and its journal.  A monkey sits in the
-process, since only there is known which screen stands; it tells its next key through a pipe, and the key comes back as
-bytes of a terminal.  Told is the memory of the process every minute.
+process, since only there is known which screen stands; it tells its next key through a pipe, so many a second, and the
+key comes back as bytes of a terminal.  Told is the memory of the process every minute; `--rate 0` leaves it at rest.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from statistics import median
@@ -35,28 +35,23 @@ LARGEST: Final = 40
 """Segments of a program; a larger one is given up for a new one, so that a key stays fast."""
 LIFE: Final = 400
 """Keys until another program is opened."""
-SILENCE: Final = 1.0
-"""Seconds after which the next key comes although the last one has done nothing."""
 LAST_WORDS: Final = 20_000
 """Bytes of the program's output that are kept."""
 EXTRA: Final = {
-    "insert": b"\x1b[2~",
-    "ctrl+home": b"\x1b[1;5H",
-    "ctrl+end": b"\x1b[1;5F",
-    "f9": b"\x1b[20~",
     "f12": b"\x1b[24~",
-    "shift+f1": b"\x1b[1;2P",
 }
 """Bytes of keys that the terminals' table does not know."""
 
 
-def inside(pipe: int, seed: int, part: str) -> int:
+def inside(pipe: int, seed: int, part: str, rate: float) -> int:
     """The program with a monkey in it; for the child process."""
-    from app.cli import screens as main
-    from app.painted import application
+    import app.app as module
+    from app.cli import screens
+    from app.terminal.signals import terminal_modes
 
-    application.CutcompApp = _told(application.CutcompApp, Told(pipe, Random(seed), Path.cwd()))  # type: ignore[misc]  # in a process of its own
-    return main.run(Path(part))
+    assert terminal_modes() is not None, "this is for a pseudo-terminal"
+    module.CutcompApp = _told(module.CutcompApp, Told(pipe, Random(seed), Path.cwd(), rate))  # type: ignore[misc]
+    return screens.run(Path(part))
 
 
 @dataclass
@@ -66,77 +61,68 @@ class Told:
     pipe: int
     chance: Random
     cage: Path
+    rate: float
     waiting: list[str] = field(default_factory=list)
     keys: int = 0
 
     def tell(self, app: Any, monkey: Any) -> None:
         """The next key for this screen."""
         if not self.waiting:
-            self.waiting = monkey.keys(app.desk)
-        key = monkey.caged(app.desk, self.waiting.pop(0))
-        monkey.coverage.look(app.desk)
-        monkey.coverage.press(app.desk, key)
+            self.waiting = monkey.keys(app)
+        key = monkey.caged(app, self.waiting.pop(0))
+        monkey.coverage.look(app.screen)
+        monkey.coverage.press(app.screen, key)
         self.keys += 1
         screens, softkeys = monkey.coverage.screens, len(monkey.coverage.pressed)
         os.write(self.pipe, f"{key.encode().hex()} {len(screens)} {softkeys}\n".encode())
 
 
-def begun(desk: Any, told: Told) -> Any:
-    """The desk at the beginning of another life: a program, the start screen, or an NC program under proof."""
-    from app.painted.filing import fresh
-    from app.painted.opened import opened
-    from app.painted.screens.proof import ProofPage
-    from app.painted.screens.proof_files import read
-    from app.painted.starting import begun as at_start
-
-    part = told.chance.choice(("pocket", "plate-mm"))
-    shutil.copy(ROOT / "app" / "examples" / f"{part}.toml", told.cage)
-    desk = fresh(desk, opened(told.cage / f"{part}.toml"))
-    match told.chance.choice(("program", "program", "start", "proof")):
-        case "start":
-            return at_start(desk)
-        case "proof":
-            file = told.cage / "part.nc"
-            return replace(desk, pages=(*desk.pages[:1], ProofPage.of(read(file), file, alone=True)))
-        case _:
-            return desk
-
-
 def _told(kind: type[Any], told: Told) -> type[Any]:
-    """The App that tells its next key behind each; who leaves, or has a large program, begins another life."""
+    """The App that tells its next key, so many a second; who leaves, or has a large program, begins another life."""
     from tests.reports.monkey_keys import Monkey
 
     monkey = Monkey(told.chance, told.cage)
 
     class Haunted(kind):  # type: ignore[misc]  # the App, whichever it is
-        desk: Any
         CSS_PATH = str(ROOT / "app" / "app.tcss")
 
         def on_ready(self) -> None:
             super().on_ready()
-            self.last = 0.0
-            self.set_interval(SILENCE, self.nudge)
-
-        def nudge(self) -> None:
-            if time.monotonic() - self.last > SILENCE:
-                self.next()
+            if told.rate:
+                self.set_interval(1 / told.rate, self.next)
 
         def next(self) -> None:
-            self.last = time.monotonic()
+            program = self.session.program
+            large = sum(len(block.segments) for block in program.blocks) > LARGEST or len(program.blocks) > 5
+            if large or told.keys % LIFE == LIFE - 1:
+                another_life(self, told)
             told.tell(self, monkey)
 
-        def key(self, key: str, character: str | None) -> None:
-            super().key(key, character)
-            self.next()
-
-        def _advance(self) -> None:
-            program = self.desk.session.program
-            large = sum(len(block.segments) for block in program.blocks) > LARGEST or len(program.blocks) > 5
-            if self.desk.exit or large or told.keys % LIFE == LIFE - 1:
-                self.desk = self.keep(replace(begun(self.desk, told), exit=False))
-            super()._advance()
+        def exit(self, *arguments: Any, **named: Any) -> None:
+            """Leaving is another life; a signal ends the program."""
+            if named.get("return_code"):
+                super().exit(*arguments, **named)
+            else:
+                another_life(self, told)
 
     return Haunted
+
+
+def another_life(app: Any, told: Told) -> None:
+    """Another program, HOME, or an NC program under proof."""
+    part = told.chance.choice(("pocket.toml", "plate-mm.toml", "part.nc"))
+    if part != "part.nc":
+        shutil.copy(ROOT / "app" / "examples" / part, told.cage)
+    documents = [app.document, *(proof.document for proof in app.proofs)]
+    for _ in app.screen_stack[1:]:
+        app.pop_screen()
+    for document in documents:
+        app.service.close(document)
+    app.adopt(app.service.new() if part == "part.nc" else app.service.open(told.cage / part))
+    if part == "part.nc":
+        app.adopt(app.service.open(told.cage / part))
+    if told.chance.random() < 0.3:
+        app.action_home()
 
 
 @dataclass
@@ -146,7 +132,6 @@ class Watch:
     `last` is the end of what the program wrote: what it says when it dies.
     """
 
-    rate: float
     keys: int = 0
     screens: int = 0
     softkeys: int = 0
@@ -169,7 +154,7 @@ def resident(pid: int, name: str = "VmRSS") -> float:
 
 def haunted(terminal: Terminal, pipe: int, watch: Watch, until: float) -> None:
     """Keys as the child tells them, no faster than wanted, until a moment or until it is dead."""
-    rest, free = b"", 0.0
+    rest = b""
     while time.monotonic() < until:
         ready, _, _ = select.select([terminal.fd, pipe], [], [], 0.5)
         if terminal.fd in ready and not _drained(terminal.fd, watch):
@@ -181,9 +166,7 @@ def haunted(terminal: Terminal, pipe: int, watch: Watch, until: float) -> None:
                 name, screens, softkeys = line.decode().split()
                 watch.screens, watch.softkeys, watch.keys = int(screens), int(softkeys), watch.keys + 1
                 key = bytes.fromhex(name).decode()
-                time.sleep(max(0.0, min(free - time.monotonic(), SILENCE / 2)))
-                free = time.monotonic() + 1 / watch.rate
-                terminal.send(EXTRA.get(key) or sent(key))
+                terminal.send(EXTRA.get(key) or sent(key.replace("alt+", "f")))
 
 
 def _drained(handle: int, watch: Watch) -> bool:
@@ -205,10 +188,11 @@ def report(minutes: float, seed: int, rate: float) -> Iterator[str]:
         (cage / "tool.tbl").write_text("T1 P1 D0.5 ;end mill\nT2 P2 D0.25\n")
         ours, theirs = os.pipe()
         os.set_inheritable(theirs, True)
-        code = f"import sys; from tests.reports.memory import inside; sys.exit(inside({theirs}, {seed}, 'pocket.toml'))"
+        call = f"inside({theirs}, {seed}, 'pocket.toml', {rate})"
+        code = f"import sys; from tests.reports.memory import inside; sys.exit({call})"
         own = {"PYTHONPATH": str(ROOT), "HOME": name, "XDG_STATE_HOME": f"{name}/own", "XDG_CONFIG_HOME": f"{name}/own"}
         with running([sys.executable, "-c", code], cwd=name, environment=own) as terminal:
-            yield from watched(terminal, ours, minutes, Watch(rate))
+            yield from watched(terminal, ours, minutes, Watch())
         os.close(ours)
         os.close(theirs)
 
@@ -248,7 +232,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--rate", type=float, default=20.0, help="keys a second")
+    parser.add_argument("--rate", type=float, default=20.0, help="keys a second; 0 for a program at rest")
     options = parser.parse_args()
     last = ""
     for last in report(options.minutes, options.seed, options.rate):

@@ -11,14 +11,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from app.painted.desk import Desk
-from app.painted.screens.page import Page
-from app.painted.session import SEGMENT
+from textual.screen import Screen
+from textual.widgets import Input
+
+from app.app import CutcompApp
+from app.screens.base import BaseScreen
+from app.screens.entry_screen import EntryScreen
+from app.screens.home import HomeScreen
+from app.widgets.field import NumberField
 
 MOVES: Final = ("tab", "tab", "down", "up", "shift+tab", "left", "right", "pageup", "pagedown", "home", "end")
-RARE: Final = ("ctrl+home", "ctrl+end", "delete", "backspace", "insert", "escape", "space", "f9", "f12", "shift+f1")
-EVERYWHERE: Final = (*("ctrl+s", "ctrl+o", "ctrl+g", "ctrl+k", "ctrl+c") * 3, "ctrl+q")
-ODD: Final = "é°ß中\u0301\u200b\x00\x9b\ufffd…│"
+RARE: Final = ("ctrl+home", "ctrl+end", "delete", "backspace", "insert", "escape", "space", "f9", "f10", "f12")
+EVERYWHERE: Final = (*("ctrl+s", "ctrl+o", "ctrl+g", "ctrl+k", "ctrl+t", "ctrl+n", "ctrl+l") * 3, "ctrl+q")
+ODD: Final = "é°ß中\u0301\u200b\ufffd…│"
 """Characters that no field takes, and some that take no cell or two of them."""
 WEIGHTS: Final = {
     "softkey": 20,
@@ -34,24 +39,27 @@ WEIGHTS: Final = {
 }
 UNTRIED: Final = 0.5
 """How often a softkey that was never pressed is preferred to everything else."""
-ACTING: Final = frozenset({"enter", "right", "left", *(f"f{number}" for number in range(1, 9)), *EVERYWHERE})
-"""Keys that may write or open what a name says."""
 WORD: Final = re.compile(r"[A-Z]{2,}")
 """What stays of a softkey's label; numbers and letters between them are values."""
 MEDDLED: Final = 0.02
 """How often somebody else has written the file."""
-LAST: Final = ("ProgramPage", "StartPage", "ProofPage")
-"""Screens whose EXIT may leave the program: lives would be short."""
+LEAVING: Final = ("HomeScreen", "ProofScreen")
+"""Screens whose F8 may leave the program or the text: lives would be short."""
 
 
 Key = tuple[str, int, str]
 """A softkey: the screen, its number, and the words on it without values, since one number may mean several things."""
 
 
-def keys_of(desk: Desk) -> dict[int, Key]:
-    """The softkeys of the screen that stands, by number."""
-    name, keys = type(desk.page).__name__, desk.page.softkeys(desk.session)
-    return {number: (name, number, " ".join(WORD.findall(key.label))) for number, key in keys.items()}
+def keys_of(screen: Screen[object]) -> dict[int, Key]:
+    """The softkeys of the screen that stands and that act now, by number."""
+    if not isinstance(screen, BaseScreen):
+        return {}
+    name, found = type(screen).__name__, {}
+    for number, key in enumerate(screen.SOFTKEYS, 1):
+        if key is not None and screen.key_acts(key):
+            found[number] = (name, number, " ".join(WORD.findall(key.label)))
+    return found
 
 
 @dataclass
@@ -62,16 +70,16 @@ class Coverage:
     seen: set[Key] = field(default_factory=set)
     pressed: Counter[Key] = field(default_factory=Counter)
 
-    def look(self, desk: Desk) -> None:
+    def look(self, screen: Screen[object]) -> None:
         """Take notice of the screen that stands."""
-        self.screens[type(desk.page).__name__] += 1
-        self.seen.update(keys_of(desk).values())
+        self.screens[type(screen).__name__] += 1
+        self.seen.update(keys_of(screen).values())
 
-    def press(self, desk: Desk, key: str) -> None:
+    def press(self, screen: Screen[object], key: str) -> None:
         """A key is about to be pressed."""
-        digit = key if desk.armed else key.removeprefix("f") if key.startswith("f") else ""
-        here = keys_of(desk)
-        if digit in set("12345678") and int(digit) in here and not (desk.armed and not here[int(digit)][2]):
+        digit = key.removeprefix("f") if key.startswith("f") else ""
+        here = keys_of(screen)
+        if digit in set("12345678") and int(digit) in here:
             self.pressed[here[int(digit)]] += 1
 
     def missing(self) -> list[Key]:
@@ -92,19 +100,20 @@ class Monkey:
     cage: Path
     coverage: Coverage = field(default_factory=Coverage)
 
-    def keys(self, desk: Desk) -> list[str]:
+    def keys(self, app: CutcompApp) -> list[str]:
         """What it does next; on a screen with softkeys that it has never pressed, one of these sooner."""
-        if self.chance.random() < UNTRIED and any(map(self._untried, keys_of(desk).values())):
-            return self._softkey(desk)
+        screen = app.screen
+        if self.chance.random() < UNTRIED and any(not self.coverage.pressed[key] for key in keys_of(screen).values()):
+            return self._softkey(screen)
         kind = self.chance.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
         match kind:
             case "softkey":
-                return self._softkey(desk)
+                return self._softkey(screen)
             case "number":
-                field = desk.session.field != SEGMENT or self.chance.random() < 0.3
-                return [*([] if field else ["tab"]), *self._number(), self.chance.choice(("enter", "tab", "down"))]
+                into = isinstance(app.focused, NumberField) and app.focused.name != "segment"
+                return [*([] if into else ["tab"]), *self._number(), self.chance.choice(("enter", "tab", "down"))]
             case "segment":
-                return ["ctrl+end", "pagedown", self.chance.choice("lab")]
+                return ["ctrl+end", "pagedown", self.chance.choice("labc")]
             case "garbage":
                 return [*self.chance.choices(string.punctuation + ODD + "0123456789", k=4), "enter"]
             case "letter":
@@ -118,27 +127,21 @@ class Monkey:
 
     def _number(self) -> str:
         plain = f"{self.chance.choice((0, 1, 1, 2, 3, -1, 0.5, -0.25, self.chance.uniform(-5, 8))):.4g}"
-        return self.chance.choice((plain, plain, plain, f"{plain}+1/8", "1 1/2", "12.7mm", "25.4/2", "1", "4"))
+        return self.chance.choice((plain, plain, plain, f"{plain}+1/8", "12.7mm", "25.4/2", "1", "4"))
 
-    def _softkey(self, desk: Desk) -> list[str]:
-        """One that is there, sooner one that was never pressed; by its function key or by Esc and the digit."""
-        known = keys_of(desk)
+    def _softkey(self, screen: Screen[object]) -> list[str]:
+        """One that is there, sooner one that was never pressed."""
+        known = keys_of(screen)
         here = sorted(known) or [8]
-        untried = [number for number, key in sorted(known.items()) if self._untried(key)]
+        untried = [number for number, key in sorted(known.items()) if not self.coverage.pressed[key]]
         number = self.chance.choice(untried if untried and self.chance.random() < 0.8 else here)
-        if number == 8 and type(desk.page).__name__ in LAST and self.chance.random() < 0.8:
+        if number == 8 and type(screen).__name__ in LEAVING and self.chance.random() < 0.8:
             number = here[0]
-        return [f"f{number}"] if self.chance.random() < 0.7 else ["ctrl+k", str(number)]
+        return [f"f{number}" if self.chance.random() < 0.7 else f"alt+{number}"]
 
-    def _untried(self, key: Key) -> bool:
-        """Whether a softkey was never pressed, or leads to others."""
-        return not self.coverage.pressed[key] or key[2] == "MORE"
-
-    def caged(self, desk: Desk, key: str) -> str:
+    def caged(self, app: CutcompApp, key: str) -> str:
         """The key, or Esc where it could act on a name outside the cage."""
-        outside = any(not self._inside(page) for page in desk.pages)
-        acting = key in ACTING or desk.armed or type(desk.page).__name__ in ("Ask", "Choose", "Decide")
-        return "escape" if outside and acting else key
+        return key if all(self._inside(screen) for screen in app.screen_stack) else "escape"
 
     def meddle(self, file: Path | None) -> None:
         """Now and then somebody else saves another program under the name of the one that is open."""
@@ -147,11 +150,13 @@ class Monkey:
         if self.chance.random() < MEDDLED:
             shutil.copy(self.cage / "examples" / "notch.toml", file)
 
-    def _inside(self, page: Page) -> bool:
-        folder = getattr(page, "folder", Path.cwd())
-        entry = getattr(page, "entry", None)
-        named = getattr(entry, "path", None) or folder / getattr(entry, "text", "").strip()
-        return all(self.cage in (one, *one.parents) for one in (folder.resolve(), _resolved(named)))
+    def _inside(self, screen: Screen[object]) -> bool:
+        named = []
+        if isinstance(screen, HomeScreen):
+            named.append(screen.folder)
+        if isinstance(screen, EntryScreen):
+            named += [Path(line.value.strip() or ".") for line in screen.query(Input)]
+        return all(self.cage in (one, *one.parents) for one in map(_resolved, named))
 
 
 def _resolved(name: Path) -> Path:

@@ -159,6 +159,11 @@ NAMED: Final = {
     "pageup": "\x1b[5~",
     "pagedown": "\x1b[6~",
     "space": " ",
+    "insert": "\x1b[2~",
+    "ctrl+home": "\x1b[1;5H",
+    "ctrl+end": "\x1b[1;5F",
+    "f9": "\x1b[20~",
+    "f10": "\x1b[21~",
 }
 """What every one of these terminals sends for a key that types nothing."""
 
@@ -171,8 +176,8 @@ def softkey(number: int, sequences: tuple[str, ...] = ()) -> bytes:
 
 def sent(key: str, sequences: tuple[str, ...] = ()) -> bytes:
     """The bytes of a key by its name; `sequences` are those of F1 to F8."""
-    if len(key) == 2 and key[0] == "f" and key[1].isdigit():
+    if len(key) == 2 and key[0] == "f" and key[1] in "12345678":
         return softkey(int(key[1]), sequences)
-    if key.startswith("ctrl+"):
+    if key.startswith("ctrl+") and len(key) == 6:
         return bytes([ord(key[-1]) - 96])
     return NAMED.get(key, key).encode()

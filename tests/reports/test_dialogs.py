@@ -1,31 +1,39 @@
-"""The dialogs on the terminals furthest apart; `python -m tests.reports.dialogs` has them on all."""
+"""Some dialogs on terminals far apart; `python -m tests.reports.dialogs` has all of them on all."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
 from tests.reports import dialogs
-from tests.reports.dialogs import NAMES, SCENES, one_kind
+from tests.reports.dialogs import DIALOGS, SIZES, named, on_an_xterm, one_kind, reached
+from tests.reports.recorded import PLAIN
 from tests.reports.terminals import Colors, Kind
 
 
-@pytest.mark.parametrize("kind", [Kind("vt100", Colors.FEW, "UTF-8"), Kind("xterm-mono", Colors.FEW, "UTF-8")], ids=str)
-def test_every_dialog_is_what_it_is_on_an_xterm(kind: Kind) -> None:
-    assert one_kind(kind) == []
+@pytest.mark.parametrize("name", ["UNSAVED WORK", "SHIFT BLOCK"])
+def test_a_dialog_can_be_read_and_left(name: str) -> None:
+    assert on_an_xterm(name) == []
 
 
-def test_no_screen_is_left_out() -> None:
-    asked = {"START", "OPEN", "SAVE AS", "NC PROOF", "OPEN ALREADY", "recovery", "LEAVE", "CHANGED MEANWHILE"}
-    assert asked <= set(NAMES)
+def test_dialogs_are_the_same_on_a_terminal_without_colors(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dialogs, "DIALOGS", (named("UNITS"), named("OPEN ALREADY")))
+    assert one_kind(Kind("vt100", Colors.FEW, "UTF-8")) == []
 
 
-def test_a_screen_that_is_wrong_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Colors where none are wanted, another text, a screen that does not come."""
-    scene = next(one for one in SCENES if one.steps[0].name == "OPEN ALREADY")
-    monkeypatch.setattr(dialogs, "SCENES", (scene,))
-    monkeypatch.setattr(dialogs, "expected", lambda _: {"OPEN ALREADY": ["another"]})
+def test_no_dialog_is_left_out() -> None:
+    asked = {"QUIT", "OPEN", "OPEN ALREADY", "UNSAVED WORK", "CHANGED MEANWHILE", "TAKEN OVER", "CONTROL", "PALETTE"}
+    assert asked <= {dialog.name for dialog in DIALOGS}
+
+
+def test_what_is_wrong_with_a_dialog_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A word that is not there, a dialog that does not come, colors where none are wanted."""
+    monkeypatch.setattr(dialogs, "PATIENCE", 5.0)
+    units = replace(named("UNITS"), words=("no such word",))
     monkeypatch.setattr(Kind, "shown", Colors.NONE)
-    told = one_kind(Kind("xterm", Colors.FEW, "UTF-8"))
-    assert "colors where none are wanted" in told[0]
-    assert "instead of 'another'" in told[1]
-    assert "NC PROOF was not reached" in told[-1]
+    told = reached(units, PLAIN, SIZES[0]).trouble
+    assert "'no such word' cannot be read" in told[0]
+    assert "colors where none are wanted" in told[-1]
+    never = replace(units, title="NO SUCH TITLE")
+    assert "it does not come" in reached(never, PLAIN, SIZES[0]).trouble[0]
