@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from textual import on, work
 from textual.binding import Binding, BindingType
 from textual.events import Key
+from textual.filter import LineFilter
 from textual.reactive import var
 from textual.screen import Screen
 from textual.timer import Timer
@@ -30,6 +31,7 @@ from app.session.session import SEGMENT, Session
 from app.session.work import Work
 from app.terminal.split_keys import TOLD
 from app.transform_actions import TransformActions
+from app.widgets.printable import PRINTABLE
 from app.widgets.status import Surroundings
 from app.work_actions import WorkActions
 from core.pipeline.derived import DerivedBlock
@@ -118,6 +120,10 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         for each in theme.themes():
             self.register_theme(each)
         self.theme = theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK
+
+    def get_line_filters(self) -> Sequence[LineFilter]:
+        """Nothing that a file holds may move the terminal's cursor, wherever it is shown."""
+        return [*super().get_line_filters(), PRINTABLE]
 
     def get_default_screen(self) -> Screen[None]:
         """MILL CONTOUR."""

@@ -12,18 +12,19 @@ import pytest
 
 from app.__main__ import main
 from app.documents.files import save
-from app.painted.desk import Desk
-from app.painted.opened import opened
-from core.pipeline.derive import derive
 from core.program.fields import TABLES, Form
 from core.program.file.read import loads
 from core.program.model import CutterComp
 from core.units import Kind
-from tests.app.operator import Operator
 from tests.core.program.parts import line, program
+from tests.terminal import cutcomp, running
 
 EVIL = "\x1b]0;a\x07\x1b[2J\u009b5n\x7f\r\u202e)(M30%\u2028"
 """A title, a cleared screen, a question to the terminal, a reversed line, an end of the comment, a new line."""
+
+
+ESCAPES = ("\x1b]0;", "\x1b[2J")
+"""What a terminal would obey; the program itself sends neither."""
 
 
 def unread(form: Form, path: str) -> str:
@@ -67,35 +68,37 @@ def test_the_hostile_program_is_one() -> None:
     assert not harmless(EVIL)
 
 
-PAGES = [
-    [],
-    ["tab", "tab", "tab", "tab"],
-    ["right", "tab", "?"],
-    ["right", "right", "tab"],
-    ["f4"],
-    ["f5"],
-    ["f6"],
-    ["f6", "tab", "tab", "left"],
-    ["f7"],
-    ["f8"],
-    ["f8", "f6", "enter"],
-    ["f8", "f7", "f3"],
-    ["ctrl+s"],
-    ["ctrl+o"],
-    ["tab", "9", "enter", "ctrl+q"],
-    ["tab", "9", "enter", "ctrl+z"],
-    ["tab", "tab", "tab", "9", "enter", "ctrl+z"],
-]
+KEYS = (
+    *(b"\t" * 4, b"\x1b[1;5H1\r\t?", b"\x1b", b"\x1b[6~\t\t", b"\x1b[6~\t"),
+    *(b"\x1bOS\t", b"\x1b8", b"\x1b[15~\t", b"\x1b8", b"\x1b[17~", b"\x1b[17~\t\t", b"\x1b8", b"\x1b[18~", b"\x1b8"),
+    *(b"\x1b[20~", b"\x1b[20~", b"\x1b[21~", b"\x1b[21~", b"\x13", b"\x1b8", b"\x0f", b"\x1b8"),
+    *(b"\x1b[1;5H\t9\r", b"\x1a", b"\x1b[19~", b"\x1bOR", b"\x1b8", b"\x11"),
+)
+"""Through every screen of a program, to the question at the end."""
 
 
-@pytest.mark.parametrize("keys", PAGES, ids=" ".join)
-def test_every_screen(part: Path, keys: list[str]) -> None:
-    operator = Operator(Desk(opened(part)))
-    operator.desk = operator.desk.knowing(derive(operator.session.program))
-    operator.press(*keys)
-    for width, height in ((80, 24), (200, 60)):
-        rows = operator.screen(width, height)
-        assert all(row.isprintable() for row in rows), rows
+def test_every_screen(part: Path) -> None:
+    """What the program sends is looked through for what the file holds."""
+    with running(cutcomp(str(part)), cwd=str(part.parent)) as terminal:
+        terminal.until("MILL CONTOUR", longest=20.0)
+        for key in KEYS:
+            terminal.send(key)
+            terminal.read(quiet=0.05, longest=0.5)
+        terminal.read(quiet=0.3)
+        sent = bytes(terminal.seen).decode()
+    assert "M30" in sent, "nothing of it was shown"
+    assert [evil for evil in (*ESCAPES, "\x7f", "\u202e", "\u2028", "\u009b") if evil in sent] == []
+
+
+def test_a_hostile_nc_text(tmp_path: Path) -> None:
+    nc = tmp_path / "evil.nc"
+    nc.write_text(f"G20\n({EVIL.replace(chr(13), '')})\nM30\n", encoding="utf-8")
+    with running(cutcomp(str(nc)), cwd=str(tmp_path)) as terminal:
+        terminal.until("NC PROOF", longest=20.0)
+        terminal.read(quiet=0.3)
+        sent = bytes(terminal.seen).decode()
+    assert "5n" in sent, "nothing of it was shown"
+    assert [evil for evil in (*ESCAPES, "\x7f", "\u202e", "\u2028", "\u009b") if evil in sent] == []
 
 
 COMMANDS = [

@@ -126,7 +126,8 @@ def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
 
 def test_a_file_that_cannot_be_used_is_one_sentence_and_status_2(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_text("format = 1\nunits = 'IN'\nshape = 3\n")
-    with running(cutcomp(str(tmp_path / "bad.toml")), environment={"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}) as terminal:
+    own = {"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}
+    with running(cutcomp(str(tmp_path / "bad.toml")), environment=own) as terminal:
         assert status(terminal) == 2
         assert "line 3" in terminal.text
         assert "shape" in terminal.text
