@@ -114,6 +114,12 @@ def test_block_skip_is_off_and_reported() -> None:
     assert [one.code for one in log.findings] == ["SKIP"]
 
 
+def test_a_slash_within_the_block_skips_nothing() -> None:
+    with pytest.raises(AlarmError) as caught:
+        read_line("/G1X1/Y2", 1, Log())
+    assert (caught.value.finding.code, caught.value.finding.column) == ("WORD", 6)
+
+
 @pytest.mark.parametrize(
     "text", [b"G1\nX2\n", b"G1\r\nX2", b"G1\rX2\r", b"\xef\xbb\xbfG1\nX2", "G1\nX2".encode("utf-16")]
 )
