@@ -48,6 +48,8 @@ def parts_between(surface: Path, wanted: PartEnds) -> PathParts:
 
     One runs past a closed contour's start if its last segment lies before its first.
     """
+    if not len(surface):
+        return NO_PARTS
     begins, lasts, wanted = _rows(surface, wanted)
     if not len(begins):
         return NO_PARTS
@@ -82,8 +84,6 @@ def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:
 def _rows(surface: Path, wanted: PartEnds) -> tuple[Rows, Rows, PartEnds]:
     """Of stretches on known segments the first segment's first row and the last one's last row, and their ends."""
     numbers = surface.numbers
-    if not len(numbers):
-        return np.empty(0, np.intp), np.empty(0, np.intp), wanted
     order = numbers.argsort(kind="stable")
     ranked = numbers[order]
     begins = order.take(ranked.searchsorted(wanted.first), mode="clip")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import cos, isfinite, sin
@@ -19,8 +20,6 @@ from core.units import Kind, Unit, decimals_shown, from_mm, show
 
 SAME_SIZE: Final = 1e-4
 """Millimeters by which the radii of circles in one row may differ."""
-
-MAX_GAP_DECIMALS: Final = 8
 
 SAMPLES: Final = 33
 """Points of a curve by which its size is told where the unit is asked."""
@@ -136,8 +135,8 @@ def _gap_text(gap: float, unit: Unit) -> str:
     if gap <= JOINED:
         return "none"
     usual = decimals_shown(Kind.LENGTH, unit)
-    texts = (f"{from_mm(gap, unit):.{decimals}f}" for decimals in range(usual, MAX_GAP_DECIMALS + 1))
-    return next((text for text in texts if text.strip("0.")), "none")
+    texts = (f"{from_mm(gap, unit):.{decimals}f}" for decimals in itertools.count(usual))
+    return next(text for text in texts if text.strip("0."))
 
 
 def unit_question(drawing: Drawing) -> str:

@@ -224,6 +224,7 @@ def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> Non
     (more,) = better_path_findings(best, separation(found.compensated.path, best, 0.25))
     assert (more.code, more.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert more.value > 8.0
+    assert more.at == (0.25, -0.25)
     assert sentence(more, Unit.MM).startswith("BEST cuts ")
     same = work(SQUARE, closed=True)
     whole = best_path(SQUARE, Side.LEFT, 0.25, closed=True)

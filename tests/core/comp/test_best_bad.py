@@ -27,6 +27,12 @@ def test_over_run_lead_ins_are_walls_on_both_sides_and_told():
     assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF"]
 
 
+def test_segments_that_cross_beside_one_between_them_are_named():
+    hook = lines((0, 0), (10, 0), (10, 5), (5, -5))
+    (crossing,) = best_path(hook, Side.LEFT, 0.25, closed=False).findings
+    assert crossing.text.startswith("Segments 1 and 3 cross")
+
+
 def test_closing_gap_is_bridged():
     gap = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0.002))
     assert len(only(gap, Side.LEFT, 0.25)) == 4

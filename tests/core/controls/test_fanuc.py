@@ -475,6 +475,7 @@ def test_a_loop_that_moves_without_end_is_given_up_when_no_condition_comes_neare
     done = ran(loop)
     endless = next(finding for finding in done.findings if finding.code == "FN-ENDLESS")
     assert "no condition came nearer" in endless.text
+    assert endless.column == 1
     assert len(done.moves) < 20_000
 
 

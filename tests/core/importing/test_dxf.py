@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from dataclasses import replace
 
 import pytest
 from ezdxf.filemanagement import new as ezdxf_new
@@ -13,6 +14,7 @@ from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question
+from core.tolerance import JOINED
 from core.units import Unit
 from tests.core.importing.drawings import MADE, arc, block, circle, dxf, line, listed, made, square
 
@@ -43,6 +45,12 @@ def test_a_made_drawing_is_refused_by_its_code(case: dict[str, str]) -> None:
     with pytest.raises(DrawingError) as refused:
         read(made(case["file"]))
     assert refused.value.code == case["refused"]
+
+
+@pytest.mark.parametrize(("unit", "text"), [(Unit.MM, "0.0000001"), (Unit.IN, "0.000000004")])
+def test_the_smallest_gap_is_told_with_the_digits_that_show_it(unit: Unit, text: str) -> None:
+    barely = replace(listed(made("d05-gap.dxf")), gap=1.1 * JOINED)
+    assert f"largest gap {text}." in sentences(barely, unit)
 
 
 def test_a_gap_is_closed_within_the_tolerance_and_told() -> None:
@@ -221,6 +229,14 @@ def test_an_ellipse_of_ratio_one_is_an_arc() -> None:
 
 def test_an_arc_of_a_full_turn_is_a_circle() -> None:
     assert listed(dxf(arc((1, 2), 3, 0, 360))).contours[0].circle == pytest.approx(3.0)
+
+
+def test_lines_that_overlap_at_an_angle_are_joined() -> None:
+    whole = listed(
+        dxf(line((0, 0), (30, 40)), line((15, 20), (60, 80)), line((60, 80), (0, 80)), line((0, 80), (0, 0)))
+    )
+    (contour,) = whole.contours
+    assert (whole.overlaps, contour.closed, contour.length) == (1, True, pytest.approx(100 + 60 + 80))
 
 
 def every_sentence(contours: ContourList) -> list[str]:

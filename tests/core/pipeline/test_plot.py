@@ -7,9 +7,11 @@ import pytest
 
 from app.documents.files import load
 from app.documents.programs import example
+from core.draw.characters import Mode
 from core.draw.scene import Style
+from core.draw.view import TALL, View
 from core.pipeline.derive import derive
-from core.pipeline.plot import block_scene, cutter_at_segment, svg_of
+from core.pipeline.plot import LOUPE, Subject, block_scene, cutter_at_segment, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -76,6 +78,20 @@ def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_r
 def test_start_has_the_cutter_where_it_goes_down():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
     assert cutter_at_segment(found, 0).at == tuple(found.paths.center.points[0].tolist())
+
+
+def test_the_whole_part_is_drawn_with_the_numbers_of_its_segments():
+    subject = Subject(derived(program(block(MID_SIDE_SQUARE, CutterComp.RIGHT))), Unit.IN)
+    drawn = subject.drawn(60, 20, Mode.BRAILLE)
+    assert drawn.view == View.fit(drawn.bounds, 60, 20)
+    assert set("12345") <= set("".join(drawn.picture.rows))
+
+
+def test_a_loupe_shows_a_few_tools_around_its_middle():
+    found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
+    whole, loupe = (Subject(found, Unit.IN, near=near).drawn(60, 20, Mode.BRAILLE).view for near in (None, (50.8, 0.0)))
+    assert loupe.scale < whole.scale
+    assert 20 * TALL * loupe.scale == pytest.approx(LOUPE * 0.25 * 25.4)
 
 
 def test_the_legend_does_not_call_the_controls_path_behind_the_best_one_a_roughing_pass_alone():

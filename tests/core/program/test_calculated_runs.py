@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import random
 from itertools import product
-from math import dist, radians
+from math import cos, dist, radians, sin
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +77,27 @@ def test_every_golden_answer_comes_in_its_order(case: dict[str, Any]) -> None:
         for segment, wanted in zip(found["segments"], expected["segments"], strict=True):
             for field in wanted.keys() - {"kind"}:
                 assert segment[field]["value"] == pytest.approx(wanted[field], abs=1.5e-6), (segment["segment"], field)
+
+
+@pytest.mark.parametrize("degrees", [40, 110, 200, 290])
+def test_a_picked_answer_turns_with_the_drawing(degrees: int) -> None:
+    """No answer is counted by where it lies on the sheet: the number that picks it stays when everything is turned."""
+    case = next(case for case in SOLVED if case["name"].startswith("c24"))
+    picked = {round(answer["total"], 6): answer["choice"] for answer in document(case)["runs"][0]["solutions"]}
+    turned = document(_turned(case, radians(degrees)))["runs"][0]["solutions"]
+    assert {round(answer["total"], 6): answer["choice"] for answer in turned} == picked
+
+
+def _turned(case: dict[str, Any], angle: float) -> dict[str, Any]:
+    def point(x: float, y: float) -> tuple[float, float]:
+        return x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)
+
+    segments = [dict(segment) for segment in case["segments"]]
+    for segment in segments:
+        for x, y in (("x_center", "y_center"), ("x_end", "y_end")):
+            if x in segment:
+                segment[x], segment[y] = point(segment[x], segment[y])
+    return case_of(*segments, start=point(*case["start"]))
 
 
 @pytest.mark.parametrize("case", REFUSED, ids=name)

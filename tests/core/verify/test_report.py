@@ -192,6 +192,9 @@ def test_what_cannot_be_judged_is_an_error() -> None:
     assert sentence(unjudged, Unit.MM) == (
         "Not judged: the arc's radii at start and end, in path of segment 7, differ by 0.010."
     )
+    either = Path.from_pieces([Arc((10.0, 0.0), (10.001, 0.0), (0.0, 0.0), Turn.CCW)], [7.0])
+    (unjudged,) = verdict_findings(judge(square(), Side.RIGHT, R, either), square())
+    assert unjudged.text == "Not judged: the arc in path of segment 7 may be empty or a full circle."
 
 
 def test_air_cuts_and_backward_moves_are_told() -> None:
