@@ -13,10 +13,11 @@ from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
 from app.documents.tool_tables import tool_line
-from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
+from app.screens.contour_cells import cells_at, fields_at, form_at, run_label, run_trouble, value_at
 from app.screens.dialogs import ChooseLine
-from app.screens.enter_stops import next_stop, unanswered
+from app.screens.enter_stops import next_stop, run_stops, unanswered
 from app.screens.form_screen import FormScreen
+from app.screens.values import prompt_of
 from app.session.block_findings import Entry, block_findings, remedy
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
@@ -59,6 +60,9 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
 KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
+
+SWITCHED: Final = frozenset({"choice", "tangent"})
+"""Choices that Space steps: SOLUTION to the next answer, TANGENT to the other one."""
 
 PANELS: Final = ("segments", "findings")
 """The lists that take the place of the drawing where there is no room for both."""
@@ -143,6 +147,8 @@ class ContourScreen(FormScreen):
         self.entries: tuple[Entry, ...] = ()
         self.in_hand: int | None = None
         """Which of the findings with a place the loupe is on; None for the segment with the cursor."""
+        self._tried = False
+        """Whether the other fields show what a half-typed number would make of them."""
 
     # ---- what is shown
 
@@ -188,6 +194,7 @@ class ContourScreen(FormScreen):
         wanted = form_at(session)
         if wanted is not self._form:
             self._switch_form(session, wanted)
+        self._tried = False
         self.form().show(cells_at(session))
         self._show_titles(session)
         self._offer_letters(session)
@@ -227,7 +234,7 @@ class ContourScreen(FormScreen):
         texts = {
             "block-number": str(session.place.block),
             "file": session.file_label,
-            "segment-kind": str(form_at(session)),
+            "segment-kind": f"{form_at(session):<8}{run_label(session)}".rstrip(),
             "segment-count": f"of {last}" if last else "",
         }
         for name, text in texts.items():
@@ -240,6 +247,7 @@ class ContourScreen(FormScreen):
         """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
         if not self.is_current:
             return
+        self._show_tried(shown)
         block, unit, verdict = shown.derived_block, shown.program.unit, self.query_exactly_one(Verdict)
         characters = self.host.characters
         before = verdict.case
@@ -260,6 +268,15 @@ class ContourScreen(FormScreen):
         if verdict.case is not None and not shown.derived_block.known:
             stopped = self.host.stopped is shown.program
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
+
+    def _show_tried(self, shown: Session) -> None:
+        """The other fields as a half-typed number would make them, and back again."""
+        trial = shown is not self.current_session
+        if trial or self._tried:
+            typed = self.current.name if trial and self.current is not None else None
+            self.form().show([cell for cell in cells_at(shown) if cell.name != typed])
+            self._show_titles(shown)
+            self._tried = trial
 
     def _show_lists(self, shown: Session) -> None:
         segments = self.query_exactly_one(SegmentList)
@@ -392,7 +409,20 @@ class ContourScreen(FormScreen):
                 tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
                 return Sentence(sentence(finding, session.program.unit), tone)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
-        return Sentence(advice, Tone.WARNING) if advice else None
+        return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
+
+    def _run_sentence(self, prompt: str) -> Sentence | None:
+        """Why the run of the segment with the cursor has no answer, and where there is room the prompt below."""
+        session = self.current_session
+        finding = run_trouble(session)
+        if finding is None:
+            return None
+        text = sentence(finding, session.program.unit)
+        if finding.code == "NOT_YET":
+            text += f" Or F7: point to the end of segment {finding.segment:g}."
+        elif len(text) < self.size.width - 1:
+            text += f"\n{prompt}"
+        return Sentence(text, Tone.WARNING if finding.code in NOT_YET else Tone.ERROR)
 
     def prompt_text(self) -> Sentence:
         """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be; in a list what its keys do."""
@@ -404,7 +434,8 @@ class ContourScreen(FormScreen):
             if isinstance(widget, NumberField) and not widget.edited:
                 return Sentence(f"{field.prompt} Or: {KINDS.partition(', ')[2]}.")
         if isinstance(self.current, SegmentField):
-            return Sentence(SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT)
+            prompt = SEGMENT_PROMPT if self.current_session.block.segments else FIRST_SEGMENT
+            return self._run_sentence("Right arrow: next segment. ENTER: edit this one.") or Sentence(prompt)
         return super().prompt_text()
 
     def refresh_frame(self) -> None:
@@ -427,7 +458,8 @@ class ContourScreen(FormScreen):
     def action_accept(self) -> None:
         """Take the field and go to the next one that needs an answer; after the last one to the next segment.
 
-        On SEGMENT a typed number goes to that segment.
+        A value that leaves a run without an answer keeps the cursor once.  On SEGMENT a typed number goes to that
+        segment.
         """
         widget = self.current
         if widget is None or (isinstance(widget, SegmentField) and widget.edited):
@@ -435,7 +467,8 @@ class ContourScreen(FormScreen):
                 self._jump(widget)
             return
         self.quiet()
-        if not self.take():
+        before = self.current_session.program
+        if not self.take() or (self.current_session.program is not before and run_stops(self.current_session)):
             return
         stop = next_stop(self.current_session, widget.name or "")
         if stop is not None:
@@ -530,7 +563,9 @@ class ContourScreen(FormScreen):
     def action_list_field(self) -> None:
         """The list of the field with the cursor: its choices, the tools, the look-ahead table."""
         widget = self.current
-        if isinstance(widget, ChoiceField):
+        if isinstance(widget, ChoiceField) and widget.name in SWITCHED:
+            widget.action_step(1)
+        elif isinstance(widget, ChoiceField):
             widget.action_show_overlay()
         elif widget is not None and widget.name == "lookahead":
             self.app.call_later(self.app.run_action, "app.lookahead")

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
 from app.screens.values import cell_of
 from app.session.session import Session
 from app.widgets.field import Cell, State
+from core.finding import Finding
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.solution import Solution, solution_at
-from core.program.solve.solved import Solved, SolvedSegment, Value
+from core.program.solve.solved import Solved, SolvedRun, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
 
 RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     {
         Form.START: frozenset({"plunge_feed", "speed", "peck_depth", "lookahead", "coolant"}),
-        Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent", "choice"}),
-        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent", "choice"}),
+        Form.LINE: frozenset({"length", "angle", "parallel", "offset", "feed", "tangent"}),
+        Form.ARC: frozenset({"x_center", "y_center", "radius", "sweep", "start_angle", "feed", "tangent"}),
         Form.BLEND: frozenset({"feed"}),
         Form.CHAMFER: frozenset({"feed"}),
     }
@@ -47,7 +49,7 @@ def _visible(session: Session, field: Field) -> bool:
         case "lookahead":
             return session.derived_block.side is not None
         case "choice":
-            return _solution(session) is not None
+            return solution_here(session) is not None
         case _:
             return True
 
@@ -60,9 +62,7 @@ def cells_at(session: Session) -> tuple[Cell, ...]:
         for field in _every_field(form)
     ]
     extra: Iterator[Cell] = (
-        _tool_cells(session.derived_block, unit)
-        if session.segment is None
-        else _end_cells(solved_segment(session), form, unit)
+        _tool_cells(session.derived_block, unit) if session.segment is None else _end_cells(session, form, unit)
     )
     # the lines of START stand as on the control: what the control does not have comes last
     own = [cell for cell in cells if cell.name == "coolant"]
@@ -72,10 +72,12 @@ def cells_at(session: Session) -> tuple[Cell, ...]:
 def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bool) -> Cell:
     visible = _visible(session, field)
     if field.name == "choice":
-        solution = _solution(session)
+        solution = solution_here(session)
         text = "" if solution is None or solution.taken is None else solution.label
         labels = () if solution is None else solution.labels
-        return Cell("choice", field.label, text, column, choices=labels, visible=visible)
+        state = State.NEEDED if solution is not None and solution.taken is None else State.TYPED
+        shown = "" if solution is None else solution.label
+        return Cell("choice", field.label, text, column, state, "", shown, labels, visible, folds=True)
     if field.name == "coolant":
         return _coolant_cell(session, field)
     overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
@@ -90,7 +92,8 @@ def _coolant_cell(session: Session, field: Field) -> Cell:
     return Cell("coolant", field.label, text, 1, state, str(origin or ""), choices=field.choices)
 
 
-def _solution(session: Session) -> Solution | None:
+def solution_here(session: Session) -> Solution | None:
+    """What there is to choose at the segment with the cursor; None where there is no choice."""
     return None if session.segment is None else solution_at(session.derived_block.solved, session.place.segment)
 
 
@@ -132,16 +135,41 @@ def solved_segment(session: Session) -> SolvedSegment:
     return session.derived_block.solved.segments[session.place.segment - 1]
 
 
+def run_here(session: Session) -> SolvedRun | None:
+    """The run of which the segment with the cursor is a part."""
+    return session.derived_block.solved.run_of(session.place.segment)
+
+
+def run_label(session: Session) -> str:
+    """`RUN 2-4` in a run, and how many values it needs while that is known."""
+    run = run_here(session)
+    if run is None or run.first == run.last:
+        return ""
+    more = f"  {run.missing} more value{'' if run.missing == 1 else 's'}" if run.missing and run.taken is None else ""
+    return f"RUN {run.first}-{run.last}{more}"
+
+
+def run_trouble(session: Session) -> Finding | None:
+    """Why the run of the segment with the cursor has no answer; it may stand at another segment."""
+    run = run_here(session)
+    if run is None or run.taken is not None:
+        return None
+    segments = session.derived_block.solved.segments[run.first - 1 : run.last]
+    return next((each for segment in segments for each in segment.findings if each.code == run.code), None)
+
+
 def _tool_cells(block: DerivedBlock, unit: Unit) -> Iterator[Cell]:
     diameter = block.solved.tool_diameter
     yield _read_only("TOOL DIAMETER", "" if diameter is None else _length(diameter, unit), 1)
     yield _read_only("TYPE", block.solved.tool_type, 1)
 
 
-def _end_cells(solved: SolvedSegment, form: Form, unit: Unit) -> Iterator[Cell]:
-    start = solved.start
-    yield _read_only("X START", "" if start is None else _length(start[0], unit), 0, visible=start is not None)
-    yield _read_only("Y START", "" if start is None else _length(start[1], unit), 0, visible=start is not None)
+def _end_cells(session: Session, form: Form, unit: Unit) -> Iterator[Cell]:
+    """Where the segment starts, on the line that SOLUTION takes where there is a choice, and a corner's end."""
+    solved = solved_segment(session)
+    start = "" if solved.start is None else f"{_length(solved.start[0], unit)} {_length(solved.start[1], unit)}"
+    shown = bool(start) and solution_here(session) is None
+    yield replace(_read_only("START", start, 0, visible=shown), folds=True)
     if form in (Form.BLEND, Form.CHAMFER):
         end = None if solved.piece is None else solved.piece.end
         yield _read_only("X END", "" if end is None else _length(end[0], unit), 1, visible=end is not None)

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from app.screens.contour_cells import fields_at, form_at, missing_fields, value_at
+from app.screens.contour_cells import fields_at, form_at, missing_fields, run_here, solution_here, value_at
 from app.screens.values import unusable
 from app.session.session import Session
 from core.program.fields import Field, Form
-from core.program.model import Unread
+from core.program.model import Number, Unread
 from core.program.solve.solved import Solved
 
 ALWAYS: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
@@ -47,7 +47,18 @@ def stops(session: Session, field: Field) -> bool:
         return True
     if form is Form.ARC and field.name in UNLESS_CALCULATED:
         return not isinstance(value_at(session, field.name), Solved)
-    return field.name == "choice" and not getattr(session.segment, "choice", None)
+    solution = solution_here(session)
+    return field.name == "choice" and solution is not None and solution.taken is None
+
+
+def run_stops(session: Session) -> bool:
+    """Whether the run of the segment has no answer that the segments after it could still give."""
+    run = run_here(session)
+    if run is None or run.taken is not None or run.code == "PICK_SOLUTION":
+        return False
+    last = session.block.segments[run.last - 1]
+    ends = (getattr(last, "x_end", None), getattr(last, "y_end", None))
+    return run.code != "MISSING" or all(isinstance(end, Number) for end in ends)
 
 
 def _needs_answer(session: Session, field: Field) -> bool:

@@ -7,7 +7,7 @@ from core.pipeline.derived import Tag
 from core.program.fields import TYPE_AGAIN, Field, text_refusal, unread_reason, unread_sentence, value_refusal
 from core.program.model import Number, Relative, Unread
 from core.program.solve.solved import Origin, Solved, Value
-from core.units import Kind, Unit, show
+from core.units import Unit, show
 
 TAGS = {State.OVERRIDDEN: str(Tag.USR), State.UNREAD: "ERR"}
 """The tag of a typed field in each state that has one; what was not typed has the tag of its origin."""
@@ -87,4 +87,4 @@ def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
 
 def prompt_of(field: Field) -> str:
     """The field's prompt; a choice names its choices and how they are picked."""
-    return f"{field.prompt} Letters spell: {', '.join(field.choices)}." if field.kind is Kind.CHOICE else field.prompt
+    return f"{field.prompt} Letters spell: {', '.join(field.choices)}." if field.choices else field.prompt

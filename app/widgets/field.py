@@ -42,7 +42,8 @@ class Cell:
     """A field as the form shows it.
 
     `full` is the text with every digit that was typed: the field shows it while it has the cursor.  `choices` are the
-    texts of a field that is picked from a list, in order; `text` is one of them, or empty.
+    texts of a field that is picked from a list, in order; `text` is one of them, or empty, and then `full` is shown.
+    A field that `folds` gives its line away while it is not visible; its choices may change.
     """
 
     name: str
@@ -54,6 +55,7 @@ class Cell:
     full: str = ""
     choices: tuple[str, ...] = ()
     visible: bool = True
+    folds: bool = False
 
 
 class LineInput(Input):
@@ -156,23 +158,30 @@ class ChoiceField(Select[str], inherit_bindings=False):
             super().__init__()
             self.name, self.letter = name, letter
 
-    def __init__(self, name: str, choices: Sequence[str], text: str = "") -> None:
+    def __init__(
+        self, name: str, choices: Sequence[str], text: str = "", *, prompt: str = "", blank: bool = False
+    ) -> None:
         self.choices = tuple(choices)
         self._spelled = ""
         super().__init__(
             [(choice, choice) for choice in choices],
-            prompt="?",
+            prompt=prompt or "?",
             value=text if text in self.choices else Select.NULL,
-            allow_blank=text not in self.choices,
+            allow_blank=blank or text not in self.choices,
             compact=True,
             name=name,
         )
 
-    def show(self, text: str) -> None:
-        """Show the choice that the program holds."""
-        value: Any = text if text in self.choices else Select.NULL
-        if value != self.value:
-            with self.prevent(Select.Changed):
+    def show(self, text: str, choices: Sequence[str] = (), prompt: str = "") -> None:
+        """Show the choice that the program holds, among other choices where they have changed, or the prompt."""
+        with self.prevent(Select.Changed):
+            if prompt:
+                self.prompt = prompt
+            if choices and tuple(choices) != self.choices:
+                self.choices = tuple(choices)
+                self.set_options([(choice, choice) for choice in choices])
+            value: Any = text if text in self.choices else Select.NULL
+            if value != self.value:
                 self.value = value
 
     def action_step(self, by: int) -> None:
@@ -234,7 +243,14 @@ class FieldRow(Horizontal):
         super().__init__(classes="field")
         self.cell = cell
         self.add_class(cell.state)
-        self.visible = cell.visible
+        self._stand(cell)
+
+    def _stand(self, cell: Cell) -> None:
+        """Show the row or hide it; one that folds takes no room then."""
+        if cell.folds:
+            self.display = cell.visible
+        else:
+            self.visible = cell.visible
 
     def compose(self) -> ComposeResult:
         """Label, tag, value."""
@@ -242,8 +258,8 @@ class FieldRow(Horizontal):
         yield FieldLabel(cell)
         if cell.state is State.READ_ONLY:
             yield Label(cell.text, classes="value")
-        elif cell.choices:
-            yield ChoiceField(cell.name, cell.choices, cell.text)
+        elif cell.choices or cell.folds:
+            yield ChoiceField(cell.name, cell.choices, cell.text, prompt=cell.full, blank=cell.folds)
         else:
             yield NumberField(cell.name, cell.text, cell.full)
 
@@ -259,19 +275,19 @@ class FieldRow(Horizontal):
         if not self.children:
             # not composed yet: it will be with this cell
             self.set_classes(f"field {cell.state}")
-            self.visible = cell.visible
+            self._stand(cell)
             return
         if cell.state is not before.state:
             self.remove_class(before.state)
             self.add_class(cell.state)
         if cell.visible is not before.visible:
-            self.visible = cell.visible
+            self._stand(cell)
         if cell.tag != before.tag:
             self.query_exactly_one(FieldLabel).show(cell)
         match self.input:
             case NumberField() as field:
                 field.show(cell.text, cell.full)
             case ChoiceField() as field:
-                field.show(cell.text)
+                field.show(cell.text, cell.choices, cell.full)
             case None if cell.text != before.text:
                 self.query_exactly_one(".value", Label).update(cell.text, layout=False)
