@@ -48,6 +48,7 @@ ROLES: Final = (
     "number",
     "gouge-area",
     "uncut-area",
+    "untaken",
 )
 """The role of each of core's drawing styles, in their order; its looks are those of the class `drawing--ROLE`."""
 

@@ -14,6 +14,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.findings_list import heading
 from app.widgets.verdict import MARKS
 from core.program.fields import form_of
+from core.program.solve.solution import solution_at
 
 if TYPE_CHECKING:
     from core.draw.scene import Mark
@@ -81,6 +82,10 @@ def _loupe(
         return entry.at, heading(entries, in_hand, MARKS[characters]), entry.kind
     number = session.place.segment
     solved = session.derived_block.solved.segments
+    solution = solution_at(session.derived_block.solved, number)
+    if solution is not None:
+        # all solutions are to be seen
+        return None, f"SEGMENT {number} {form_of(session.block.segments[number - 1])}   SOLUTION {solution.label}", None
     if number and number <= len(solved):
         piece, segment = solved[number - 1].piece, session.block.segments[number - 1]
         turn = f" {direction}" if (direction := getattr(segment, "direction", None)) else ""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from core.draw.areas import inside
 from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
 from core.draw.chords import Chords, chords
-from core.draw.scene import BEYOND, Area, Layer, Scene, Style
+from core.draw.scene import BEYOND, DOTTED, Area, Layer, Scene, Style
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Points, Rows
 
@@ -28,8 +28,8 @@ FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
 """The character of cells with deleted surface where dots are too coarse for a dotted line."""
-DOTTED: Final = (1.0, 0.4)
-"""The period and the lit part of the dotted line of deleted surface, in cells' widths."""
+DOTS: Final = (1.0, 0.4)
+"""The period and the lit part of a dotted line, in cells' widths."""
 THICK: Final = (Style.UNCUT, Style.CURRENT)
 """Roles drawn two dots thick."""
 SHADES: Final = {Style.GOUGE_AREA: ":", Style.UNCUT_AREA: "."}
@@ -241,8 +241,8 @@ def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) 
     lit_dots = np.ones(len(chord), np.bool_)
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
-    dotted = role[rows] == Style.DELETED.value
-    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOTTED, DASH, strict=True))
+    dotted = np.isin(role[rows], [style.value for style in DOTTED])
+    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOTS, DASH, strict=True))
     lit_dots[rows] = np.mod(along, period) < lit
     return lit_dots
 

@@ -47,6 +47,12 @@ class Style(IntEnum):
     NUMBER = 14
     GOUGE_AREA = 15
     UNCUT_AREA = 16
+    UNTAKEN = 17
+    """Solutions of a segment or a run that are not taken."""
+
+
+DOTTED: Final = frozenset({Style.DELETED, Style.UNTAKEN})
+"""The styles whose dashed lines are dotted."""
 
 
 class Symbol(Enum):
@@ -182,6 +188,7 @@ def contour_scene(
     *,
     unit: Unit | None = None,
     sketches: PathParts = NO_PARTS,
+    untaken: PathParts = NO_PARTS,
     path: Path = EMPTY,
     further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
@@ -197,13 +204,15 @@ def contour_scene(
 ) -> Scene:
     """Everything one contour shows, lengths in millimeters.
 
-    `sketches` are segments not determined yet; `further` the center path's other loops; `leads` the blend moves, the
-    blend-in first; `over_run` the ends of the surface that are leads; `rough` further center paths; `deleted` pieces
-    of the contour that the look-ahead deletes, `meetings` where the deleting pieces meet; `gouges` the spots cut into;
-    `cutter` (center, radius); `current` the segment under the cursor; `start` the contour's START.
+    `sketches` are segments not determined yet, `untaken` solutions that are not taken; `further` the center path's
+    other loops; `leads` the blend moves, the blend-in first; `over_run` the ends of the surface that are leads;
+    `rough` further center paths; `deleted` pieces of the contour that the look-ahead deletes, `meetings` where the
+    deleting pieces meet; `gouges` the spots cut into; `cutter` (center, radius); `current` the segment under the
+    cursor; `start` the contour's START.
     """
     stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
     layers = (
+        *_parts(untaken, Style.UNTAKEN, dashed=True),
         *_parts(sketches, Style.SURFACE, dashed=True),
         *_parts(PathParts(surface, stays), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),

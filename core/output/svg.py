@@ -53,6 +53,7 @@ PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
         Style.NUMBER: Pen("#1b1f23", 1.0, "segment number"),
         Style.GOUGE_AREA: Pen("#c4001a", 0.0, "gouged"),
         Style.UNCUT_AREA: Pen("#8a2be2", 0.0, "left uncut"),
+        Style.UNTAKEN: Pen("#7a8894", 1.3, "other solutions", "1 4"),
         Style.BACKGROUND: Pen("#ffffff", 1.0, "background"),
     }
 )

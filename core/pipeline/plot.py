@@ -34,6 +34,7 @@ from core.geometry.piece import Line, Piece, Point, Side
 from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
+from core.program.solve.solution import untaken_pieces
 from core.program.solve.solved import SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit
@@ -41,7 +42,7 @@ from core.verify.verdict import Verdict
 
 DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
 """Roles of layers that are parts of the surface: they cannot widen what spans the drawing."""
-OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT})
+OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
 """Roles of the surface and its faults."""
 LOUPE: Final = 4.6
 """Radii of the tool that a loupe is high."""
@@ -79,6 +80,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         surface,
         unit=unit,
         sketches=_sketches(block),
+        untaken=_apart([piece for pieces in untaken_pieces(solved, segment or 0) for piece in pieces]),
         path=first.path,
         further=[loop.path for loop in loops[1:]],
         leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
@@ -259,12 +261,17 @@ def _sketches(block: DerivedBlock) -> PathParts:
             pieces += _run_sketches(run) if run.first == segment.number else []
         else:
             pieces += segment.choices or ((segment.sketch,) if segment.sketch is not None else ())
+    return _apart(pieces)
+
+
+def _apart(pieces: Sequence[Piece]) -> PathParts:
+    """Pieces that need not join, as parts of one path."""
     if not pieces:
         return NO_PARTS
     # between each and the next a line that is not drawn
-    parts = [
-        part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))
-    ] + pieces[-1:]
+    parts = [part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))] + [
+        pieces[-1]
+    ]
     return PathParts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
 
 

@@ -54,12 +54,10 @@ def solution_at(block: SolvedBlock, number: int) -> Solution | None:
     return Solution(number, answers, taken)
 
 
-def untaken_pieces(block: SolvedBlock) -> tuple[tuple[Piece, ...], ...]:
-    """The pieces of each answer that is not taken, which a drawing shows dotted."""
-    found: list[tuple[Piece, ...]] = []
-    for number in range(1, len(block.segments) + 1):
-        solution = solution_at(block, number)
-        if solution is not None and solution.number == number:
-            others = (answer for index, answer in enumerate(solution.answers) if index != solution.taken)
-            found += [tuple(piece for _, piece in answer.pieces) for answer in others]
-    return tuple(found)
+def untaken_pieces(block: SolvedBlock, number: int) -> tuple[tuple[Piece, ...], ...]:
+    """The pieces of each answer at a segment that is not taken while another one is; a drawing shows them dotted."""
+    solution = solution_at(block, number)
+    if solution is None or solution.taken is None:
+        return ()
+    others = (answer for index, answer in enumerate(solution.answers) if index != solution.taken)
+    return tuple(tuple(piece for _, piece in answer.pieces) for answer in others)

@@ -1,4 +1,4 @@
-"""Runs on the MILL CONTOUR form: RUN in the header, what is missing, CAL fields while typing, SOLUTION, every refusal."""
+"""Runs on the MILL CONTOUR form: the header, what is missing, CAL while typing, SOLUTION, refusals, the drawing."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 
 from app.screens.contour_cells import fields_at
+from app.widgets.drawing import Drawing
+from core.draw.scene import Style
 from core.program.model import Number, Program
 from tests.app.widget_pilot import Operator, operator
 from tests.core.program.run_files import program_of
@@ -47,7 +49,7 @@ async def test_every_segment_of_a_run_says_so_in_the_header():
 async def test_a_waiting_run_counts_what_is_missing_on_each_of_its_segments():
     case = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
     async with operator(program_of(case)) as one:
-        for segment in (1, 2, 3):
+        for _ in range(3):
             await one.press("pagedown")
             assert header(one).endswith("RUN 1-3  1 more value")
             assert one.prompt.startswith("Segments 1 to 3 need 1 more value: RADIUS of 2, or an end.")
@@ -208,3 +210,56 @@ async def test_a_typed_angle_of_one_segment_is_taken_without_an_end():
         await one.press("'45", "enter")
         assert one.session.block.segments[1].length == Number(45.0)
         assert one.session.derived_block.solved.runs[0].code == "PICK_SOLUTION"
+
+
+# the drawing
+
+
+def part_drawn(one: Operator, style: Style) -> int:
+    """Cells of the loupe in the looks of a style."""
+    drawn = one.screen.query_exactly_one("#loupe", Drawing).drawn
+    return 0 if drawn is None else int((drawn.picture.styles == style.value).sum())
+
+
+async def drawn(one: Operator) -> None:
+    """Wait for the drawings."""
+    await one.app.workers.wait_for_complete()
+    await one.pilot.pause()
+
+
+async def test_solutions_that_are_not_taken_are_dotted_while_the_cursor_is_on_their_run():
+    async with operator(golden("c24")) as one:
+        await to(one, 1, "choice")
+        await drawn(one)
+        dashed = part_drawn(one, Style.SURFACE)
+        assert dashed
+        assert not part_drawn(one, Style.UNTAKEN)
+        pictures = []
+        for _ in range(2):
+            await one.press("space")
+            await drawn(one)
+            assert part_drawn(one, Style.UNTAKEN) > 4
+            shown = one.screen.query_exactly_one("#loupe", Drawing).drawn
+            assert shown is not None
+            pictures.append(shown.picture.rows)
+        assert pictures[0] != pictures[1]
+        await one.press("ctrl+home")
+        await drawn(one)
+        assert not part_drawn(one, Style.UNTAKEN)
+
+
+async def test_an_undetermined_run_is_sketched_as_far_as_headings_and_centers_are_known():
+    case = case_of(line(angle=0), ccw(x_center=50, y_center=20, radius=10), line(tangent=True, x_end=90))
+    async with operator(program_of(case)) as one:
+        await one.press("pagedown")
+        await drawn(one)
+        assert one.session.derived_block.solved.runs[0].taken is None
+        assert part_drawn(one, Style.SURFACE) > 8
+        await to(one, 2, "x_center")
+        before = one.screen.query_exactly_one("#loupe", Drawing).drawn
+        await one.press("delete", "'7", "'0")
+        await drawn(one)
+        after = one.screen.query_exactly_one("#loupe", Drawing).drawn
+        assert before is not None
+        assert after is not None
+        assert before.picture.rows != after.picture.rows

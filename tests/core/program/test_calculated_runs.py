@@ -321,7 +321,7 @@ def test_solution_steps_through_the_answers_the_shortest_first() -> None:
     assert shown is not None
     assert (shown.label, shown.stepped(1), shown.stepped(-1)) == ("2 of 2", 0, 0)
     assert block.segments[0].end == pytest.approx((15.925097, 32.099227), abs=1e-6)
-    ((first, *_),) = untaken_pieces(block)
+    ((first, *_),) = untaken_pieces(block, 3)
     assert first.end == pytest.approx((18.413365, 12.193081), abs=1e-6)
 
 
