@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
-from textual import on
+from textual import on, work
 from textual.binding import Binding, BindingType
 from textual.widgets import Input, Select
 
 from app.screens.base import BaseScreen
+from app.screens.calculator import Calculator
+from app.screens.dialogs import ChooseLine
 from app.screens.values import prompt_of, unread_text, unusable
 from app.session.messages import Sentence, Tone
 from app.widgets.field import ChoiceField, NumberField
 from app.widgets.form import Form
 from core.finding import Severity
+from core.program.calculator import CASES, outputs_for
 from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed
 from core.program.model import Number, Unread
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
+
+CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
+"""The kinds of fields for which the calculator has answers."""
 
 
 class FormScreen(BaseScreen):
@@ -33,10 +39,16 @@ class FormScreen(BaseScreen):
         Binding("shift+tab,up", "step(-1)", "Field before", show=False),
         Binding("enter", "accept", "Take the field", show=False),
         Binding("escape", "restore", "Old value back", show=False),
+        Binding("equals_sign", "calculator", "Calculator", show=False, priority=True),
     ]
 
     FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset()
     """Fields whose old value comes back where a text is refused; in all others the text stays to be mended."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._sums: dict[str, dict[str, str]] = {}
+        """What was typed into each case of the calculator."""
 
     def form(self) -> Form:
         """The form that is shown."""
@@ -211,6 +223,35 @@ class FormScreen(BaseScreen):
         """Take the field, then press the softkey."""
         if self.take():
             await super().action_softkey(number)
+
+    # ---- the calculator
+
+    def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
+        """The calculator."""
+        return (("CALCULATOR", "screen.calculator", "=: triangles, tangents, bolt circles, intersections"),)
+
+    def action_calculator(self) -> None:
+        """The calculator for the field with the cursor; in a text the character itself."""
+        field, widget = self.current_field, self.current
+        if isinstance(widget, NumberField) and field is not None and field.kind in CALCULATED:
+            self._calculate(field, widget)
+        elif isinstance(widget, NumberField) and field is not None and field.kind is Kind.TEXT:
+            widget.insert_text_at_cursor("=")
+        else:
+            self.say("The calculator works on fields that take a length or an angle.")
+
+    @work(exclusive=True, group="question")
+    async def _calculate(self, field: Field, widget: NumberField) -> None:
+        """An answer of one of the shop's usual cases into a field, as if it had been typed."""
+        cases = {case.name: case for case in CASES if outputs_for(case, field.kind)}
+        name = await self.app.push_screen_wait(ChooseLine("CALCULATOR", [(each, f" {each}") for each in cases]))
+        if not name:
+            return
+        dialog = Calculator(cases[name], field, self.current_session.program.unit, self._sums.get(name, {}))
+        text = await self.app.push_screen_wait(dialog)
+        self._sums[name] = dialog.typed
+        if text:
+            widget.value, widget.cursor_position = text, len(text)
 
     # ---- what stands on the prompt line
 

@@ -43,6 +43,7 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Tab, up, down", "from field to field"),
     ("Space", "the list of this field: tools, choices, look-ahead values"),
     ("left, right", "edit the text; step a choice; on SEGMENT walk over the segments"),
+    ("=", "on a length or an angle: the calculator, whose answer goes into the field"),
     ("Esc", "one step back: the old value, out of a panel, a dialog, a screen"),
     ("Del, Backspace", "empty the field; Enter makes it blank"),
     ("Page Up, Page Down", "segment before, next segment"),

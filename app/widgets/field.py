@@ -99,8 +99,8 @@ class NumberField(LineInput):
         return self.value.strip() not in (self.resting, self.full)
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
-        """Every printable key is typed, but ? asks for help, and Space lists what a field with a list takes."""
-        if key == "question_mark" or (key == "space" and self.name in LISTED):
+        """Every printable key is typed, but ? asks for help, = calculates, and Space lists what a field takes."""
+        if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED):
             return False
         return super().check_consume_key(key, character)
 

@@ -1,0 +1,105 @@
+"""Calculator: one of the shop's usual cases, typed over the form; the chosen answer goes into the field that asked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from textual import on
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.screen import ModalScreen
+from textual.widgets import Input, Label, OptionList, Static
+
+from core.program.calculator import Case, Quantity, Refusal, calculate, field_text, outputs_for
+from core.program.fields import Field
+from core.units import Unit
+
+
+class Calculator(ModalScreen[str]):
+    """The numbers of a case and its answers; the result is the text of the chosen one, empty for none.
+
+    `typed` holds the texts by name, as they were typed.
+    """
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f8,alt+8", "none", "Go back", show=False),
+        Binding("down", "app.focus_next", "Next", show=False),
+        Binding("up", "app.focus_previous", "Before", show=False),
+    ]
+
+    def __init__(self, case: Case, field: Field, unit: Unit, typed: Mapping[str, str]) -> None:
+        super().__init__()
+        self.case, self.field, self.unit = case, field, unit
+        self.typed = dict(typed)
+        self._texts: list[str] = []
+
+    def compose(self) -> ComposeResult:
+        """A framed box: a line a number, then the answers, then what is wrong."""
+        with Vertical(id="question"):
+            for quantity in self.case.inputs:
+                with Horizontal(classes="field"):
+                    yield Label(quantity.label, classes="label")
+                    yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
+            yield OptionList(id="answers", compact=True)
+            yield Static(id="number-trouble", markup=False)
+
+    def on_mount(self) -> None:
+        """The title, and what the texts of last time come to."""
+        self.query_exactly_one("#question").border_title = f"{self.case.name}: {self.field.label}"
+        self._show()
+
+    @on(Input.Changed)
+    def _typing(self, event: Input.Changed) -> None:
+        event.stop()
+        self.typed[event.input.name or ""] = event.value
+        self._show()
+
+    def _show(self) -> None:
+        """The answers of what is typed, or why there is none."""
+        results = calculate(self.case, self.typed, self.unit)
+        refused = isinstance(results, Refusal)
+        self.query_exactly_one("#number-trouble", Static).update(results.text if isinstance(results, Refusal) else "")
+        answers = () if isinstance(results, Refusal) else results.answers
+        rows = [
+            (quantity, field_text(answer[quantity.name], self.unit), number)
+            for number, answer in enumerate(answers, 1)
+            for quantity in outputs_for(self.case, self.field.kind)
+            if quantity.name in answer and not self.typed.get(quantity.name, "").strip()
+        ]
+        self._texts = [text for _, text, _ in rows]
+        options = self.query_exactly_one(OptionList)
+        options.clear_options()
+        of = f" of {len(answers)}" if len(answers) > 1 else ""
+        options.add_options([f" {row.label:<18}{text:>14}   {number if of else ''}{of}" for row, text, number in rows])
+        options.display = not refused
+        options.highlighted = next((at for at, (row, _, _) in enumerate(rows) if self._fits(row)), 0) if rows else None
+
+    def _fits(self, quantity: Quantity) -> bool:
+        """Whether an answer is what the field is about: X for X END, RADIUS for RADIUS."""
+        name = self.field.name
+        return quantity.name == name or (name[1] == "_" and quantity.name.startswith(name[:2]))
+
+    @on(Input.Submitted)
+    def _submitted(self, event: Input.Submitted) -> None:
+        """To the next number; after the last one to the answers, or to what is wrong."""
+        event.stop()
+        inputs = list(self.query(Input))
+        after = inputs[inputs.index(event.input) + 1 :]
+        results = calculate(self.case, self.typed, self.unit)
+        if isinstance(results, Refusal):
+            faulty = next((each for each in inputs if each.name == results.name), event.input)
+            (after[0] if after else faulty).focus()
+        elif after and not self.case.optional:
+            after[0].focus()
+        else:
+            self.query_exactly_one(OptionList).focus()
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        self.dismiss(self._texts[event.option_index])
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss("")
