@@ -6,19 +6,21 @@ import gc
 from collections.abc import Callable, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from textual import on, work
 from textual.binding import Binding, BindingType
+from textual.command import CommandPalette
 from textual.events import Key
 from textual.filter import LineFilter
 from textual.reactive import var
-from textual.screen import Screen
+from textual.screen import ModalScreen, Screen
 from textual.timer import Timer
 from textual.worker import get_current_worker
 
 from app import theme
 from app.documents.document import ContourDocument, NcDocument
+from app.documents.folders import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.file_actions import FileActions
@@ -55,6 +57,10 @@ def _actions() -> type[Provider]:
     from app.screens.palette import Actions
 
     return Actions
+
+
+NOT_UNDER_DIALOGS: Final = frozenset({"undo", "redo", "quit", "save", "save_as", "home", "new"})
+"""Actions whose keys wait until a dialog is answered."""
 
 
 class CutcompApp(FileActions, TransformActions, WorkActions):
@@ -211,9 +217,15 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.say(TOLD[event.key], Tone.WARNING)
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line of the screen in front."""
-        if isinstance(self.screen, BaseScreen):
-            self.screen.say(text, tone)
+        """A sentence on the prompt line of the screen in front, or of the one under a dialog."""
+        screens = [screen for screen in self.screen_stack if isinstance(screen, BaseScreen)]
+        if screens:
+            screens[-1].say(text, tone)
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Under a dialog nothing is done to files and edits: it is answered first."""
+        dialog = isinstance(self.screen, ModalScreen) and not isinstance(self.screen, CommandPalette)
+        return not (dialog and action in NOT_UNDER_DIALOGS) and super().check_action(action, parameters)
 
     # ---- what follows from the program
 
@@ -338,9 +350,24 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         depths = [depth for depth, screen in enumerate(self.screen_stack) if isinstance(screen, kind)]
         if not depths:
             self.push_screen(kind())
-            return
-        for _ in self.screen_stack[depths[-1] + 1 :]:
+        elif any(proof in self.screen_stack[depths[-1] + 1 :] for proof in self.proofs):
+            self._bring_over_proofs(depths[-1])
+        else:
+            self._uncover(depths[-1])
+
+    def _uncover(self, depth: int) -> None:
+        """The screen at a depth of the stack to the front; those over it are closed."""
+        for _ in self.screen_stack[depth + 1 :]:
             self.pop_screen()
+
+    @work(group="question")
+    async def _bring_over_proofs(self, depth: int) -> None:
+        """The same where NC texts are open over it: they are closed, and asked about first."""
+        over = self.screen_stack[depth + 1 :]
+        documents = [proof.document for proof in self.proofs if proof in over]
+        if await self.may_close("LEAVE NC PROOF?", documents):
+            await self.close_documents(documents)
+            self._uncover(depth)
 
     def action_command_palette(self) -> None:
         """The palette of all actions."""
@@ -370,7 +397,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
         if not isinstance(self.screen, HomeScreen):
             file = self.session.file
-            self.push_screen(HomeScreen(Path.cwd() if file is None else file.absolute().parent))
+            self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
 
     def action_parameters(self) -> None:
         """PROGRAM PARAMETERS."""
@@ -485,7 +512,17 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     def bring_form(self) -> None:
         """MILL CONTOUR to the front."""
-        self.bring(ContourScreen)
+        self._uncover(0)
+
+    def bring_proof(self, proof: ProofScreen) -> None:
+        """An NC PROOF that is open to the front."""
+        self._uncover(self.screen_stack.index(proof))
+
+    def quiet(self) -> None:
+        """The prompts again, on every screen."""
+        for screen in self.screen_stack:
+            if isinstance(screen, BaseScreen):
+                screen.quiet()
 
     def show_screen(self, screen: BaseScreen) -> None:
         """A screen over all others."""

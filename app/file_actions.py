@@ -5,19 +5,25 @@ The document service decides and knows no screen; what it asks is asked here in 
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, wait
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from textual import work
 from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.folders import chosen
-from app.documents.naming import is_drawing, typed
-from app.documents.questions import DISCARD, GO_BACK, SAVE, Ask, held_sentence, leaving
+from app.documents.left_overs import file_of_copy
+from app.documents.naming import is_drawing, is_folder, program_named, typed
+from app.documents.nc_text import NC_SUFFIXES
+from app.documents.patience import DISK, Disk
+from app.documents.questions import DISCARD, GO_BACK, LEAVE, SAVE, Ask, held_sentence, leaving, name_of, not_answering
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
-from app.screens.dialogs import Answer, Question
+from app.screens.dialogs import Answer, Phrase, Question
 from app.session.messages import Tone
 from app.session.session import SEGMENT, Session
 from core.units import Unit
@@ -26,15 +32,29 @@ if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
     from app.screens.base import BaseScreen
 
+Result = TypeVar("Result")
+
+NO_ANSWER: Final = "The folder does not answer: still trying. You can go on; it is not on the disk yet."
+ANSWERS: Final = "The folder answers again: all work is on the disk."
+
 
 class FileActions(App[int]):
-    """The App's side of files; `service` is None where nothing is to be kept, as in a test of one screen."""
+    """The App's side of files; `service` is None where nothing is to be kept, as in a test of one screen.
+
+    All work on files is done by `disk`, one piece after the other.  The keys wait half a second for it; then they go
+    on, and what is edited meanwhile is kept when the folder answers.
+    """
 
     service: DocumentService | None
     document: ContourDocument
     settings: Settings
     settings_file: SettingsFile
-    waiting_offer: Offer | None
+
+    def __init__(self, *, ansi_color: bool | None = None) -> None:
+        super().__init__(ansi_color=ansi_color)
+        self.disk = Disk()
+        self._behind = set[Future[Any]]()
+        self._edited_meanwhile = False
 
     # ---- what the App itself has
 
@@ -46,8 +66,20 @@ class FileActions(App[int]):
         """A sentence on the prompt line."""
         raise NotImplementedError
 
+    def quiet(self) -> None:
+        """The prompts again, on every screen."""
+        raise NotImplementedError
+
     def bring_form(self) -> None:
         """MILL CONTOUR to the front."""
+        raise NotImplementedError
+
+    def bring_proof(self, proof: ProofScreen) -> None:
+        """An NC PROOF that is open to the front."""
+        raise NotImplementedError
+
+    def show_folder(self, folder: Path) -> None:
+        """HOME with the files of a folder."""
         raise NotImplementedError
 
     def show_nc(self, document: NcDocument) -> None:
@@ -75,13 +107,73 @@ class FileActions(App[int]):
 
         self.show_screen(ImportScreen(path, fresh=fresh))
 
+    # ---- the disk, which may not answer
+
+    def _ask_disk(self, work: Callable[[], Result]) -> Future[Result]:
+        """Have work done on the disk; waits for it a moment, unless the disk is behind already."""
+        future = self.disk.do(work)
+        if not self._behind:
+            wait([future], DISK)
+        self._behind.add(future)
+        if not future.done():
+            self.say(NO_ANSWER, Tone.WARNING)
+        return future
+
+    async def _answer(self, future: Future[Result]) -> Result:
+        try:
+            return future.result() if future.done() else await asyncio.wrap_future(future)
+        finally:
+            self._behind.discard(future)
+            if self._edited_meanwhile:
+                # behind what the caller makes of the answer
+                self.call_later(self._keep_rest)
+
+    async def on_disk(self, work: Callable[[], Result]) -> Result:
+        """What work on the disk returns; only in a worker."""
+        return await self._answer(self._ask_disk(work))
+
+    def disk_is_behind(self) -> bool:
+        """Whether the disk has still to answer; then it says so."""
+        if self._behind:
+            self.say(NO_ANSWER, Tone.WARNING)
+        return bool(self._behind)
+
     # ---- every edit on the disk
 
     def keep(self, session: Session) -> None:
         """Put what was edited on the disk, before the next key is read."""
         self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT)
-        if self.service is not None:
-            self.tell(self.service.keep(self.document))
+        self._keep(self.document)
+
+    def keep_nc(self, document: NcDocument) -> None:
+        """Put what was edited in an NC text on the disk."""
+        self._keep(document)
+
+    def _keep(self, document: Document) -> None:
+        service = self.service
+        if service is None:
+            return
+        if self.disk_is_behind():
+            self._edited_meanwhile = True
+            return
+        future = self._ask_disk(lambda: service.keep(document))
+        if future.done():
+            self._behind.discard(future)
+            self.tell(future.result())
+        else:
+            self._kept_late(future)
+
+    @work(group="disk")
+    async def _kept_late(self, future: Future[Notice | None]) -> None:
+        self.tell(await self._answer(future) or Notice(ANSWERS))
+
+    def _keep_rest(self) -> None:
+        """Keep what was edited while the disk was behind."""
+        if self._behind or not self._edited_meanwhile:
+            return
+        self._edited_meanwhile = False
+        for document in self._all_open():
+            self._keep(document)
 
     def tell(self, notice: Notice | None) -> None:
         """What the service has to say."""
@@ -102,11 +194,6 @@ class FileActions(App[int]):
         if text := self.settings_file.keep(settings):
             self.say(text, Tone.WARNING)
 
-    def keep_nc(self, document: NcDocument) -> None:
-        """Put what was edited in an NC text on the disk."""
-        if self.service is not None:
-            self.tell(self.service.keep(document))
-
     # ---- open
 
     def adopt(self, opened: Opened[Any]) -> None:
@@ -126,9 +213,9 @@ class FileActions(App[int]):
 
     @work(group="offer")
     async def _ask_offer(self, document: ContourDocument | NcDocument, offer: Offer) -> None:
-        word = await self.ask(offer.ask)
-        if self.service is not None:
-            self.adopt(self.service.answer(document, offer, word))
+        word, service = await self.ask(offer.ask), self.service
+        if service is not None:
+            self.adopt(await self.on_disk(lambda: service.answer(document, offer, word)))
 
     async def ask(self, ask: Ask) -> str:
         """The word of the answer to a question; only in a worker."""
@@ -136,51 +223,122 @@ class FileActions(App[int]):
         return await self.push_screen_wait(Question(ask.title, [*ask.lines, *ask.details], answers, ask.safe))
 
     def open_file(self, path: Path) -> None:
-        """Work on a file; what is not saved is asked about first."""
-        self._open(path)
+        """Work on a file, or show a folder; what is not saved is asked about first."""
+        if not self.disk_is_behind():
+            self._open(path)
 
-    @work(exclusive=True, group="question")
-    async def _open(self, path: Path) -> None:
-        if self.service is None:
+    def open_copy(self, copy: Path) -> None:
+        """Offer the work of a kept copy on the file that it is about."""
+        if not self.disk_is_behind():
+            self._open(copy, kept_copy=copy)
+
+    @work(group="question")
+    async def _open(self, path: Path, *, kept_copy: Path | None = None) -> None:
+        service, here = self.service, self.document.file.path
+        if service is None:
             return
-        where = chosen(path, self.document.file.path)
-        if is_drawing(where):
-            self.show_drawing(where)
-            return
-        if _is_program(where) and not await self.may_leave("OPEN?"):
-            return
-        result = self.service.open(where)
-        if isinstance(result, Trouble):
+
+        def opened() -> Opened[Any] | Trouble | Path:
+            if kept_copy is None:
+                where = _named(chosen(path, here))
+                return where if is_folder(where) or is_drawing(where) else service.open(where)
+            file = file_of_copy(kept_copy, kept_copy.parent)
+            return service.copy_without_name(kept_copy) if file is None else service.open(file, kept_copy=kept_copy)
+
+        result = await self.on_disk(opened)
+        if isinstance(result, Trouble) and result.open_already is not None:
+            await self._open_already(result, opened, again=kept_copy is not None)
+        elif isinstance(result, Trouble):
             self.say(result.text, Tone.ERROR)
-            return
-        if isinstance(result.document, ContourDocument):
-            self.service.close(self.document)
-        self.adopt(result)
+        elif isinstance(result, Path) and is_drawing(result):
+            self.show_drawing(result)
+        elif isinstance(result, Path):
+            self.show_folder(result)
+        else:
+            await self._begun(result)
+
+    async def _begun(self, opened: Opened[Any]) -> None:
+        """Work on what was opened; of programs there is only one."""
+        service, document = self.service, opened.document
+        assert service is not None
+        if isinstance(document, ContourDocument):
+            if not await self.may_close("OPEN?", self._all_open()):
+                await self.on_disk(lambda: service.close(document))
+                return
+            await self.close_documents(self._all_open())
+        self.adopt(opened)
+
+    async def _open_already(
+        self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool
+    ) -> None:
+        """Show what is open; read it again where its file is another by now, or where a copy of it is wanted."""
+        service, document = self.service, trouble.open_already
+        assert service is not None
+        assert document is not None
+        again = again or await self.on_disk(lambda: service.changed(document))
+        if not again or document.kind is not self.document.kind:
+            proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
+            if proof is None:
+                self.bring_form()
+            else:
+                self.bring_proof(proof)
+            self.say(trouble.text)
+        elif await self.may_close("OPEN AGAIN?", self._all_open()):
+            await self.close_documents(self._all_open())
+            result = await self.on_disk(opened)
+            self.adopt(result if isinstance(result, Opened) else service.new())
+            if isinstance(result, Trouble):
+                self.say(result.text, Tone.ERROR)
 
     def action_new(self, unit: str) -> None:
         """A new program in this unit."""
-        self._new(Unit(unit))
+        if not self.disk_is_behind():
+            self._new(Unit(unit))
 
-    @work(exclusive=True, group="question")
+    @work(group="question")
     async def _new(self, unit: Unit) -> None:
-        if self.service is None or not await self.may_leave("NEW PROGRAM?"):
+        if self.service is None or not await self.may_close("NEW PROGRAM?", self._all_open()):
             return
-        self.service.close(self.document)
+        await self.close_documents(self._all_open())
         self.keep_settings(Settings(**{**_fields(self.settings), "unit": unit}))
         self.adopt(self.service.new(unit))
 
-    async def may_leave(self, title: str) -> bool:
-        """Whether the program may be left: it is saved, it has just been saved, or its changes are given up."""
-        ask = leaving(title, [self.document])
+    def _all_open(self) -> list[Document]:
+        return [self.document, *(proof.document for proof in self.proofs)]
+
+    async def may_close(self, title: str, documents: Iterable[Document]) -> bool:
+        """Whether documents may be closed: they are saved, they have just been saved, or their changes are given up."""
+        openings = {document.file.opening for document in documents}
+        proofs = [proof for proof in self.proofs if proof.document.file.opening in openings]
+        if not all(proof.take_lines() for proof in proofs):
+            return False
+        ours = [self.document] if self.document.file.opening in openings else []
+        ask = leaving(title, [*ours, *(proof.document for proof in proofs)])
         word = DISCARD if ask is None else await self.ask(ask)
-        if word == SAVE:
-            return await self.saved(None)
-        return word == DISCARD
+        if word != SAVE:
+            return word == DISCARD
+        for proof in proofs:
+            if proof.document.unsaved and not await self.saved_nc(proof, None):
+                return False
+        return not ours or not self.document.unsaved or await self.saved(None)
+
+    async def close_documents(self, documents: Iterable[Document]) -> None:
+        """Neither journal nor lock of these stays."""
+        service, closing = self.service, tuple(documents)
+
+        def close() -> None:
+            if service is not None:
+                for document in closing:
+                    service.close(document)
+
+        await self.on_disk(close)
 
     # ---- save
 
     def action_save(self) -> None:
         """Save under the name the program, or the NC text in front, has, or ask for one."""
+        if self.disk_is_behind():
+            return
         if self.proof is not None:
             self._save_nc(self.proof, None)
         elif self.document.file.path is None:
@@ -209,17 +367,19 @@ class FileActions(App[int]):
 
     def save_as(self, text: str) -> None:
         """Save under a typed name."""
+        if self.disk_is_behind():
+            return
         if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:]:
             self._save_nc(self.proofs[-1], typed(text))
         else:
             self._save(typed(text))
 
-    @work(exclusive=True, group="question")
+    @work(group="question")
     async def _save_nc(self, proof: ProofScreen, path: Path | None) -> None:
         if proof.document.file.path is None and path is None:
             self.action_save_as()
         elif await self.saved_nc(proof, path) and path is not None:
-            await self.run_action("app.back")
+            self._leave_save_as()
 
     async def saved_nc(self, proof: ProofScreen, path: Path | None) -> bool:
         """Save an NC text, asking what is to be asked; whether it was saved."""
@@ -233,24 +393,27 @@ class FileActions(App[int]):
 
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""
-        self._close_nc(document)
+        if not self.disk_is_behind():
+            self._close_nc(document)
 
-    @work(exclusive=True, group="question")
+    @work(group="question")
     async def _close_nc(self, document: NcDocument) -> None:
-        ask = leaving("LEAVE?", [document])
-        word = DISCARD if ask is None else await self.ask(ask)
-        if word == SAVE and self.proof is not None and not await self.saved_nc(self.proof, None):
-            return
-        if word != GO_BACK:
-            if self.service is not None and self.proof is not None:
-                self.service.close(self.proof.document)
+        if await self.may_close("LEAVE?", [document]) and self.proof is not None:
+            await self.close_documents([self.proof.document])
             await self.run_action("app.back")
 
     async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
         """Save a document, asking what is to be asked; None where it was not saved."""
-        assert self.service is not None
-        agreed: frozenset[str] = frozenset()
-        while isinstance(result := self.service.save(document, path, agreed), Ask):
+        service, agreed = self.service, frozenset[str]()
+        assert service is not None
+        if path is None and document.file.path is None:
+            name = await self.push_screen_wait(
+                Phrase("SAVE AS", [f"{name_of(document)} needs a name. Enter saves it."])
+            )
+            if not name.strip():
+                return None
+            path = typed(name)
+        while isinstance(result := await self.on_disk(_saving(service, document, path, agreed)), Ask):
             word = await self.ask(result)
             if word == GO_BACK:
                 return None
@@ -260,10 +423,17 @@ class FileActions(App[int]):
             return None
         return result
 
-    @work(exclusive=True, group="question")
+    @work(group="question")
     async def _save(self, path: Path | None) -> None:
         if await self.saved(path) and path is not None:
-            await self.run_action("app.back")
+            self._leave_save_as()
+
+    def _leave_save_as(self) -> None:
+        """Back from SAVE AS, unless somebody has left it while the disk was behind."""
+        from app.screens.file_names import SaveAsScreen
+
+        if isinstance(self.screen, SaveAsScreen):
+            self.pop_screen()
 
     async def saved(self, path: Path | None) -> bool:
         """Save, asking what is to be asked; whether it was saved."""
@@ -272,10 +442,11 @@ class FileActions(App[int]):
         result = await self._written(self.document, path)
         if result is None:
             return False
-        self.document = result.document
-        self.begin(session_of(result.document, self.current_session))
-        if result.document.file.path is not None:
-            self.keep_settings(self.settings.using(result.document.file.path))
+        self.document = self.document.after_saving(result.document)
+        self.begin(session_of(self.document, self.current_session))
+        if self.document.file.path is not None:
+            self.keep_settings(self.settings.using(self.document.file.path))
+        self.quiet()
         self.notify(result.notice.text, timeout=4)
         return True
 
@@ -290,28 +461,26 @@ class FileActions(App[int]):
         """Leave; asks where something is not saved."""
         self._leave()
 
-    @work(exclusive=True, group="question")
+    @work(group="question")
     async def _leave(self) -> None:
-        documents: list[Document] = [self.document, *(proof.document for proof in self.proofs)]
-        ask = leaving("QUIT?", documents)
-        word = DISCARD if ask is None else await self.ask(ask)
-        if word == GO_BACK or (word == SAVE and not await self._all_saved()):
-            return
-        self._close(self.document)
-        for proof in self.proofs:
-            self._close(proof.document)
-        self.exit(0)
+        if self._behind:
+            # the thread that waits for the folder ends with the program
+            if await self.ask(not_answering()) == LEAVE:
+                self.exit(0)
+        elif await self.may_close("QUIT?", self._all_open()):
+            await self.close_documents(self._all_open())
+            self.exit(0)
 
-    def _close(self, document: Document) -> None:
-        if self.service is not None:
-            self.service.close(document)
 
-    async def _all_saved(self) -> bool:
-        """Save everything that is open; whether all of it was saved."""
-        for proof in self.proofs:
-            if proof.document.unsaved and not await self.saved_nc(proof, None):
-                return False
-        return not self.document.unsaved or await self.saved(None)
+def _saving(
+    service: DocumentService, document: AnyDocument, path: Path | None, agreed: frozenset[str]
+) -> Callable[[], Saved[AnyDocument] | Ask | Trouble]:
+    return lambda: service.save(document, path, agreed)
+
+
+def _named(path: Path) -> Path:
+    """The file that a typed name means; one that ends like an NC program or a drawing is no program."""
+    return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
 
 
 def session_of(document: ContourDocument, before: Session | None = None) -> Session:
@@ -325,10 +494,6 @@ def session_of(document: ContourDocument, before: Session | None = None) -> Sess
         document.title,
     )
     return session if before is None or before.program is not session.program else session.like(before)
-
-
-def _is_program(path: Path) -> bool:
-    return path.suffix.lower() == ".toml"
 
 
 def _fields(settings: Settings) -> dict[str, Any]:

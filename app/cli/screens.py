@@ -113,12 +113,12 @@ def guarded(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -
     """Run the App to its end, wanted or not; what is not saved stays in the journals."""
     from app.terminal.signals import Safety
 
-    safety = Safety(lambda status: app.exit(status, return_code=status), service.stop)
+    safety = Safety(lambda status: app.exit(status, return_code=status), lambda: app.disk.finish(service.stop))
     safety.arm()
     try:
         app.run(mouse=mouse)
     finally:
-        service.stop()
+        app.disk.finish(service.stop)
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0

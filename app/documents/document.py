@@ -78,6 +78,10 @@ class Document(Protocol):
         """After the file was written with the document as it is now."""
         ...
 
+    def after_saving(self, saved: Self) -> Self:
+        """This work, of which an earlier state was saved while it went on."""
+        ...
+
     def same_edits(self, other: Self) -> bool:
         """Whether nothing was edited, undone or redone between the two."""
         ...
@@ -173,6 +177,10 @@ class ContourDocument:
     def saved(self, file: FileState) -> Self:
         """After the file was written."""
         return replace(self, file=file, saved_program=self.program)
+
+    def after_saving(self, saved: Self) -> Self:
+        """This work, of which an earlier state was saved while it went on."""
+        return replace(self, file=saved.file, saved_program=saved.saved_program)
 
     def same_edits(self, other: Self) -> bool:
         """Whether nothing was edited, undone or redone between the two."""
@@ -270,6 +278,11 @@ class NcDocument:
     def saved(self, file: FileState) -> Self:
         """After the file was written."""
         return replace(self, file=file, text=self.text.written(self.text.data))
+
+    def after_saving(self, saved: Self) -> Self:
+        """This work, of which an earlier state was saved while it went on."""
+        text = replace(self.text, origin=saved.text.origin, saved=saved.text.saved)
+        return replace(self, file=saved.file, text=text)
 
     def same_edits(self, other: Self) -> bool:
         """Whether nothing was edited, undone or redone between the two."""

@@ -227,10 +227,9 @@ class KeptCopy:
     time: str
     name: str
 
-    def label(self, today: str) -> str:
-        """The line in the list of OPEN."""
-        when = times.in_words(self.time, today).removeprefix("on ")
-        return f"{self.word} work, {when}: {self.name}"
+    def sentence(self, today: str) -> str:
+        """What it is."""
+        return f"Unsaved work on {self.name}, {self.word} {times.in_words(self.time, today)}."
 
 
 def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:

@@ -21,6 +21,7 @@ from core.units import printable
 
 GO_BACK: Final = "GO BACK"
 SAVE: Final = "SAVE"
+LEAVE: Final = "LEAVE"
 DISCARD: Final = "DISCARD"
 RESTORE: Final = "RESTORE"
 NOT_MINE: Final = "LEAVE IT"
@@ -112,6 +113,12 @@ def _loss(document: Document) -> str:
     if document.file.path is None:
         return "was never saved."
     return "has changes that are not saved."
+
+
+def not_answering() -> Ask:
+    """Before the program is left while the disk is behind."""
+    lines = ("The folder does not answer.", "What was typed since then is not on the disk. GO BACK waits for it.")
+    return Ask("QUIT?", lines, (Answer(LEAVE, "what is not on the disk is lost"),))
 
 
 # ---- before a file is written

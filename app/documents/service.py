@@ -14,8 +14,8 @@ from typing import Any, Final, Generic
 
 from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
-from app.documents.files import load, read_file, refuse_program, stamp_of_data, why, write_data
-from app.documents.folders import chosen, folder, outside, printable_path, written_at
+from app.documents.files import load, read_file, refuse_program, stamp_of, stamp_of_data, why, write_data
+from app.documents.folders import chosen, folder, outside, printable_path, short_path, written_at
 from app.documents.interrupted import interrupted_saves
 from app.documents.journal import Head, Journal, Kind, beginning, continuing
 from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
@@ -147,18 +147,20 @@ class DocumentService:
         """
         if path.parent == examples():
             return self.example(path.stem)
+        if _real_path(path) is None:
+            return Trouble(f"{short_path(path)} cannot be opened: that is not a file name. Choose another.")
         if (kept := self._standing(path)) is not None:
             return Trouble(f"{printable(path.name)} is open already.", kept.known)
         try:
             document = within(FILE, lambda: self._read(path, kept_copy))
         except TimeoutError as error:
-            return Trouble(f"{printable_path(path)} cannot be opened: {error}.")
+            return Trouble(f"{short_path(path)} cannot be opened: {error}.")
+        except OSError as error:
+            return Trouble(f"{short_path(path)} cannot be opened: {why(error)}")
         except StoreError as error:
             return Trouble(error.text)
         new = document.file.stamp is None and not os.path.lexists(path) and kept_copy is None
-        word = (
-            f"{printable_path(path)} does not exist yet: saving makes it." if new else f"Opened: {printable_path(path)}"
-        )
+        word = f"{short_path(path)} does not exist yet: saving makes it." if new else f"Opened: {short_path(path)}"
         return self._begun(document, Notice(word), kept_copy)
 
     def copy_without_name(self, kept_copy: Path) -> Opened[ContourDocument]:
@@ -172,6 +174,12 @@ class DocumentService:
             return None
         return next((kept for kept in self._open.values() if _real_path(kept.known.file.path) == real), None)
 
+    def changed(self, document: Document) -> bool:
+        """Whether the file of a document is another than it was when it was read or saved last."""
+        path, then = document.file.path, document.file.stamp
+        now = None if path is None else stamp_of(path, MAX_BYTES[document.kind])
+        return (now is None) is not (then is None) or not (now is None or then is None or now.same_content(then))
+
     def _read(self, path: Path, kept_copy: Path | None) -> Document:
         """The document of a file, or an empty one where only work on it was left; StoreError for neither."""
         named = FileState(path)
@@ -183,15 +191,15 @@ class DocumentService:
                 return NcDocument(file=named)
             if kept_copy is not None or (program and path.parent.is_dir() and not path.is_symlink()):
                 return ContourDocument.of(empty_program(), named)
-            raise StoreError(f"{printable_path(path)} cannot be opened: {why(error)}") from error
+            raise StoreError(f"{short_path(path)} cannot be opened: {why(error)}") from error
         except (OSError, ValueError) as error:
-            trouble = StoreError(f"{printable_path(path)} cannot be opened: {why(error)}")
+            trouble = StoreError(f"{short_path(path)} cannot be opened: {why(error)}")
             trouble.__cause__ = error
             return self._rescued(named, trouble, kept_copy)
         if not program and not holds_program(data):
             return NcDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
         if len(data) > MAX_BYTES[Kind.CONTOUR]:
-            raise StoreError(f"{printable_path(path)} is too large for a program file. Choose another file.")
+            raise StoreError(f"{short_path(path)} is too large for a program file. Choose another file.")
         try:
             return ContourDocument.read(data, replace(named, stamp=stamp_of_data(data, status.st_mtime_ns)))
         except StoreError as error:
@@ -556,6 +564,15 @@ class DocumentService:
 
         Ask again with the answer among `agreed`, until there is nothing to ask.
         """
+        try:
+            return self._save(document, path, agreed)
+        except OSError as error:
+            # such as that the current folder is gone
+            return Trouble(f"{name_of(document)} is not saved: {why(error)}")
+
+    def _save(
+        self, document: AnyDocument, path: Path | None, agreed: frozenset[str]
+    ) -> Saved[AnyDocument] | Ask | Trouble:
         kept, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
             return Trouble(f"{name_of(document)} has no name yet. SAVE AS gives it one.")
@@ -572,7 +589,7 @@ class DocumentService:
 
     def _refused(self, document: Document, target: Path) -> Trouble | None:
         """Why a file is not written, whatever the operator answers."""
-        name, holder = printable_path(target), document.file.holder
+        name, holder = short_path(target), document.file.holder
         if _real_path(target) is None:
             return Trouble(f"{name} is not saved: that is not a file name. Choose another.")
         if is_folder(target):
@@ -637,7 +654,9 @@ class DocumentService:
             data = document.data()
             in_place = write_data(path, data)
         except (StoreError, ValueError) as error:
-            return Trouble(f"{error} SAVE AS saves elsewhere.")
+            cause = error.__cause__ or error
+            reason = why(cause) if isinstance(cause, OSError | ValueError) else str(error)
+            return Trouble(f"{short_path(path)} is not saved: {reason} SAVE AS saves elsewhere.")
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)
@@ -724,6 +743,9 @@ def _real_path(path: Path | None) -> str | None:
         return None if path is None else os.path.realpath(path)
     except ValueError:
         return None
+    except OSError:
+        # the current folder is gone
+        return str(path)
 
 
 def _leads_elsewhere(path: Path) -> bool:

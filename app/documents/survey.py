@@ -13,7 +13,7 @@ from typing import Final
 from app.documents.document import ContourDocument
 from app.documents.files import load
 from app.documents.journal import Journal, Kind
-from app.documents.left_overs import left_by_dead, left_of, never_saved, state_folder
+from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from app.documents.lock import alive, user
 from app.documents.patience import FILE, FOLDER, within
 from app.documents.programs import examples, is_program
@@ -150,20 +150,36 @@ def day_of(changed: datetime, now: datetime) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Listed:
-    """A line of the list of files: a program, a drawing, a folder to go to, or an example."""
+    """A line of the list of files: a program, a drawing, a folder, an example, or a kept copy of unsaved work."""
 
     path: Path
     name: str
     folder: bool = False
     example: bool = False
     drawing: bool = False
+    copy: KeptCopy | None = None
+
+    @property
+    def program(self) -> bool:
+        """Whether it is a program's file."""
+        return self.copy is None and not (self.folder or self.drawing)
 
 
 def programs_of(folder: Path) -> tuple[Listed, ...]:
-    """The programs and drawings of a folder, the examples, the folders; OSError when it cannot be read."""
+    """Programs and drawings of a folder, the examples, folders and kept copies; OSError where it cannot be read."""
     inside = within(FOLDER, lambda: tuple(_inside(folder)))
     programs = (each for each in inside if not each.folder)
-    return (*programs, *example_programs(), *(each for each in inside if each.folder))
+    folders = (each for each in inside if each.folder)
+    copies = within(FOLDER, lambda: tuple(_copies(folder)))
+    return (*programs, *example_programs(), *folders, *copies)
+
+
+def _copies(folder: Path) -> Iterator[Listed]:
+    """The unsaved work on programs and NC texts that was set aside here, the last first."""
+    state = state_folder()
+    kept = (copy for kind in Kind for copy in kept_copies(folder, state, kind))
+    for copy in sorted(set(kept), key=lambda copy: copy.time, reverse=True):
+        yield Listed(copy.path, copy.name, copy=copy)
 
 
 def example_programs() -> Iterator[Listed]:

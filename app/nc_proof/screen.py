@@ -173,8 +173,8 @@ class ProofScreen(BaseScreen):
 
     def saved(self, document: NcDocument) -> None:
         """The text was written."""
-        self.document = document
-        self.question = replace(self.question, text=document.text)
+        self.document = self.document.after_saving(document)
+        self.question = replace(self.question, text=self.document.text)
         if self.result is not None:
             self.result = replace(self.result, question=self.question)
         self._show_titles()

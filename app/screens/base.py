@@ -98,6 +98,9 @@ class Host(Protocol):
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 
+    def open_copy(self, copy: Path) -> None:
+        """Offer the work of a kept copy on the file that it is about."""
+
     def save_as(self, text: str) -> None:
         """Save the program under a typed name."""
 

@@ -36,7 +36,9 @@ class Question(ModalScreen[str]):
     `safe` is the answer that is chosen at first.  Esc and F8 answer GO BACK.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "answer('GO BACK')", "Go back", show=False)]
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f8,alt+8,ctrl+q", "answer('GO BACK')", "Go back", show=False)
+    ]
 
     def __init__(self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str) -> None:
         super().__init__()

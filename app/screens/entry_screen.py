@@ -61,6 +61,12 @@ class EntryScreen(BaseScreen):
     def _typing(self) -> None:
         self.quiet()
 
+    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
+        """A sentence on the prompt line; a name that was refused is selected: the next character replaces it."""
+        super().say(text, tone)
+        if tone is Tone.ERROR:
+            self.query_exactly_one("#entry", Input).select_all()
+
     @on(Input.Submitted, "#entry")
     def _submitted(self, event: Input.Submitted) -> None:
         event.stop()

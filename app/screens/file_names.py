@@ -41,11 +41,7 @@ class OpenPathScreen(EntryScreen):
 
     def entered(self, text: str) -> None:
         """Open the file, or show the folder."""
-        path = typed(text).expanduser()
-        if path.is_dir():
-            self.host.show_folder(path)
-        else:
-            self.host.open_file(path)
+        self.host.open_file(typed(text))
 
     def prompt_text(self) -> Sentence:
         """What to type."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Final
 
@@ -16,7 +17,8 @@ from textual.message import Message
 from textual.widgets import DataTable, Static
 from textual.worker import get_current_worker
 
-from app.documents.files import load
+from app.documents.files import load, why
+from app.documents.folders import short_path
 from app.documents.survey import Facts, Listed, day_of, example_programs, facts_of, programs_of
 from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
@@ -96,10 +98,10 @@ class HomeScreen(BaseScreen):
         try:
             self.listed, self.trouble = programs_of(folder), ""
         except OSError as error:
-            self.trouble = f"{folder} cannot be shown: {error.strerror or error}."
+            self.trouble = f"{short_path(folder)} cannot be shown: {_why_not(error)}"
             self.listed = tuple(example_programs())
         self.folder = folder
-        count = sum(not (each.folder or each.example or each.drawing) for each in self.listed)
+        count = sum(each.program and not each.example for each in self.listed)
         words = f"{count} program{'s' if count != 1 else ''}"
         self.query_exactly_one("#folder", Static).update(
             Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {words}")
@@ -114,7 +116,7 @@ class HomeScreen(BaseScreen):
         self.refresh_frame()
 
     def _programs(self) -> tuple[Path, ...]:
-        return tuple(each.path for each in self.listed if not (each.folder or each.drawing))
+        return tuple(each.path for each in self.listed if each.program)
 
     def _cells(self, each: Listed) -> Sequence[Content]:
         name = Content.styled(each.name, "" if each.example else "bold")
@@ -122,6 +124,9 @@ class HomeScreen(BaseScreen):
             return name, *(Content(""),) * 4
         if each.drawing:
             return name, *(Content(""),) * 3, Content.styled("drawing", "$c-label")
+        if each.copy is not None:
+            changed = datetime.fromisoformat(each.copy.time)
+            return name, Content(day_of(changed, self.host.now())), Content(""), Content(""), Content(each.copy.word)
         facts = self.facts.get(each.path, Facts(each.path))
         day = "example" if each.example else "" if facts.changed is None else day_of(facts.changed, self.host.now())
         verdict = Content("...") if facts.outcome is None else verdict_word(facts.outcome, MARKS[self.host.characters])
@@ -158,7 +163,8 @@ class HomeScreen(BaseScreen):
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
         each = self.chosen
-        if each is not None and not (each.folder or each.drawing):
+        self.quiet()
+        if each is not None and each.program:
             self._preview(each.path, each.name)
         self.refresh_frame()
 
@@ -197,6 +203,8 @@ class HomeScreen(BaseScreen):
             return
         if each.folder:
             self.show_folder(each.path)
+        elif each.copy is not None:
+            self.host.open_copy(each.path)
         else:
             self.host.open_file(each.path)
 
@@ -219,6 +227,12 @@ class HomeScreen(BaseScreen):
     def prompt_text(self) -> Sentence:
         """What is wrong with the file under the cursor, else what the keys do."""
         each = self.chosen
+        if each is not None and each.copy is not None:
+            return Sentence(f"{each.copy.sentence(self.host.now().isoformat())} Enter offers it back.")
         facts = None if each is None else self.facts.get(each.path)
         trouble = self.trouble or ("" if facts is None else facts.trouble)
         return Sentence(trouble, Tone.WARNING) if trouble else Sentence(PROMPT)
+
+
+def _why_not(error: OSError) -> str:
+    return f"{error}." if isinstance(error, TimeoutError) else why(error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import disk_usage
@@ -12,6 +13,7 @@ from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.widgets import Label
 
+from app.documents.patience import within
 from app.session.session import Session
 
 MINUTE = 60.0
@@ -24,7 +26,7 @@ class Surroundings:
     """What the status line shows of the machine; tests hand in a fixed clock and a fixed disk."""
 
     clock: Callable[[], str] = lambda: strftime("%H:%M")
-    free: Callable[[], int] = lambda: disk_usage(Path.cwd()).free
+    free: Callable[[], int] = lambda: within(0.2, lambda: disk_usage(Path.cwd()).free)
 
 
 class Status(Horizontal):
@@ -49,10 +51,14 @@ class Status(Horizontal):
 
     def read_machine(self) -> None:
         """The time of day and the free room."""
-        free = self.surroundings.free()
+        free: int | None = None
+        with suppress(OSError):
+            # the current folder may be gone, or on a network that does not answer
+            free = self.surroundings.free()
         self._show("clock", self.surroundings.clock())
-        self._show("units", f"Prog Units: {self._unit}   {self._work or f'Free: {size_text(free)}'}")
-        self.query_exactly_one("#units").set_class(free < LOW_ON_DISK, "-warning")
+        room = "" if free is None else f"Free: {size_text(free)}"
+        self._show("units", f"Prog Units: {self._unit}   {self._work or room}".rstrip())
+        self.query_exactly_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
     def show(self, session: Session) -> None:
         """The units, and how much can be undone."""

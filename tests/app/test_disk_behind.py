@@ -1,0 +1,117 @@
+"""A folder that does not answer: the screen goes on, says so, and nothing is written by two at once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from threading import Event, Lock
+
+import pytest
+
+from app import file_actions
+from app.documents.files import load
+from app.documents.journal import Kind
+from app.documents.journal_file import journal_path
+from app.documents.left_overs import read
+from app.screens.dialogs import Question
+from core.program.history import History
+from core.program.model import Number
+from tests.app.test_file_actions import at_work, folder
+from tests.app.widget_pilot import Operator
+
+__all__ = ["folder"]
+
+
+@dataclass
+class Folder:
+    """A disk that hangs while `hanging`; `writers` counts those who wait for it at once, at most."""
+
+    hanging: bool = False
+    answers: Event = field(default_factory=Event)
+    writers: int = 0
+    most: int = 0
+    lock: Lock = field(default_factory=Lock)
+
+    def dies(self) -> None:
+        self.hanging = True
+
+    async def comes_back(self, one: Operator) -> None:
+        self.hanging = False
+        self.answers.set()
+        await one.app.workers.wait_for_complete()
+        await one.settle()
+
+
+@pytest.fixture
+def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
+    """fsync hangs when it is told to."""
+    monkeypatch.setattr(file_actions, "DISK", 0.05)
+    disk, fsync = Folder(), os.fsync
+
+    def slow(handle: int) -> None:
+        if disk.hanging:
+            with disk.lock:
+                disk.writers += 1
+                disk.most = max(disk.most, disk.writers)
+            disk.answers.wait(20)
+            disk.writers -= 1
+        fsync(handle)
+
+    monkeypatch.setattr(os, "fsync", slow)
+    yield disk
+    disk.answers.set()
+
+
+async def test_keys_go_on_while_the_folder_hangs_and_everything_is_kept_when_it_answers(folder, disk):
+    async with at_work(folder) as one:
+        disk.dies()
+        await one.press("tab", "'7", "enter")
+        assert "The folder does not answer: still trying." in one.prompt
+        for number in (2, 3, 4):
+            await one.app.run_action("screen.go(0)")
+            await one.press("tab")
+            await one.press(f"'{number}", "enter")
+            assert one.session.block.tool == Number(float(number))
+            assert "does not answer" in one.prompt
+        await disk.comes_back(one)
+        assert "The folder answers again" in one.prompt
+        journal = read(journal_path(folder / "part.toml"), Kind.CONTOUR)
+        assert journal is not None
+        assert isinstance(journal.work, History)
+        assert journal.work.program == one.session.program
+        assert journal.work.undo_count == 4
+        assert disk.most == 1
+
+
+async def test_what_is_typed_while_a_save_hangs_is_not_saved_and_not_lost(folder, disk):
+    async with at_work(folder) as one:
+        await one.press("tab", "'7", "enter")
+        disk.dies()
+        await one.press("ctrl+s")
+        assert "does not answer" in one.prompt
+        await one.app.run_action("screen.go(0)")
+        await one.press("tab", "'8", "enter", "ctrl+s")
+        assert "does not answer" in one.prompt
+        await disk.comes_back(one)
+        assert load(folder / "part.toml").blocks[0].tool == Number(7.0)
+        assert one.session.unsaved
+        journal = read(journal_path(folder / "part.toml"), Kind.CONTOUR)
+        assert journal is not None
+        assert isinstance(journal.work, History)
+        assert journal.work.program.blocks[0].tool == Number(8.0)
+        await one.press("ctrl+s")
+        assert load(folder / "part.toml").blocks[0].tool == Number(8.0)
+        assert not one.session.unsaved
+        assert disk.most == 1
+
+
+async def test_a_program_whose_folder_hangs_can_be_left_after_asking(folder, disk):
+    async with at_work(folder) as one:
+        disk.dies()
+        await one.press("tab", "'7", "enter", "ctrl+q")
+        assert isinstance(one.app.screen, Question)
+        assert one.app.screen.lines[0] == "The folder does not answer."
+        await one.press("escape", "ctrl+q", "l")
+        assert one.app.return_code == 0
+        disk.answers.set()
