@@ -9,7 +9,6 @@ the unit tangents t1, t2; K. M. Bolton, "Biarc curves", Computer-Aided Design 7 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, ceil, hypot, pi, tau
@@ -50,6 +49,15 @@ SAME_ARC: Final = 1e-6
 
 ROUND: Final = 1e-9
 """Relative difference of the half diameters of an ellipse that is a circle."""
+
+SHORTEST: Final = 10.0
+"""Times FIT that an arc is long at least, where FIT can be held with it."""
+
+MOVED_STOPS: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
+"""Shares of two biarcs at which the stop between them is tried."""
+
+LONGER: Final = 1.5
+"""Times by which the shortest arc must be longer, so that a stop is moved."""
 
 ENOUGH: Final = 0.9
 """Share of FIT from which on a biarc counts as the longest."""
@@ -218,16 +226,64 @@ def _extremes(curve: Curve, first: float, last: float) -> list[float]:
 
 
 def _fitted(curve: Curve, stations: list[float], fit: float) -> list[Piece]:
-    """Biarcs from each station to the next, each as long as it may be."""
-    pieces: list[Piece] = []
+    """Biarcs from each station to the next, each as long as it may be, none shorter than it must be."""
+    stops = stations[:1]
     for begin, end in pairwise(stations):
         if end > begin:
-            pieces += _greedy(curve, begin, end, fit * MARGIN)
-    return _merged(pieces)
+            stops += _balanced_stops(curve, begin, end, fit * MARGIN)[1:]
+    stops = _without_short_arcs(curve, stops, fit)
+    return _merged([piece for first, last in pairwise(stops) for piece in _biarc_between(curve, first, last)[0]])
 
 
-def _greedy(curve: Curve, begin: float, end: float, fit: float) -> Iterator[Piece]:
-    """Biarcs one after the other; all but the last reach as far as they may, then they share what is left."""
+def _without_short_arcs(curve: Curve, stops: list[float], fit: float) -> list[float]:
+    """The stops without those that make arcs shorter than `SHORTEST` times FIT, as far as FIT allows.
+
+    A biarc with such an arc is joined with its neighbor, or the stop between the two is moved.
+    """
+    biarcs = [_biarc_between(curve, first, last)[0] for first, last in pairwise(stops)]
+    row = 0
+    while row < len(biarcs):
+        change = None
+        if _shortest(biarcs[row]) < SHORTEST * fit:
+            change = next(filter(None, (_mended(curve, stops, biarcs, at, fit) for at in (row, row + 1))), None)
+        if change is None:
+            row += 1
+            continue
+        at, between = change
+        stops[at : at + 1] = between
+        ends = [stops[at - 1], *between, stops[at + len(between)]]
+        biarcs[at - 1 : at + 1] = [_biarc_between(curve, first, last)[0] for first, last in pairwise(ends)]
+        # a longer one may have a neighbor that can be joined with it now
+        row = max(at - 2, 0)
+    return stops
+
+
+def _mended(
+    curve: Curve, stops: list[float], biarcs: list[list[Piece]], at: int, fit: float
+) -> tuple[int, list[float]] | None:
+    """An inner stop and what is to be in its place: nothing, or a stop that leaves both neighbors longer arcs."""
+    if not 0 < at < len(stops) - 1:
+        return None
+    begin, end = stops[at - 1], stops[at + 1]
+    if _biarc_between(curve, begin, end)[1] <= fit * MARGIN:
+        return at, []
+    worst = min(_shortest(biarcs[at - 1]), _shortest(biarcs[at]))
+    for share in MOVED_STOPS:
+        middle = begin + share * (end - begin)
+        halves = [_biarc_between(curve, begin, middle), _biarc_between(curve, middle, end)]
+        if all(error <= fit * MARGIN for _, error in halves):
+            shortest = min(_shortest(pieces) for pieces, _ in halves)
+            if shortest > LONGER * worst:
+                return at, [middle]
+    return None
+
+
+def _shortest(pieces: list[Piece]) -> float:
+    return min((piece.length for piece in pieces), default=float("inf"))
+
+
+def _balanced_stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
+    """Where biarcs end; all but the last reach as far as they may, then they share what is left."""
     stops = _stops(curve, begin, end, fit)
     count = len(stops) - 1
     if count > 1:
@@ -239,8 +295,7 @@ def _greedy(curve: Curve, begin: float, end: float, fit: float) -> Iterator[Piec
                 high, stops = middle, other
             else:
                 low = middle
-    for first, last in pairwise(stops):
-        yield from _biarc_between(curve, first, last)[0]
+    return stops
 
 
 def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:

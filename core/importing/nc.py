@@ -124,8 +124,8 @@ def _programmed(made: ControlRun, stretch: Stretch, words: _Words) -> Iterator[N
         raise NcError(f"Line {line}: the side or the radius changes within the contour.")
     rows = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
     plunge = _plunge_feed(made.moves, stretch.first)
-    for cuts in _contours(list(_cuts(rows)), stretch.side):
-        yield _contour(cuts, stretch.side, stretch.radius, words, plunge)
+    for cuts, notes in _contours(list(_cuts(rows)), stretch.side):
+        yield replace(_contour(cuts, stretch.side, stretch.radius, words, plunge), notes=notes)
 
 
 def _contour(
@@ -162,16 +162,25 @@ def _cuts(moves: Moves) -> Iterator[Cut]:
         at = piece.end
 
 
-def _contours(cuts: list[Cut], side: Side | None) -> Iterator[list[Cut]]:
-    """The contours among cuts in a row: closed ones without what leads to them, or the open one without its leads."""
+def _contours(cuts: list[Cut], side: Side | None) -> Iterator[tuple[list[Cut], tuple[str, ...]]]:
+    """The contours among cuts in a row: closed ones without what leads to them, or the open one without its leads.
+
+    An open one whose ends might be its own has a note that they were left out.
+    """
     if not cuts:
         return
     path = Path.from_pieces([cut.piece for cut in cuts])
     for first, last in contours_of(path):
-        part = cuts[first:last]
+        part, notes = cuts[first:last], tuple[str, ...]()
         if dist(part[0].piece.start, part[-1].piece.end) > CLOSED and side is not None:
-            part = _without_overlap(_without_leads(part, side))
-        yield part
+            inner = _without_leads(part, side)
+            if inner is not part:
+                lines = f"{part[0].line} and {part[-1].line}"
+                notes = (
+                    f"The quarter circles of lines {lines} are taken for lead-in and lead-out: they are left out.",
+                )
+            part = _without_overlap(inner)
+        yield part, notes
 
 
 MAX_OVERLAP: Final = 8
@@ -235,10 +244,10 @@ def _center_passes(made: ControlRun, center: CenterPath, words: _Words) -> Itera
         if center.side is None:
             yield _contour(cuts, None, None, words, plunge)
             continue
-        for part in _contours(cuts, center.side):
+        for part, notes in _contours(cuts, center.side):
             surface, needed = offset_back(part, center.side, radius)
             made_contour = _contour(surface, center.side, radius, words, plunge)
-            yield replace(made_contour, lookahead=needed)
+            yield replace(made_contour, lookahead=needed, notes=notes)
 
 
 def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:

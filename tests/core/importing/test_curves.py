@@ -136,3 +136,13 @@ def test_a_spline_keeps_its_corners() -> None:
 def test_a_spline_of_degree_one_is_its_lines() -> None:
     pieces = pieces_of_spline(spline([0j, 10 + 0j, 10 + 5j, 3 + 9j], 1), 0.005)
     assert [piece.end for piece in pieces] == [(10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]
+
+
+def test_no_arc_is_shorter_than_ten_times_fit_where_fit_allows_longer_ones() -> None:
+    chance = np.random.default_rng(15)
+    count, fit = int(chance.integers(6, 12)), 0.05
+    points = np.cumsum(np.exp(1j * np.cumsum(chance.normal(scale=0.9, size=count)))) * 6
+    knots = np.concatenate((np.zeros(3), np.arange(count - 2), np.full(3, count - 3))).astype(float)
+    pieces = pieces_of_spline(BSpline(3, points, np.ones(count), knots), fit)
+    assert min(piece.length for piece in pieces) >= 10.0 * fit
+    assert turns_at_joints(pieces) < 1e-6

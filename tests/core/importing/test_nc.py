@@ -218,3 +218,26 @@ def test_units_of_the_program_stay() -> None:
     block = imported(read).blocks[0]
     assert block.segments[0].x_end == Number(1.0)
     assert block.segments[0].feed == Number(10.0)
+
+
+OPEN_WITH_LEADS = b"""G21 G90 G17 G40
+T1 M6
+S1000 M3
+G0 X-20 Y10
+G0 Z2
+G1 Z-1 F100
+G1 G41 D1 X-5 Y5 F200
+G3 X0 Y0 I5 J0
+G1 X30 Y0
+G1 X30 Y30
+G3 X25 Y35 I-5 J0
+G1 G40 X10 Y45
+M2
+"""
+
+
+def test_quarter_circles_that_are_left_out_of_an_open_contour_are_told() -> None:
+    read = read_nc(OPEN_WITH_LEADS, "linuxcnc", TOOLS)
+    assert len(read.contours[0].pieces) == 2
+    _, made = nc_blocks(Program(unit=read.unit), read)
+    assert any("quarter circles of lines 8 and 11 are taken for lead-in and lead-out" in note for note in made[0].notes)
