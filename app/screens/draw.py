@@ -5,24 +5,31 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from textual import on
+from textual import on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widgets import Label
 
 from app.screens.base import BaseScreen
+from app.screens.contour_cells import run_here, run_trouble
+from app.screens.dialogs import NumberEntry, NumberForm
 from app.session.block_findings import Entry, block_findings
-from app.session.messages import Sentence
+from app.session.messages import Sentence, Tone
 from app.session.session import Session
+from app.session.words import place
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList, heading
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Case, chips
-from core.program.edit import FormPlace
+from core.program.edit import FormPlace, pick_joint
+from core.program.model import Number
+from core.program.solve.solved import SolvedRun
+from core.units import Kind, from_mm, sentence, show, to_mm
 
 if TYPE_CHECKING:
     from core.draw.view import View
+    from core.geometry.piece import Point
     from core.pipeline.plot import Subject
 
 ZOOM: Final = 1.25
@@ -31,6 +38,7 @@ PAN: Final = 0.125
 """One arrow moves the window by this part of it."""
 FARTHEST: Final = 2.0
 """The window may move so many times the whole drawing away from it."""
+NO_PICK: Final = "Only segments that cannot be calculated without a pick take one."
 PROMPT: Final = (
     "n p go from finding to finding, + - zoom, arrows move, 0 shows the whole part, "
     "Page Up and Page Down walk over the segments, Enter goes to the finding's field."
@@ -52,7 +60,12 @@ class FullDrawing(Drawing, can_focus=True):
         Binding("down", "screen.pan(0, -1)", "Move down", show=False),
         Binding("pageup", "screen.walk(-1)", "Segment before", show=False),
         Binding("pagedown", "screen.walk(1)", "Next segment", show=False),
-        Binding("enter", "screen.edit_finding", "Go to the field", show=False),
+        Binding("enter", "screen.enter", "Go to the field", show=False),
+        Binding("shift+left", "screen.move_cross(-8, 0)", "Cross left", show=False),
+        Binding("shift+right", "screen.move_cross(8, 0)", "Cross right", show=False),
+        Binding("shift+up", "screen.move_cross(0, 8)", "Cross up", show=False),
+        Binding("shift+down", "screen.move_cross(0, -8)", "Cross down", show=False),
+        Binding("x", "screen.type_cross", "Type X and Y of the pick", show=False),
         Binding("m", "app.next_characters", "Characters", show=False),
     ]
 
@@ -61,7 +74,7 @@ class DrawScreen(BaseScreen):
     """One block, as it is posted; `finding` is the number of the finding in hand, None for the whole part."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#full-drawing"
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "leave", "Back", show=False)]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("FINDING BEFORE", "finding(-1)", "BEFORE", lambda screen: bool(screen.entries), "No findings."),
         Softkey("NEXT FINDING", "finding(1)", "NEXT", lambda screen: bool(screen.entries), "No findings."),
@@ -69,7 +82,7 @@ class DrawScreen(BaseScreen):
         Softkey("ZOOM OUT", "zoom(-1)", "ZOOM-"),
         Softkey("WHOLE PART", "fit", "WHOLE"),
         Softkey("CHARACTERS", "app.next_characters", "CHARS"),
-        None,
+        Softkey("PICK JOINT", "pick", "PICK", lambda screen: screen.run is not None, NO_PICK),
         Softkey("BACK", "app.back", "BACK"),
     )
 
@@ -78,6 +91,8 @@ class DrawScreen(BaseScreen):
         self.entries: tuple[Entry, ...] = ()
         self.at: int | None = None
         self._subject: Subject | None = None
+        self.cross: Point | None = None
+        """Where the operator points to, in millimeters, while he picks a joint."""
 
     def compose_body(self) -> ComposeResult:
         """Title, chips, the drawing, and on a wide terminal the findings beside it."""
@@ -115,8 +130,10 @@ class DrawScreen(BaseScreen):
         self.query_exactly_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters]))
         before = self._subject
         near, view = (None, None) if before is None else (before.near, before.view)
-        self._draw(Subject(block, unit, segment, near=near, view=view))
+        self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))
         self._head()
+        if before is None and self.run is not None and self.run.code == "NOT_YET":
+            self.action_pick()
 
     def _draw(self, subject: Subject) -> None:
         self._subject = self.drawing.subject = subject
@@ -160,11 +177,14 @@ class DrawScreen(BaseScreen):
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink about the middle of the window."""
         if self.drawing.drawn is not None:
-            self._look(self.drawing.drawn.view.zoom(ZOOM**steps))
+            self._look(self.drawing.drawn.view.zoom(ZOOM**steps, about=self.cross))
 
     def action_pan(self, right: int, up: int) -> None:
-        """Move the window over the part, but never far away from it."""
+        """Move the window over the part, but never far away from it; while a joint is picked the cross."""
         drawn, size = self.drawing.drawn, self.drawing.size
+        if self.cross is not None:
+            self.action_move_cross(right, up)
+            return
         if drawn is None:
             return
         view = drawn.view.pan(PAN * right, PAN * up, size.width, size.height)
@@ -188,10 +208,107 @@ class DrawScreen(BaseScreen):
         place = self.current_session.place
         self.host.move(FormPlace(place.block, place.segment + by))
 
+    # ---- picking a joint of a run that the steps do not solve
+
+    @property
+    def run(self) -> SolvedRun | None:
+        """The run of the segment with the cursor, where it takes a pick or has one."""
+        session = self.current_session
+        run = run_here(session)
+        if run is None or run.code == "NOT_YET":
+            return run
+        first = session.block.segments[run.first - 1]
+        return run if getattr(first, "pick_x", None) is not None else None
+
+    def action_pick(self) -> None:
+        """Show the cross that the arrows move, or take it away."""
+        run, session = self.run, self.current_session
+        if run is None or self.cross is not None:
+            self._show_cross(None)
+            return
+        first = session.block.segments[run.first - 1]
+        at = [getattr(first, name) for name in ("pick_x", "pick_y")]
+        if all(isinstance(each, Number) for each in at):
+            self._show_cross((to_mm(at[0].value, session.program.unit), to_mm(at[1].value, session.program.unit)))
+        else:
+            pieces = run.sketch or tuple(piece for answer in run.answers for _, piece in answer.pieces)
+            self._show_cross(pieces[-1].point_at(0.5) if pieces else (0.0, 0.0))
+
+    def _show_cross(self, at: Point | None) -> None:
+        self.cross = at
+        if self._subject is not None:
+            self._draw(replace(self._subject, cross=at))
+        self.quiet()
+        self.refresh_frame()
+
+    def action_move_cross(self, right: int, up: int) -> None:
+        """Move the cross by cells; the window follows it."""
+        drawn, size = self.drawing.drawn, self.drawing.size
+        if self.cross is None or drawn is None or self._subject is None:
+            return
+        view = drawn.view
+        column, row = view.cell(self.cross, size.width, size.height)
+        column, row = column + right, row - up
+        if not (0 <= column < size.width and 0 <= row < size.height):
+            moved = view.pan(right / size.width, up / size.height, size.width, size.height)
+            self._subject = replace(self._subject, view=moved)
+        self._show_cross(view.at(column, row, size.width, size.height))
+
+    @work(exclusive=True, group="question")
+    async def action_type_cross(self) -> None:
+        """X and Y of the pick, typed."""
+        run, unit = self.run, self.current_session.program.unit
+        if run is None:
+            self.say(NO_PICK)
+            return
+        line = f"A point near the end of segment {run.first}."
+        form = NumberForm("PICK JOINT", [line], [NumberEntry(name, Kind.LENGTH, "") for name in ("X", "Y")], unit)
+        typed = await self.app.push_screen_wait(form)
+        if typed:
+            self._show_cross((to_mm(typed[0], unit), to_mm(typed[1], unit)))
+            self._take_cross(run, *typed)
+
+    def action_enter(self) -> None:
+        """Take the cross; without one to the form, with the cursor on the place of the finding in hand."""
+        run, unit = self.run, self.current_session.program.unit
+        if self.cross is None or run is None:
+            self.action_edit_finding()
+            return
+        x, y = (float(show(from_mm(each, unit), Kind.LENGTH, unit)) for each in self.cross)
+        self._take_cross(run, x, y)
+
+    def _take_cross(self, run: SolvedRun, x: float, y: float) -> None:
+        """The pick into the program, in program units, and what comes of it."""
+        session = self.current_session
+        place = FormPlace(session.place.block, run.first)
+        name = f"segments {run.first} to {run.last}" if run.first < run.last else f"segment {run.first}"
+        if not self.host.apply(pick_joint(session.program, place, x, y), f"PICK JOINT of {name}"):
+            return
+        trouble, run_after = run_trouble(self.current_session), run_here(self.current_session)
+        if trouble is not None:
+            self.say(sentence(trouble, session.program.unit), Tone.ERROR)
+        elif run_after is not None:
+            self._show_cross(None)
+            more = f" SOLUTION on the form has {count - 1} more." if (count := len(run_after.answers)) > 1 else ""
+            self.say(f"{name.capitalize()} calculated.{more} Esc goes back to the form.")
+
+    async def action_leave(self) -> None:
+        """The cross away, else back."""
+        if self.cross is not None:
+            self._show_cross(None)
+        else:
+            await self.run_action("app.back")
+
     @on(Drawing.Wheel)
     def _wheel(self, event: Drawing.Wheel) -> None:
         self.action_zoom(event.steps)
 
     def prompt_text(self) -> Sentence:
-        """What the keys do."""
-        return Sentence(PROMPT)
+        """What the keys do; of the cross also where it is."""
+        run, unit = self.run, self.current_session.program.unit
+        if self.cross is None or run is None:
+            return Sentence(PROMPT)
+        return Sentence(
+            f"Point near the end of segment {run.first}: {place(self.cross, unit)}. Arrows move the cross, with Shift "
+            "8 cells, + - zoom, x types X and Y, Enter takes it, Esc leaves it."
+        )

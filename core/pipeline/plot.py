@@ -23,6 +23,7 @@ from core.draw.scene import (
     Mark,
     Scene,
     Style,
+    Symbol,
     contour_scene,
     direction_at_middle,
     joined_scenes,
@@ -102,7 +103,8 @@ class Subject:
 
     `segment` is the one with the cursor (0 is START, None none), `row` a row of the look-ahead table that is drawn in
     place of the path in force.  `near` is the middle of a loupe, None shows the whole part; `view` shows neither, but
-    what somebody zoomed to.  An `outline` shows the surface alone, with the number of each place of `trouble`.
+    what somebody zoomed to.  An `outline` shows the surface alone, with the number of each place of `trouble`.  The
+    `cross` is where the operator points to.
     """
 
     block: DerivedBlock
@@ -113,6 +115,7 @@ class Subject:
     view: View | None = None
     outline: bool = False
     trouble: tuple[Mark, ...] = ()
+    cross: Point | None = None
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """The picture in columns x rows cells; None where there is nothing to be seen."""
@@ -163,6 +166,8 @@ def _block_drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn
     elif not subject.outline:
         labels = _segment_labels(subject.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
         scene = replace(scene, areas=_areas(subject, dot), labels=labels)
+    if subject.cross is not None:
+        scene = replace(scene, marks=(*scene.marks, Mark(subject.cross, Style.CURRENT, Symbol.CENTER)))
     picture = draw(scene, view, columns, rows, mode)
     return Drawn(picture, view, scale_bar(view.scale, columns, subject.unit, look.bar), bounds)
 

@@ -133,6 +133,12 @@ def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
     return _with_part(program, first, changed(_part(program, first), values))
 
 
+def pick_joint(program: Program, where: FormPlace, x: float, y: float) -> Edited:
+    """Point to (x, y), in program units, as a point near the end of the first segment of a run."""
+    with_x = type_field(program, where, "pick_x", Number(x))
+    return with_x if isinstance(with_x, Refused) else type_field(with_x, where, "pick_y", Number(y))
+
+
 def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
     """A segment with TANGENT YES or NO; YES takes the place of an angle to the segment before."""
     if not tangent:
