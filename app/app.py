@@ -72,6 +72,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
+    HORIZONTAL_BREAKPOINTS = BaseScreen.HORIZONTAL_BREAKPOINTS
+    VERTICAL_BREAKPOINTS = BaseScreen.VERTICAL_BREAKPOINTS
     COMMAND_PALETTE_BINDING = "ctrl+k"
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {_actions}
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -17,7 +17,11 @@ from textual.message import Message
 from textual.message_pump import MessagePump
 
 LONGEST_WAIT: Final = 1.0
-"""Seconds after which the next key is handed on in any case: a widget that was removed answers nothing."""
+"""Seconds after which the next key is handed on all the same: a widget that was removed answers nothing."""
+LOOKS: Final = 10
+"""In so many pieces it is waited.  Pieces in which the program was late do not count: the key is still on its way."""
+LONGEST_LATE: Final = 10.0
+"""Seconds after which the next key is handed on in any case."""
 FEWEST_ROUNDS: Final = 2
 """One behind the key, one behind the message of a binding that it has run."""
 
@@ -59,8 +63,22 @@ class KeyOrder:
         # taken before the key: it goes to the widget that has the cursor now
         way = self._way()
         self.app.post_message(self.waiting.popleft())
-        self._patience = get_running_loop().call_later(LONGEST_WAIT, self._send)
+        self._wait(LOOKS, get_running_loop().time() + LONGEST_LATE)
         self._go(self._count, [self.app, *way], FEWEST_ROUNDS)
+
+    def _wait(self, looks: int, end: float) -> None:
+        """Hand the next key on after so many more looks that come in time."""
+        loop, piece = get_running_loop(), LONGEST_WAIT / LOOKS
+        due = loop.time() + piece
+
+        def look() -> None:
+            late = loop.time() > due + piece / 2
+            if loop.time() > end or (looks == 1 and not late):
+                self._send()
+            else:
+                self._wait(looks if late else looks - 1, end)
+
+        self._patience = loop.call_later(piece, look)
 
     def _way(self) -> list[MessagePump]:
         """From the widget with the cursor up to the App."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from asyncio import get_running_loop
 from random import Random
+from time import monotonic, sleep
 
 from textual import events
 
+from app.terminal import key_order
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import TORN, UNENDED
 from core.program.model import Number
@@ -59,3 +62,19 @@ async def test_random_keys_at_once_do_what_they_do_one_by_one():
             await burst(fast, *chosen)
             assert fast.session.program == slow.session.program
             assert (fast.session.place, fast.at) == (slow.session.place, slow.at), chosen
+
+
+async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch):
+    """Every turn of the loop takes so long that a key needs longer than it is waited for."""
+    monkeypatch.setattr(key_order, "LONGEST_WAIT", 0.1)
+    async with operator() as one:
+        loop, end = get_running_loop(), monotonic() + 4.0
+
+        def busy() -> None:
+            sleep(0.04)
+            if monotonic() < end and one.session.block.tool != Number(7.0):
+                loop.call_soon(busy)
+
+        busy()
+        await burst(one, "ctrl+home", "tab", "7", "enter")
+        assert one.session.block.tool == Number(7.0)
