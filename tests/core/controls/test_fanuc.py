@@ -614,3 +614,30 @@ def test_an_axis_that_is_not_followed_is_told_once() -> None:
 
 def test_the_program_number_may_stand_with_the_percent_sign() -> None:
     assert ends(ran("%O0012\nG21 G0 X1.\nM98 P12\nM30\n%"))[0] == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("code", ["7", "7.1", "29", "37", "45", "46", "47", "48", "12.1", "13.1"])
+def test_codes_that_change_the_path_in_a_way_not_followed_are_refused(code: str) -> None:
+    done = ran(f"G21 F10.\nG{code} X1.\nG1 X5.\nM30\n")
+    assert alarms(done) == [("BEYOND", 2)]
+    assert f"G{code}" in told(done, "BEYOND")[0].text
+
+
+@pytest.mark.parametrize("letter", ["K", "L"])
+def test_a_drilling_cycle_repeats_by_either_letter(letter: str) -> None:
+    done = ran(f"G21 F10.\nG91 G99 G81 X10. Z-2. R-1. {letter}3\nG80\nM30\n")
+    depths = [move.end[0] for move in flat(done) if move.end[2] < -2.5]
+    assert depths == [10.0, 20.0, 30.0]
+
+
+@pytest.mark.parametrize(("value", "end"), [(1, 9.0), (2, 7.0)])
+def test_a_condition_in_brackets_before_m99_jumps_where_it_is_true(value: int, end: float) -> None:
+    program = f"G21 G90 F10.\n#100={value}\n[#100 EQ 1] M99 P10\nG1 X7.\nM30\nN10 G1 X9.\nM30\n"
+    assert ends(ran(program, "haas:a"))[-1] == (end, 0.0)
+
+
+def test_an_oblique_move_in_three_axes_under_compensation_is_run() -> None:
+    done = ran("G21 G90 F100.\nG1 G41 D1 X10. Y0\nX30. Z-1.\nX50. Y5. Z-2.\nX70. Y5.\nG40 X90.\nM30\n")
+    # the end of the third move, left of its direction (4, 1) by the radius 5
+    corner = (50 - 5 / 17**0.5, 5 + 20 / 17**0.5, -2.0)
+    assert any(apart(move.end, corner) < 1e-6 for move in flat(done))

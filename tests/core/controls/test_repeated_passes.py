@@ -13,7 +13,7 @@ from core.controls.control_run import ControlRun
 from core.controls.judged_runs import deepest_gouge, judge_run, judged_findings
 from core.controls.repeated_passes import without_repeats
 from core.geometry.path import Path
-from core.geometry.piece import Side
+from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece_arrays import at, piece_arrays
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.gouge import gouging
@@ -103,6 +103,11 @@ def test_a_pass_that_differs_in_one_piece_stays() -> None:
     assert found.points[[0, -1]].tolist() == [[-5.0, 0.0], [-5.0, 0.0]]
     # the first lap and the seventh; the eighth is cut from behind the seventh's last difference on
     assert len(found) <= 2 + 4 + 4 + 4
+
+
+def test_a_circle_run_twice_is_one() -> None:
+    twice = Path.from_pieces([Arc((5.0, 0.0), (5.0, 0.0), (0.0, 0.0), Turn.CCW)] * 2)
+    assert len(without_repeats(twice)) == 1
 
 
 def test_what_goes_back_and_forth_or_on_is_no_lap() -> None:

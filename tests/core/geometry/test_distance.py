@@ -23,7 +23,7 @@ from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.piece_arrays import PieceArrays, at, piece_arrays
 from tests.core.verify import oracle
-from tests.core.verify.shapes import circle, lines, paths
+from tests.core.verify.shapes import circle, lines, moved, paths
 
 HALF = Arc((2.0, 0.0), (-2.0, 0.0), (0.0, 0.0), Turn.CCW)
 
@@ -62,6 +62,9 @@ def quiet() -> object:
 def test_a_point_beside_a_piece(piece: Piece, point: complex, apart: float, share: float) -> None:
     assert distance(one(piece), np.array((point,)))[0] == pytest.approx(apart, abs=1e-12)
     assert foot(one(piece), np.array((point,)))[0] == pytest.approx(share, abs=1e-12)
+    elsewhere = piece_arrays(moved(Path.from_pieces([piece]), 0.0, (7.0, -3.0)))
+    assert distance(elsewhere, np.array((point + 7 - 3j,)))[0] == pytest.approx(apart, abs=1e-12)
+    assert foot(elsewhere, np.array((point + 7 - 3j,)))[0] == pytest.approx(share, abs=1e-12)
 
 
 def test_meetings_with_a_line_and_a_circle() -> None:

@@ -52,8 +52,15 @@ def _expect(a: Piece, b: Piece, kind: Meeting, *points: tuple[float, float]) -> 
         (Line((0, 0), (0, 0)), Line((-1, 0), (1, 0)), APART, []),
     ],
 )
-def test_line_and_line(a, b, kind, points):
-    _expect(a, b, kind, *points)
+@pytest.mark.parametrize("shift", [(0, 0), (7, -3)])
+def test_line_and_line(a, b, kind, points, shift):
+    (x, y), first, second = shift, _shifted(a, shift), _shifted(b, shift)
+    _expect(first, second, kind, *((px + x, py + y) for px, py in points))
+
+
+def _shifted(line: Line, shift: tuple[float, float]) -> Line:
+    x, y = shift
+    return Line((line.start[0] + x, line.start[1] + y), (line.end[0] + x, line.end[1] + y))
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,8 @@ from math import pi
 
 import pytest
 
-from core.geometry.oriented import OrientedLine, meeting
+from core.geometry.oriented import Circle, OrientedLine, meeting
+from core.geometry.piece import Point
 
 
 def test_a_line_traveled_backwards_is_the_same_line() -> None:
@@ -17,6 +18,22 @@ def test_parallel_lines_are_apart_by_their_distance_whichever_way_they_are_trave
     for other in (OrientedLine(0.0, 2.0), OrientedLine(pi, -2.0)):
         met = meeting(OrientedLine(0.0, 5.0), other)
         assert (met.coincident, met.apart) == (False, pytest.approx(3.0))
+
+
+def test_circles_share_the_point_left_of_the_way_between_their_centers_first() -> None:
+    met = meeting(Circle((1.0, 2.0), 5.0), Circle((9.0, 2.0), 5.0))
+    assert met.points == (pytest.approx((5.0, 5.0)), pytest.approx((5.0, -1.0)))
+
+
+@pytest.mark.parametrize(("distance", "touching"), [(7.0, (6.0, 2.0)), (3.0, (6.0, 2.0))])
+def test_circles_that_touch_from_outside_or_inside_share_one_point(distance: float, touching: Point) -> None:
+    met = meeting(Circle((1.0, 2.0), 5.0), Circle((1.0 + distance, 2.0), 2.0))
+    assert (met.grazing, met.points) == (True, (pytest.approx(touching),))
+
+
+@pytest.mark.parametrize("distance", [7.5, 2.5])
+def test_circles_beside_or_within_each_other_share_nothing(distance: float) -> None:
+    assert meeting(Circle((1.0, 2.0), 5.0), Circle((1.0 + distance, 2.0), 2.0)).points == ()
 
 
 def test_lines_meet_where_both_equations_hold() -> None:

@@ -232,9 +232,8 @@ def test_an_arc_of_a_full_turn_is_a_circle() -> None:
 
 
 def test_lines_that_overlap_at_an_angle_are_joined() -> None:
-    whole = listed(
-        dxf(line((0, 0), (30, 40)), line((15, 20), (60, 80)), line((60, 80), (0, 80)), line((0, 80), (0, 0)))
-    )
+    corner, within, beyond, top, left = (7, -3), (22, 17), (37, 37), (67, 77), (7, 77)
+    whole = listed(dxf(line(corner, beyond), line(within, top), line(top, left), line(left, corner)))
     (contour,) = whole.contours
     assert (whole.overlaps, contour.closed, contour.length) == (1, True, pytest.approx(100 + 60 + 80))
 
