@@ -638,6 +638,6 @@ def test_a_condition_in_brackets_before_m99_jumps_where_it_is_true(value: int, e
 
 def test_an_oblique_move_in_three_axes_under_compensation_is_run() -> None:
     done = ran("G21 G90 F100.\nG1 G41 D1 X10. Y0\nX30. Z-1.\nX50. Y5. Z-2.\nX70. Y5.\nG40 X90.\nM30\n")
-    # the end of the third move, left of its direction (4, 1) by the radius 5
-    corner = (50 - 5 / 17**0.5, 5 + 20 / 17**0.5, -2.0)
+    # where y = 10 meets the line 5 to the left of the one from (30, 0) in direction (4, 1)
+    corner = (70 - 5 * 17**0.5, 10.0, -2.0)
     assert any(apart(move.end, corner) < 1e-6 for move in flat(done))
