@@ -528,6 +528,8 @@ def test_coordinates_without_a_point_are_counted_once() -> None:
 
 def test_rotation_mirror_scale_and_polar_points_are_as_calculated() -> None:
     half = 10 * 0.5**0.5
+    turned = ends(ran(f"{HEAD}G68 X10. Y20. R90.\nX15. Y20.\nG69\nX1. Y1.\nM30"))
+    assert turned[-2:] == [(10.0, 25.0), (1.0, 1.0)]
     assert ends(ran(f"{HEAD}G68 X0 Y0 R45.\nX10. Y0\nG69\nX1. Y1.\nM30")) == [
         (round(half, 6), round(half, 6)),
         (1.0, 1.0),

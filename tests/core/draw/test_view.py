@@ -82,3 +82,10 @@ def test_bounds_can_do_without_some_layers_and_reach_as_far_as_their_arcs():
     assert scene.extent(without={Style.UNCUT}) == (-3.0, -4.0, 5.0, 5.0)
     assert scene.extent(without={Style.UNCUT, Style.PATH}) == (-3.0, -4.0, 3.0, 5.0)
     assert scene.extent(without=set(Style)) is None
+
+
+def test_a_view_that_was_moved_off_the_part_no_longer_touches_it() -> None:
+    bounds = (100.0, 50.0, 110.0, 54.0)
+    assert View((125.0, 52.0), 1.0).touches(bounds, 2.0)
+    assert not View((126.0, 52.0), 1.0).touches(bounds, 2.0)
+    assert not View((105.0, 73.0), 1.0).touches(bounds, 2.0)
