@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
@@ -467,7 +468,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         redraw(self)
 
     def action_mouse(self) -> None:
-        """Take the mouse, or leave it to the terminal."""
+        """Take the mouse, or leave it to the terminal, from now on."""
         # the driver needs a terminal, which not every system has
         from app.terminal.driver import has_mouse, take_mouse
 
@@ -476,17 +477,23 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             "Clicks act here." if has_mouse(self) else "The mouse is the terminal's again: it marks and copies text."
         )
         self.say(words)
+        self.keep_settings(replace(self.settings, mouse=has_mouse(self)))
 
     def action_next_characters(self) -> None:
-        """Draw with the next set of characters that the terminal has."""
+        """Draw with the next set of characters that the terminal has, from now on."""
         here = self.character_sets.index(self.characters)
         self.characters = self.character_sets[(here + 1) % len(self.character_sets)]
         self.say(f"Drawn with {self.characters} characters.")
+        self.keep_settings(replace(self.settings, characters=self.characters))
 
     def action_light_or_dark(self) -> None:
-        """The other of the two themes; sixteen colors have none."""
-        if self.theme != theme.SIXTEEN:
-            self.theme = theme.LIGHT if self.theme == theme.DARK else theme.DARK
+        """The other of the two themes, from now on; sixteen colors have none."""
+        if self.theme == theme.SIXTEEN:
+            self.say("This terminal has its own sixteen colors: its settings make it light or dark.")
+            return
+        light = self.theme == theme.DARK
+        self.theme = theme.LIGHT if light else theme.DARK
+        self.keep_settings(replace(self.settings, theme="light" if light else "dark"))
 
     def go_to(self, entry: Entry) -> None:
         """MILL CONTOUR with the cursor on the place of a finding."""

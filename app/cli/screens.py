@@ -52,7 +52,7 @@ def run(
     home = path is None and example is None
     app = made(service, opened, options, asked, home=home)
     app.drawing = drawing
-    return guarded(service, app, mouse=options.mouse)
+    return guarded(service, app, mouse=options.mouse or app.settings.mouse)
 
 
 def in_browser() -> bool:

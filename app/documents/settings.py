@@ -32,6 +32,7 @@ class Settings:
     theme: str = ""
     unit: Unit = Unit.IN
     folder: str = ""
+    mouse: bool = False
 
     def using(self, file: Path) -> Settings:
         """After a file was opened or saved; a name that no settings file can hold is not remembered."""
@@ -62,6 +63,7 @@ def parsed(text: str) -> Settings:
         held["theme"] if held.get("theme") in THEMES else "",
         Unit(unit) if unit in tuple(Unit) else Unit.IN,
         held["folder"] if _usable(held.get("folder")) else "",
+        held.get("mouse") is True,
     )
 
 
@@ -79,6 +81,7 @@ def written(settings: Settings) -> str:
         f"characters = {_quoted(settings.characters)}",
         f"theme = {_quoted(settings.theme)}",
         f"folder = {_quoted(settings.folder)}",
+        f"mouse = {str(settings.mouse).lower()}",
         f"recent = [\n{recent}]",
     )
     return "\n".join(lines) + "\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import dist
 from typing import ClassVar, Final
 
 from textual import events, on, work
@@ -22,6 +23,7 @@ from app.session.block_findings import Entry, block_findings, remedy
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
 from app.session.work import Work
+from app.widgets.drawing import Drawing
 from app.widgets.field import LISTED, ChoiceField, NumberField
 from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
@@ -64,6 +66,8 @@ CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment
 SWITCHED: Final = frozenset({"choice", "tangent"})
 """Choices that Space steps: SOLUTION to the next answer, TANGENT to the other one."""
 
+NEAR_CELLS: Final = 1.5
+"""Columns within which a click is meant for the number of a finding."""
 PANELS: Final = ("segments", "findings")
 """The lists that take the place of the drawing where there is no room for both."""
 
@@ -306,6 +310,22 @@ class ContourScreen(FormScreen):
         self.in_hand = (0 if by > 0 else len(places) - 1) if here is None else (here + by) % len(places)
         self._show_picture(self.host.shown)
         self.query_exactly_one(FindingsList).highlighted = self.entries.index(places[self.in_hand])
+
+    @on(Drawing.Picked)
+    def _picked_in_drawing(self, event: Drawing.Picked) -> None:
+        """A click on the number of a finding takes it in hand, any other goes to the nearest segment."""
+        from core.pipeline.plot import nearest_segment
+
+        event.stop()
+        places = [entry for entry in self.entries if entry.at is not None]
+        reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
+        near = [at for at, entry in enumerate(places) if entry.at is not None and dist(entry.at, event.at) <= reach]
+        if near and event.drawing.id == "outline":
+            self.in_hand = near[0]
+            self._show_picture(self.host.shown)
+            self.query_exactly_one(FindingsList).highlighted = self.entries.index(places[near[0]])
+        elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
+            self.go(segment)
 
     # ---- panels
 

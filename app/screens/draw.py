@@ -299,6 +299,19 @@ class DrawScreen(BaseScreen):
         else:
             await self.run_action("app.back")
 
+    @on(Drawing.Picked)
+    def _picked(self, event: Drawing.Picked) -> None:
+        """A click chooses the nearest segment; with the cross shown it puts the cross there."""
+        from core.pipeline.plot import nearest_segment
+
+        event.stop()
+        if self.cross is not None:
+            self._show_cross(event.at)
+            return
+        session = self.current_session
+        if (segment := nearest_segment(session.derived_block, event.at)) is not None:
+            self.host.move(FormPlace(session.place.block, segment))
+
     @on(Drawing.Wheel)
     def _wheel(self, event: Drawing.Wheel) -> None:
         self.action_zoom(event.steps)

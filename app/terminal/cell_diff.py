@@ -22,7 +22,7 @@ from rich.cells import cell_len
 from app.terminal.fewer_bytes import PLAIN, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read, slim
 
 NEUTRAL: Final = re.compile(
-    r"(?:\x1b\[\?(?:7|25|1004|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
+    r"(?:\x1b\[\?(?:7|25|1000|1003|1004|1006|1015|1016|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
 )
 """Sequences that leave all cells as they are."""
 PLACE: Final = re.compile(r"\x1b\[([0-9]+);([0-9]+)H")

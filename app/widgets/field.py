@@ -75,6 +75,7 @@ class NumberField(LineInput):
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
         super().__init__(text, name=name, id=id, max_length=MAX_TYPED)
         self.resting, self.full = text, full or text
+        self._untouched = False
         self.letters = ""
         """Letters that are no part of a number: as the first character they are commands to the screen."""
 
@@ -87,6 +88,7 @@ class NumberField(LineInput):
 
     def on_key(self, event: events.Key) -> None:
         """A letter that is a command is not typed."""
+        self._untouched = False
         letter = (event.character or "").lower()
         if letter and letter in self.letters and not self.edited:
             event.stop()
@@ -120,8 +122,15 @@ class NumberField(LineInput):
         if self.has_focus:
             self.select_all()
 
+    def on_mouse_up(self) -> None:
+        """The first click selects the value, as keys that bring the cursor do; another one goes into the text."""
+        if self._untouched:
+            self._untouched = False
+            self.select_all()
+
     def on_focus(self) -> None:
         """Show every digit while the field has the cursor."""
+        self._untouched = True
         if self.value == self.resting != self.full:
             with self.prevent(Input.Changed):
                 self.value = self.full

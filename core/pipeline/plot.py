@@ -29,9 +29,11 @@ from core.draw.scene import (
     joined_scenes,
 )
 from core.draw.view import TALL, View
+from core.geometry.distance import distance
 from core.geometry.path import EMPTY, Floats, Path, as_complex
 from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
 from core.geometry.piece import Line, Piece, Point, Side
+from core.geometry.piece_arrays import piece_arrays
 from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
@@ -53,6 +55,17 @@ FEWEST_DOTS_FOR_NUMBERS: Final = 3.0
 """The same for the numbers of segments."""
 NARROW: Final = 44
 """In a drawing of no more columns numbers of segments would crowd."""
+
+
+def nearest_segment(block: DerivedBlock, at: Point) -> int | None:
+    """The number of the segment nearest to a point (mm); None in a block of which no segment is determined."""
+    if not block.solved.pieces:
+        return None
+    numbers, pieces = zip(*block.solved.pieces, strict=True)
+    surface = Path.from_pieces(pieces, numbers)
+    arrays = piece_arrays(surface)
+    apart = distance(arrays, np.full(len(arrays), complex(*at)))
+    return int(surface.numbers[arrays.rows[int(apart.argmin())]])
 
 
 def svg_of(derived: Derived, *, title: str) -> str:

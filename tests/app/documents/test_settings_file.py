@@ -10,7 +10,7 @@ from core.units import Unit
 
 
 def test_settings_come_back_as_they_were_written(tmp_path):
-    settings = Settings((str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path))
+    settings = Settings((str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True)
     assert parsed(written(settings)) == settings
 
 
