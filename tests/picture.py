@@ -31,6 +31,8 @@ NAMED = {
     "brightcyan": "#29b8db",
     "brightwhite": "#ffffff",
 }
+STROKES = {"✓": ((1, 11, 4, 15), (4, 15, 9, 5)), "✖": ((1, 5, 8, 15), (1, 15, 8, 5))}
+"""Signs that the font has not, as strokes in a cell."""
 BRAILLE_DOTS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3))
 
 
@@ -68,8 +70,13 @@ def _cell(draw: ImageDraw.ImageDraw, font: ImageFont.FreeTypeFont, cell: Any, x:
     elif cell.data in "▀▄█":
         top, bottom = (0 if cell.data != "▄" else height // 2), (height if cell.data != "▀" else height // 2)
         draw.rectangle((x, y + top, x + width - 1, y + bottom - 1), fill=ink)
+    elif cell.data in STROKES:
+        for left, top, right, bottom in STROKES[cell.data]:
+            draw.line((x + left, y + top, x + right, y + bottom), fill=ink, width=2)
     elif cell.data.strip():
         draw.text((x, y - 1), cell.data, fill=ink, font=font, stroke_width=0.3 if cell.bold else 0)
+    if cell.strikethrough:
+        draw.line((x, y + height // 2, x + width - 1, y + height // 2), fill=ink)
     if cell.underscore:
         draw.line((x, y + height - 2, x + width - 1, y + height - 2), fill=ink)
 

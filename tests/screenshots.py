@@ -22,27 +22,27 @@ class Shot:
     example: str
     keys: tuple[bytes, ...] = ()
     size: tuple[int, int] = (80, 24)
-    environment: dict[str, str] = field(default_factory=dict)
+    environment: dict[str, str] = field(default_factory=lambda: {"COLORTERM": "truecolor"})
 
 
-DOWN, F4 = b"\x1b[B", b"\x1b4"
+DOWN = b"\x1b[B"
 TO_LOOKAHEAD = b"\t" * 11
 
+PAGE_DOWN = b"\x1b[6~"
 SHOTS = (
     Shot("start", "pocket"),
     Shot("start-wide", "pocket", size=(132, 43)),
     Shot("segment", "pocket", (b"8\r",)),
-    Shot("gouge", "notch"),
+    Shot("segment-wide", "pocket", (b"8\r",), size=(132, 43)),
+    Shot("gouge", "notch", (PAGE_DOWN, PAGE_DOWN)),
+    Shot("gouge-wide", "notch", (PAGE_DOWN, PAGE_DOWN), size=(132, 43)),
     Shot("draw", "pocket", (b"8\r", F7)),
-    Shot("lookahead-table", "notch", (TO_LOOKAHEAD, F4, DOWN)),
-    Shot("no-color", "pocket", environment={"NO_COLOR": "1"}),
-    Shot(
-        "sixteen-colors",
-        "overrun-square",
-        (TO_LOOKAHEAD, b"4\r", b"\t" * 10, b"2..5\r"),
-        environment={"TERM": "xterm"},
-    ),
-    Shot("ascii", "notch", (b"2\r",), environment={"TERM": "vt100", "LC_ALL": "C"}),
+    Shot("draw-wide", "pocket", (b"8\r", F7), size=(132, 43)),
+    Shot("lookahead-table", "notch", (TO_LOOKAHEAD, b" ", DOWN)),
+    Shot("lookahead-table-wide", "notch", (TO_LOOKAHEAD, b" ", DOWN), size=(132, 43)),
+    Shot("no-color", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"NO_COLOR": "1"}),
+    Shot("sixteen-colors", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"TERM": "xterm"}),
+    Shot("ascii", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"TERM": "vt100", "LC_ALL": "C"}),
     Shot("widest", "pocket", (b"3\r\t",), size=(200, 60)),
 )
 
@@ -52,11 +52,11 @@ def take(shot: Shot) -> None:
     columns, rows = shot.size
     arguments = [sys.executable, "-m", "app", "--example", shot.example]
     with running(arguments, columns=columns, rows=rows, environment=shot.environment) as terminal:
-        terminal.until("MILL CONTOUR")
-        terminal.read(quiet=1.5)
+        terminal.until("GOUGE", longest=60.0)
+        terminal.read(quiet=3.0)
         for key in shot.keys:
             terminal.send(key)
-            terminal.read(quiet=0.4)
+            terminal.read(quiet=2.0)
         save_picture(terminal.screen, FOLDER / f"{shot.name}.png")
 
 

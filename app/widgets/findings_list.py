@@ -99,7 +99,7 @@ class FindingsList(OptionList):
         """The title and the segment, then what the sentence says besides its title."""
         sign = mark(entry.kind, MARKS[self.characters])
         head = self._broken(f"{sign} {number + 1} {entry.title}{f'  {entry.where}' if entry.where else ''}")
-        more = entry.text.removeprefix(entry.title).lstrip(". ")
+        more = entry.text.removeprefix(entry.title).lstrip(".,; ")
         title = Content.styled(head, f"bold {ROLES[entry.kind]}")
         if not more:
             return title
