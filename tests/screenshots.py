@@ -16,11 +16,12 @@ F7 = b"\x1b7"
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture: the example it shows, the keys that lead there, and the terminal's size."""
+    """One picture: the example it shows, the keys that lead there, a text seen there, and the terminal's size."""
 
     name: str
     example: str
     keys: tuple[bytes, ...] = ()
+    text: str = "best"
     size: tuple[int, int] = (80, 24)
     environment: dict[str, str] = field(default_factory=lambda: {"COLORTERM": "truecolor"})
 
@@ -29,21 +30,26 @@ DOWN = b"\x1b[B"
 TO_LOOKAHEAD = b"\t" * 11
 
 PAGE_DOWN = b"\x1b[6~"
+GOUGE = ("notch", (PAGE_DOWN, PAGE_DOWN), "POINT X")
+SEGMENT = ("pocket", (b"8\r",), "DIRECTION")
+DRAW = ("pocket", (b"8\r", F7), "CHARACTERS")
+TABLE = ("notch", (TO_LOOKAHEAD, b" ", DOWN), "LOOKAHEAD TABLE")
+WIDE = (132, 43)
 SHOTS = (
     Shot("start", "pocket"),
-    Shot("start-wide", "pocket", size=(132, 43)),
-    Shot("segment", "pocket", (b"8\r",)),
-    Shot("segment-wide", "pocket", (b"8\r",), size=(132, 43)),
-    Shot("gouge", "notch", (PAGE_DOWN, PAGE_DOWN)),
-    Shot("gouge-wide", "notch", (PAGE_DOWN, PAGE_DOWN), size=(132, 43)),
-    Shot("draw", "pocket", (b"8\r", F7)),
-    Shot("draw-wide", "pocket", (b"8\r", F7), size=(132, 43)),
-    Shot("lookahead-table", "notch", (TO_LOOKAHEAD, b" ", DOWN)),
-    Shot("lookahead-table-wide", "notch", (TO_LOOKAHEAD, b" ", DOWN), size=(132, 43)),
-    Shot("no-color", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"NO_COLOR": "1"}),
-    Shot("sixteen-colors", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"TERM": "xterm"}),
-    Shot("ascii", "notch", (PAGE_DOWN, PAGE_DOWN), environment={"TERM": "vt100", "LC_ALL": "C"}),
-    Shot("widest", "pocket", (b"3\r\t",), size=(200, 60)),
+    Shot("start-wide", "pocket", size=WIDE),
+    Shot("segment", *SEGMENT),
+    Shot("segment-wide", *SEGMENT, size=WIDE),
+    Shot("gouge", *GOUGE),
+    Shot("gouge-wide", *GOUGE, size=WIDE),
+    Shot("draw", *DRAW),
+    Shot("draw-wide", *DRAW, size=WIDE),
+    Shot("lookahead-table", *TABLE),
+    Shot("lookahead-table-wide", *TABLE, size=WIDE),
+    Shot("no-color", *GOUGE, environment={"NO_COLOR": "1"}),
+    Shot("sixteen-colors", *GOUGE, environment={"TERM": "xterm"}),
+    Shot("ascii", *GOUGE, environment={"TERM": "vt100", "LC_ALL": "C"}),
+    Shot("widest", "pocket", (b"3\r\t",), "XY LENGTH", size=(200, 60)),
 )
 
 
@@ -52,11 +58,12 @@ def take(shot: Shot) -> None:
     columns, rows = shot.size
     arguments = [sys.executable, "-m", "app", "--example", shot.example]
     with running(arguments, columns=columns, rows=rows, environment=shot.environment) as terminal:
-        terminal.until("GOUGE", longest=60.0)
-        terminal.read(quiet=3.0)
+        terminal.until("best", longest=60.0)
         for key in shot.keys:
+            terminal.read(quiet=1.0)
             terminal.send(key)
-            terminal.read(quiet=2.0)
+        terminal.until(shot.text, longest=60.0)
+        terminal.read(quiet=3.0)
         save_picture(terminal.screen, FOLDER / f"{shot.name}.png")
 
 

@@ -43,9 +43,6 @@ from core.program.fields import Field
 from core.program.model import Program
 from core.units import Kind
 
-COMMON_KEYS = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
-"""The keys under the softkeys."""
-
 
 class Host(Protocol):
     """What screens ask of the App."""
@@ -137,7 +134,8 @@ class BaseScreen(Screen[None]):
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = COMMON_KEYS
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("?", "KEYS, HELP"),)
+    """The keys under the softkeys."""
 
     session: var[Session | None] = var(None, init=False)
     said: var[Sentence | None] = var(None, init=False)

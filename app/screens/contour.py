@@ -140,6 +140,7 @@ class ContourScreen(FormScreen):
         Softkey("DRAW", "app.draw", "DRAW"),
         Softkey("EXIT to program", "app.program", "EXIT"),
     )
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
 
     FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset({"lookahead"})
 

@@ -40,8 +40,8 @@ FARTHEST: Final = 2.0
 """The window may move so many times the whole drawing away from it."""
 NO_PICK: Final = "Only segments that cannot be calculated without a pick take one."
 PROMPT: Final = (
-    "n p go from finding to finding, + - zoom, arrows move, 0 shows the whole part, "
-    "Page Up and Page Down walk over the segments, Enter goes to the finding's field."
+    "N and P go from finding to finding, Enter to its field. + and - zoom, arrows move, "
+    "0 shows the whole part, Page Up and Page Down walk."
 )
 
 

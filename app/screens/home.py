@@ -58,7 +58,6 @@ class HomeScreen(BaseScreen):
         Softkey("GUIDED FIRST PART", "app.guide", "GUIDE"),
         Softkey("QUIT", "app.quit", "QUIT"),
     )
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("?", "KEYS, HELP"),)
 
     def __init__(self, folder: Path) -> None:
         super().__init__()

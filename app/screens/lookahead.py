@@ -24,7 +24,7 @@ from core.program.model import Number
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
 
-COLUMNS = (("VALUE", 6), ("GOUGE", 10), ("UNCUT", 10), ("DELETES", 12), ("", 13))
+COLUMNS = (("VALUE", 5), ("GOUGE", 9), ("UNCUT", 9), ("DELETES", 11), ("", 12))
 WAITING = "The table is being calculated."
 NO_TABLE = "There is no path to compare yet: type START and the first segments."
 

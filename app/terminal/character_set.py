@@ -24,8 +24,9 @@ COERCED: Final = ("C.UTF-8", "C.utf8", "UTF-8")
 """What Python makes of LC_CTYPE where that is C, or a locale that is not installed (its PEP 538)."""
 STARTED_WITH: Final = Path("/proc/self/environ")
 """The environment as the program was started with it, on Linux."""
-LOOKALIKES: Final = str.maketrans("│─├┤▀▄█…→↗↑↖←↙↓↘", '|-||"_#~>>^<<<v>')
+LOOKALIKES: Final = str.maketrans("│┃─━├┤▀▄█…→↗↑↖←↙↓↘▲▼▶◀✓✖×•·", '||--||"_#~>>^<<<v>^v><+!x..')
 ERRORS: Final = "cutcomp.lookalike"
+FIRST_FRAME, LAST_FRAME, LAST_BLOCK = "\u2500", "\u257f", "\u259f"
 FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
 
 
@@ -81,6 +82,10 @@ def lookalike(text: str) -> str:
 def _letter(character: str) -> str:
     if FIRST_BRAILLE <= character <= LAST_BRAILLE:
         return "*"
+    if FIRST_FRAME <= character <= LAST_FRAME:
+        return "+"
+    if LAST_FRAME < character <= LAST_BLOCK:
+        return "#"
     bare = unicodedata.normalize("NFKD", character)[0]
     return bare if bare.isascii() and bare.isprintable() else "?"
 

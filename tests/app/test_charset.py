@@ -54,6 +54,7 @@ def test_what_is_drawn_with(environment: dict[str, str], wanted: str, found: tup
 
 def test_one_character_for_one() -> None:
     assert lookalike("│ a… Ünï 中 ⣿ \x9b") == "| a~ Uni ? * ?"
+    assert lookalike("╭━╮┃ ▲▼ ✓ ✖ × ▆▏") == "+-+| ^v + ! x ##"
     drawn = [text for mode in Mode for text in (*cells(mode).table, cells(mode).arrows, cells(mode).bar)]
     assert all(len(lookalike(text)) == len(text) and lookalike(text).isascii() for text in drawn)
 

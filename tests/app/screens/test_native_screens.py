@@ -39,6 +39,7 @@ async def test_the_look_ahead_table_draws_the_row_with_the_cursor_and_enter_take
         assert isinstance(one.app.screen, LookaheadScreen)
         table = one.screen.query_one(DataTable)
         assert (table.row_count, table.cursor_row) == (20, 1)
+        assert table.virtual_size.width <= table.scrollable_content_region.width, "no column is cut off"
         await one.press("up")
         await everything(one)
         assert one.screen.query_one(Drawing).heading == "LOOK-AHEAD 1"
