@@ -6,6 +6,7 @@ from asyncio import to_thread
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import dist
 from pathlib import Path
 from typing import ClassVar, Final, TypeVar
 
@@ -62,6 +63,9 @@ from core.program.model import CutterComp, Program
 from core.units import Kind, Unit, from_mm, to_mm
 
 Result = TypeVar("Result")
+
+SAME_START: Final = 1e-6
+"""Millimeters by which a start may differ from the one that was offered."""
 
 PAUSE: Final = 0.15
 """Seconds that the cursor rests on a row of a large drawing before the row is drawn."""
@@ -275,7 +279,7 @@ class ImportScreen(BaseScreen):
 
     def _tell_progress(self, progress: Progress) -> None:
         percent = 100 * progress.done // max(progress.whole, 1)
-        self._working = f"{STAGES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %.  Esc stops."
+        self._working = f"{STAGES.get(progress.stage, progress.stage)} {self.path.name}  {percent} %   Esc stops."
         self.said = None
         self.refresh_frame()
 
@@ -770,7 +774,7 @@ def start_words(contour: Contour) -> str:
     side = "LEFT" if contour.side is Side.LEFT else "RIGHT"
     if contour.circle is not None:
         where = ""
-    elif contour.pieces == started_at_usual_place(contour).pieces:
+    elif dist(contour.start, started_at_usual_place(contour).start) <= SAME_START:
         where = f"  mid longest {'side' if any(isinstance(p, Line) for p in contour.pieces) else 'arc'}"
     else:
         where = "  side" if len(contour.pieces) > contour.drawn else "  corner"

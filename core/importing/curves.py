@@ -9,7 +9,8 @@ the unit tangents t1, t2; K. M. Bolton, "Biarc curves", Computer-Aided Design 7 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import atan2, ceil, hypot, pi, tau
 from typing import Final, Protocol
@@ -117,8 +118,38 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
     flat = abs((shape.first.conjugate() * shape.second).imag)
     if flat <= STRAIGHT * max(a, b):
         return _flattened(shape)
-    curve = _EllipseCurve(shape)
-    return _fitted(curve, _ellipse_stations(shape), fit)
+    # drawings repeat an ellipse of one size again and again
+    x, y = shape.center.real, shape.center.imag
+    return [
+        _moved(piece, x, y) for piece in _ellipse_about_origin(shape.first, shape.second, shape.begin, shape.end, fit)
+    ]
+
+
+@lru_cache(maxsize=256)
+def _ellipse_about_origin(first: complex, second: complex, begin: float, end: float, fit: float) -> tuple[Piece, ...]:
+    """The arcs of an ellipse about the origin; each quarter is that before it, mirrored."""
+    shape = EllipseArc(0j, first, second, begin, end)
+    curve, stations = _EllipseCurve(shape), _ellipse_stations(shape)
+    stops, quarter, row = stations[:1], list[float](), 0
+    for number, (here, there) in enumerate(pairwise(stations)):
+        if abs(there - here - pi / 2) > ROUND:
+            stops += _balanced_stops(curve, here, there, fit * MARGIN)[1:]
+            continue
+        if not quarter:
+            quarter, row = [stop - here for stop in _balanced_stops(curve, here, there, fit * MARGIN)], number
+        turned = quarter if (number - row) % 2 == 0 else [pi / 2 - stop for stop in reversed(quarter)]
+        stops += [*(here + stop for stop in turned[1:-1]), there]
+    pieces = _biarcs(curve, stops, fit)
+    if end - begin >= tau * (1.0 - ROUND):
+        pieces = _merged([*pieces[:-1], replace(pieces[-1], end=pieces[0].start)])
+    return tuple(pieces)
+
+
+def _moved(piece: Piece, x: float, y: float) -> Piece:
+    start, end = (piece.start[0] + x, piece.start[1] + y), (piece.end[0] + x, piece.end[1] + y)
+    if isinstance(piece, Arc):
+        return Arc(start, end, (piece.center[0] + x, piece.center[1] + y), piece.turn)
+    return Line(start, end)
 
 
 def _circle(shape: EllipseArc) -> Arc:
@@ -226,11 +257,16 @@ def _extremes(curve: Curve, first: float, last: float) -> list[float]:
 
 
 def _fitted(curve: Curve, stations: list[float], fit: float) -> list[Piece]:
-    """Biarcs from each station to the next, each as long as it may be, none shorter than it must be."""
+    """Biarcs from each station to the next, each as long as it may be."""
     stops = stations[:1]
     for begin, end in pairwise(stations):
         if end > begin:
             stops += _balanced_stops(curve, begin, end, fit * MARGIN)[1:]
+    return _biarcs(curve, stops, fit)
+
+
+def _biarcs(curve: Curve, stops: list[float], fit: float) -> list[Piece]:
+    """The biarcs from stop to stop, none shorter than it must be."""
     stops = _without_short_arcs(curve, stops, fit)
     return _merged([piece for first, last in pairwise(stops) for piece in _biarc_between(curve, first, last)[0]])
 

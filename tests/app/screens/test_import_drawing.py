@@ -277,7 +277,7 @@ async def test_start_and_reverse_change_the_block(tmp_path):
     async with importer(DATA / "d01-square.dxf", tmp_path) as one:
         assert (one.contour.turn.name, one.contour.start) == ("CW", (20.0, 0.0))
         await one.press("f6")
-        assert "CCW  RIGHT" in one.about
+        assert "mid longest side  CCW  RIGHT" in one.about
         await one.press("f5", "n")
         await one.until(lambda: one.contour.start != (20.0, 0.0))
         assert one.contour.start == (40.0, 0.0)
