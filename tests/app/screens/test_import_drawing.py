@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from itertools import pairwise
+from math import cos, pi, sin
 from pathlib import Path
 
 import pytest
+from textual.widgets import DataTable
 
 from app.app import CutcompApp
 from app.documents import drawing_files
@@ -303,6 +306,29 @@ async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
         await one.until(lambda: one.rows[0][3] == "300")
 
 
+def spline_export(count: int) -> bytes:
+    """A closed smooth curve as so many lines."""
+    turns = [2.0 * pi * step / count for step in range(count)]
+    points = [((40 + 6 * cos(3 * turn)) * cos(turn), (25 + 4 * sin(2 * turn)) * sin(turn)) for turn in turns]
+    return dxf(*(line(first, second) for first, second in pairwise([*points, points[0]])))
+
+
+async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_is_taken_back(tmp_path):
+    async with importer(spline_export(2000), tmp_path) as one:
+        before = dumps(one.session.program)
+        assert one.rows[0][3] == "2000"
+        await one.press("f3")
+        await one.until(lambda: one.importing.lines)
+        fitted = one.contour.fitted
+        assert fitted is not None
+        assert (fitted.before, len(fitted.pieces) < 150, fitted.off <= 0.005) == (2000, True, True)
+        await one.press("enter")
+        await one.until(lambda: one.session.program.blocks[0].segments)
+        assert len(one.session.program.blocks[0].segments) <= len(fitted.pieces) + 1
+        await one.press("ctrl+z")
+        assert dumps(one.session.program) == before
+
+
 async def test_more_than_five_hundred_segments_advise_fit_arcs_before_they_are_taken(tmp_path):
     async with importer(circle_of_lines(600), tmp_path) as one:
         await one.press("enter")
@@ -359,6 +385,25 @@ async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
         assert one.importing.picture.outer_size.width == one.importing.query_exactly_one("#desk").size.width
         await one.press("f7", "f1")
         await one.until(lambda: one.session.program.blocks[0].segments)
+
+
+async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "plate.dxf").write_bytes(dxf(*square(0, 0, 10)))
+    service = DocumentService(state=tmp_path / "own")
+    app = CutcompApp(session_of(service.new(Unit.MM).document), surroundings=SURROUNDINGS, service=service, home=True)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Importer(app, pilot)
+        await one.settle()
+        table = app.screen.query_exactly_one("#programs", DataTable)
+        assert [str(cell) for cell in table.get_row_at(0)] == ["plate.dxf", "", "", "", "drawing"]
+        await one.press("enter")
+        await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
+        await one.ready()
+        assert one.rows[0][1] == "OUTSIDE"
+        await one.press("f8")
+        await one.until(lambda: type(app.screen).__name__ == "HomeScreen")
+    service.stop()
 
 
 async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):

@@ -146,3 +146,14 @@ def test_no_arc_is_shorter_than_ten_times_fit_where_fit_allows_longer_ones() -> 
     pieces = pieces_of_spline(BSpline(3, points, np.ones(count), knots), fit)
     assert min(piece.length for piece in pieces) >= 10.0 * fit
     assert turns_at_joints(pieces) < 1e-6
+
+
+def test_the_quarters_of_an_ellipse_are_alike_and_equal_ellipses_have_equal_arcs() -> None:
+    near = pieces_of_ellipse(EllipseArc(0j, 30 + 0j, 20j, 0.0, math.tau), 0.005)
+    far = pieces_of_ellipse(EllipseArc(300 + 70j, 30 + 0j, 20j, 0.0, math.tau), 0.005)
+    lengths = sorted(piece.length for piece in near)
+    assert len(near) % 4 == 0
+    assert lengths == pytest.approx(sorted(piece.length for piece in far))
+    assert min(piece.center[0] for piece in far if isinstance(piece, Arc)) > 250
+    quarters = [lengths[row : row + 2] for row in range(0, len(lengths), 2)]
+    assert all(first == pytest.approx(second) for first, second in quarters)
