@@ -41,6 +41,7 @@ from core.pipeline.derived import DerivedBlock
 from core.program.edit import Edited, FormPlace, Refused
 from core.program.model import Program
 from core.progress import Stopped
+from core.units import Unit
 
 if TYPE_CHECKING:
     from textual.command import Provider
@@ -124,6 +125,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self.stopped: Program | DerivedBlock | None = None
         """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
         self._advice_timer: Timer | None = None
+        self._unit_mentioned = self._unit_settled = False
         self.set_reactive(CutcompApp.session, session)
         self.set_reactive(CutcompApp.shown, session)
         for each in theme.themes():
@@ -273,12 +275,27 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.session = self.session.knowing(result)
             if wanted is None or not wanted.trial:
                 self.shown = self.session
+                self._mention_unit()
         elif result is not None and message.trial and wanted is None:
             self.shown = self.session.trying(result)
         if wanted is not None:
             self._derive(wanted)
         else:
             self._make_table()
+
+    def _unit_question(self) -> str:
+        """INCH or MM? as a sentence, empty where the part's size is as usual or nothing is known of it."""
+        from core.pipeline.unit_question import unit_question
+        from core.units import sentence
+
+        question = unit_question(self.session.derived)
+        return "" if question is None else sentence(question, self.session.program.unit)
+
+    def _mention_unit(self) -> None:
+        """Ask for the unit on the form, once for a program."""
+        if not self._unit_mentioned and isinstance(self.screen, ContourScreen) and (text := self._unit_question()):
+            self._unit_mentioned = True
+            self.say(f"{text} UNITS is in PROGRAM PARAMETERS.", Tone.WARNING)
 
     def _make_table(self) -> None:
         """Have the look-ahead table of the block in front made, where it is not known yet."""
@@ -433,7 +450,27 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self.bring(DrawScreen)
 
     def action_post(self) -> None:
-        """POST NC, with the program's name."""
+        """POST NC, with the program's name; a part of unusual size is asked about first, once."""
+        if not self._unit_settled and (text := self._unit_question()):
+            self._ask_unit(text)
+        else:
+            self._show_post()
+
+    @work(exclusive=True, group="question")
+    async def _ask_unit(self, text: str) -> None:
+        from app.screens.dialogs import GO_BACK, Answer, Question
+
+        own = "INCH" if self.session.program.unit is Unit.IN else "MM"
+        answers = [Answer(word, "as it is: go on" if word == own else "PROGRAM PARAMETERS") for word in ("INCH", "MM")]
+        word = await self.push_screen_wait(Question("INCH or MM?", [text], answers, own))
+        self._unit_settled = word != GO_BACK
+        if word == own:
+            self._show_post()
+        elif word != GO_BACK:
+            self.action_parameters()
+            self.say("UNITS converts what is typed. Numbers typed in the wrong unit are typed again.", Tone.WARNING)
+
+    def _show_post(self) -> None:
         from app.screens.post import PostScreen
 
         file = self.session.file
@@ -515,6 +552,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
     def begin(self, session: Session) -> None:
         """Work on another program from now on, or on the same one under another name."""
         same = session.program is self.session.program and session.derived is self.session.derived
+        if session.program is not self.session.program:
+            self._unit_mentioned = self._unit_settled = False
         self.session = self.shown = session
         if not same:
             self._derive(Request(session.program))

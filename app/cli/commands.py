@@ -138,14 +138,18 @@ def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Tabl
 
 def post(options: argparse.Namespace) -> int:
     """`cutcomp post`: NC text, or the reasons why there is none."""
+    from app.session.posting import refusals
     from core.output.nc import Posted
+    from core.pipeline.unit_question import unit_question
 
     control = _control(options)
     derived = _derived(options.file)
     result = _nc_text(derived, _name(options.file), options.override, control)
     _report(derived, None)
+    if question := unit_question(derived):
+        say(f"{question.severity}: {sentence(question, derived.program.unit)}")
     if not isinstance(result, Posted):
-        say(f"nothing was posted. {result.text}{_words(result, options)}")
+        say(f"nothing was posted. {' '.join(refusals(derived, result))}{_words(result, options)}")
         return FINDINGS
     if options.override is not None and not result.overridden:
         say("--override was not needed: nothing stood against posting.")

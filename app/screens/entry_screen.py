@@ -35,10 +35,15 @@ class EntryScreen(BaseScreen):
         with Vertical(id="entry-form", classes="panel"):
             with Horizontal(classes="head"):
                 yield Label(self.TITLE, classes="head-title")
+                yield from self.compose_head()
             with Horizontal(id="entry-line", classes="field"):
                 yield Label(self.LABEL, classes="label")
                 yield LineInput(self._text, id="entry", select_on_focus=True)
             yield from self.compose_rest()
+
+    def compose_head(self) -> ComposeResult:
+        """What stands beside the title."""
+        yield from ()
 
     def compose_rest(self) -> ComposeResult:
         """What stands below the line."""

@@ -12,7 +12,7 @@ from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
 from textual.message import Message
-from textual.widgets import OptionList, Static
+from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.documents.naming import typed, with_suffix
@@ -23,6 +23,7 @@ from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, 
 from app.session.session import Session
 from app.session.work import Work
 from app.widgets.softkeys import Softkey
+from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
 from core.program.file.read import StoreError
 from core.progress import Stopped
@@ -65,6 +66,10 @@ class PostScreen(EntryScreen):
         self.made: NcText | None = None
         self.stopped = False
         self._work: Work | None = None
+
+    def compose_head(self) -> ComposeResult:
+        """The unit of the file, for whoever loads it at the machine."""
+        yield Label(UNITS[self.current_session.program.unit], classes="head-unit")
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from app.session.words import length, segment_name, segment_numbers
 from core.finding import Finding
@@ -14,6 +14,9 @@ from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent
 from core.units import Unit, sentence
+
+if TYPE_CHECKING:
+    from core.output.nc import Refusal
 
 CENTER_PATH: Final = "center path"
 """The choice without a control: the path of the tool's center, which no control has to compensate."""
@@ -50,18 +53,30 @@ def nc_text(
     from core.output.objections import OVERRIDABLE, OVERRIDE
     from core.pipeline.derive import derive
     from core.pipeline.post import post_center_path, post_control_program
+    from core.pipeline.unit_question import unit_question
 
     derived, unit = derive(program, progress), program.unit
     if choice == CENTER_PATH:
         result = post_center_path(derived, name=name, override=OVERRIDE if override else None)
     else:
         result = post_control_program(derived, name=name, control=choice)
+    asked = unit_question(derived)
+    notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
-        return NcText(result.text, notes=tuple(_told(note, unit) for note in result.notes))
-    where = {id(finding): block.number for block in derived.blocks for finding in block.findings}
-    against = tuple(_told(finding, unit, where.get(id(finding))) for finding in result.findings)
+        return NcText(result.text, notes=(*notes, *(_told(note, unit) for note in result.notes)))
+    against = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
-    return NcText(against=against, overridable=overridable)
+    return NcText(against=against, notes=notes, overridable=overridable)
+
+
+def refusals(derived: Derived, refusal: Refusal) -> tuple[str, ...]:
+    """Why nothing was posted: each reason after its block and segment, then the largest tool that fits."""
+    from core.pipeline.derive import largest_that_fits
+
+    where = {finding: block.number for block in reversed(derived.blocks) for finding in block.findings}
+    reasons = (_told(finding, refusal.unit, where.get(finding)) for finding in refusal.findings)
+    fits = (largest_that_fits(block, derived.program) for block in derived.blocks)
+    return (*reasons, *(sentence(finding, refusal.unit) for finding in fits if finding is not None))
 
 
 def _told(finding: Finding, unit: Unit, block: int | None = None) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from shutil import disk_usage
 from time import strftime
+from typing import Final
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
@@ -15,10 +16,14 @@ from textual.widgets import Label
 
 from app.documents.patience import within
 from app.session.session import Session
+from core.units import Unit
 
 MINUTE = 60.0
 LOW_ON_DISK = 50_000_000
 """Bytes below which the free room is shown as a warning."""
+
+UNITS: Final = {Unit.IN: "I N C H", Unit.MM: "M M"}
+"""The unit as it stands where a program begins and where it is posted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +72,11 @@ class Status(Horizontal):
         texts += [f"undo {undo}"] if undo else []
         texts += [f"redo {redo}"] if redo else []
         self._show("undo", "   ".join(text for text in texts if text))
-        if session.program.unit != self._unit:
-            self._unit = str(session.program.unit)
+        new = not any(block.segments for block in session.program.blocks)
+        unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
+        if unit != self._unit:
+            self._unit = unit
+            self.query_exactly_one("#units").set_class(new, "-new")
             self.read_machine()
 
     def show_work(self, text: str) -> None:

@@ -171,7 +171,7 @@ def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
     fitting = ((tools.tool, "TOOL_FITS", ""), (tools.without_blends, "TOOL_BLENDLESS", f" {_NO_BLENDS}"))
     for tool, code, blends in fitting:
         if tool is not None:
-            text = f"A tool of {{value}} diameter fits{blends}{tools.where}: look-ahead {tool.value} is then clean."
+            text = f"Tool too big; largest that fits{blends}{tools.where}: {{value}}, with look-ahead {tool.value}."
             yield replace(_remedy(code, text), field="tool", value=tool.diameter)
 
 

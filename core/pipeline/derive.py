@@ -16,18 +16,18 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.remedies import never_canceled
+from core.advice.remedies import largest_tool, never_canceled
 from core.advice.why_not_clean import Advice, advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
 from core.comp.compensate import compensate
 from core.comp.compensated import Compensated
-from core.finding import Finding
+from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
-from core.output.objections import job_errors
+from core.output.objections import OVERRIDABLE, job_errors
 from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import job
@@ -197,3 +197,20 @@ def advice_for_block(
     if trial is None:
         return None
     return advice_for(trial, block.lookahead.calculated, table or table_of(trial), wanted)
+
+
+def largest_that_fits(
+    block: DerivedBlock, program: Program, wanted: Callable[[], bool] = never_canceled
+) -> Finding | None:
+    """The largest tool that cuts a block clean which gouges, with its block; None where it does not or none fits.
+
+    Raises SearchCanceled where `wanted` says no.
+    """
+    trial = trial_of(block, program)
+    if trial is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
+        return None
+    fits = largest_tool(trial, wanted=wanted)
+    if fits is None:
+        return None
+    text = f"Block {block.number}: the tool is too big; largest that fits: {{value}}."
+    return Finding("TOOL_FITS", Severity.INFO, text, field="tool", value=fits.diameter)

@@ -134,7 +134,7 @@ def test_a_tool_that_only_the_blend_moves_keep_out_is_told_with_them_left_out():
     assert (found.tool, found.start, found.start_without_blends) == (None, None, None)
     assert found.tool_without_blends is not None
     assert found.tool_without_blends.diameter == pytest.approx(2.5)
-    text = "A tool of 2.500 diameter fits without blend moves (BLEND OFFSET 0): look-ahead 1 is then clean."
+    text = "Tool too big; largest that fits without blend moves (BLEND OFFSET 0): 2.500, with look-ahead 1."
     assert sentence(found.sentences[-1], Unit.MM) == text
     assert table_of(replace(asked, radius=1.25, blend=0.0)).row(1).clean
     assert table_of(replace(asked, radius=1.25)).recommended is None
@@ -149,7 +149,7 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
     assert found.tool_without_blends is not None
     assert found.tool.diameter < 45.0
     assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
-    words = "diameter fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
+    words = "largest that fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
     assert words in said(found)
     small = replace(asked, surface=started(square, 0), radius=found.tool_without_blends.diameter / 2)
     assert table_of(replace(small, blend=0.0)).row(found.tool_without_blends.value).clean

@@ -1,0 +1,42 @@
+"""Unit question: whether a part's size looks as if it was typed in the other unit."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from core.finding import Finding, Severity
+from core.pipeline.derived import Derived
+from core.units import Unit
+
+SMALL_PART: Final = {Unit.IN: 6.35, Unit.MM: 6.0}
+"""Millimeters below which a whole part is seldom meant."""
+TOOL_SHARE: Final = 0.5
+"""The part of the part's smaller side that a tool seldom exceeds."""
+
+
+def unit_question(derived: Derived) -> Finding | None:
+    """INCH or MM?, where the tool is large or the whole part small; None where nothing is unusual.
+
+    The part is what all closed contours enclose together: of an open one nobody knows how far the part goes.
+    """
+    closed = [
+        block
+        for block in derived.blocks
+        if block.paths is not None and block.solved.whole and block.solved.closed and len(block.paths.surface)
+    ]
+    if not closed:
+        return None
+    boxes = np.concatenate([block.paths.surface.boxes for block in closed if block.paths is not None], axis=1)
+    sides = sorted((boxes[2:].max(axis=1) - boxes[:2].min(axis=1)).tolist())
+    diameter = max(2 * (block.radius or 0.0) for block in closed)
+    unit = derived.program.unit
+    said = f"The program is in {'INCH' if unit is Unit.IN else 'MM'}."
+    if sides[1] < SMALL_PART[unit]:
+        text = f"INCH or MM? The part is only {{0}} by {{1}}. {said}"
+        return Finding("INCH_OR_MM", Severity.WARNING, text, lengths=(sides[1], sides[0]))
+    if diameter > TOOL_SHARE * sides[0]:
+        text = f"INCH or MM? The tool is {{0}} across, more than half of the part's smaller side, {{1}}. {said}"
+        return Finding("INCH_OR_MM", Severity.WARNING, text, lengths=(diameter, sides[0]))
+    return None

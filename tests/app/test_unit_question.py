@@ -1,0 +1,159 @@
+"""INCH or MM? is asked once where a part's size looks typed in the other unit; the unit stands large twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from textual.widgets import Label, Static
+
+from app.__main__ import main
+from app.documents.files import load, save
+from app.documents.programs import example as example_path
+from app.screens.dialogs import Question
+from app.screens.parameters import ParametersScreen
+from app.screens.post import PostScreen
+from core.pipeline.derive import derive
+from core.pipeline.setup_sheet import sheet_page, sheet_text
+from core.pipeline.unit_question import unit_question
+from core.program.model import Block, Number, Program, Tool
+from core.units import Unit, sentence
+from tests.app.widget_pilot import operator
+from tests.core.program.parts import line, program
+
+LARGE = "The tool is 0.5000 across, more than half of the part's smaller side, 0.9000. The program is in INCH."
+GOUGED = "the tool is too big; largest that fits: 0.5000."
+
+
+def plate(width: float, height: float, tool: float, unit: Unit = Unit.IN) -> Program:
+    """A rectangle cut outside, and the diameter of the tool."""
+    ends = [(0, 0), (0, height), (width, height), (width, 0), (0, 0)]
+    lines = tuple(line(x_end=x, y_end=y, feed=9) for x, y in ends[1:])
+    return replace(program(*lines), unit=unit, tools=(Tool(1, "END MILL", Number(tool)),))
+
+
+def question(part: Program) -> str:
+    found = unit_question(derive(part))
+    return "" if found is None else sentence(found, part.unit)
+
+
+def test_a_tool_of_more_than_half_the_smaller_side_asks_for_the_unit() -> None:
+    assert question(plate(4, 0.9, 0.5)) == f"INCH or MM? {LARGE}"
+    assert question(plate(4, 1.0, 0.5)) == ""
+
+
+@pytest.mark.parametrize(
+    ("part", "said"),
+    [
+        (plate(0.24, 0.2, 0.01), "INCH or MM? The part is only 0.2400 by 0.2000. The program is in INCH."),
+        (plate(0.26, 0.2, 0.01), ""),
+        (plate(5.9, 4, 1, Unit.MM), "INCH or MM? The part is only 5.900 by 4.000. The program is in MM."),
+        (plate(6.1, 4, 1, Unit.MM), ""),
+    ],
+)
+def test_a_part_that_is_small_as_a_whole_asks_for_the_unit(part: Program, said: str) -> None:
+    assert question(part) == said
+
+
+def test_an_open_contour_and_one_half_typed_ask_nothing() -> None:
+    whole = plate(0.2, 0.2, 0.5)
+    block = whole.blocks[0]
+    assert question(replace(whole, blocks=(replace(block, segments=block.segments[:-1]),))) == ""
+
+
+async def test_the_form_asks_once() -> None:
+    async with operator(plate(4, 0.9, 0.5)) as one:
+        assert one.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
+        await one.press("down", "up")
+        assert "INCH or MM?" not in one.prompt
+        await one.press("ctrl+z")
+        assert "INCH or MM?" not in one.prompt
+
+
+async def test_posting_asks_once_and_goes_on() -> None:
+    async with operator(plate(4, 0.9, 0.5)) as one:
+        one.app.action_post()
+        await one.settle()
+        asked = one.app.screen
+        assert isinstance(asked, Question)
+        assert asked.lines == (f"INCH or MM? {LARGE}",)
+        await one.pilot.press("i")
+        await one.settle()
+        assert isinstance(one.app.screen, PostScreen)
+        await one.press("escape")
+        one.app.action_post()
+        await one.settle()
+        assert isinstance(one.app.screen, PostScreen)
+
+
+async def test_the_other_unit_leads_to_where_it_is_changed() -> None:
+    async with operator(plate(4, 0.9, 0.5)) as one:
+        one.app.action_post()
+        await one.settle()
+        await one.pilot.press("m")
+        await one.settle()
+        assert isinstance(one.app.screen, ParametersScreen)
+
+
+async def test_going_back_asks_again() -> None:
+    async with operator(plate(4, 0.9, 0.5)) as one:
+        for _ in range(2):
+            one.app.action_post()
+            await one.settle()
+            assert isinstance(one.app.screen, Question)
+            await one.pilot.press("escape")
+            await one.settle()
+
+
+async def test_a_usual_part_is_posted_without_a_question() -> None:
+    async with operator(plate(4, 3, 0.5)) as one:
+        one.app.action_post()
+        await one.settle()
+        assert isinstance(one.app.screen, PostScreen)
+
+
+@pytest.mark.parametrize(("unit", "word"), [(Unit.IN, "I N C H"), (Unit.MM, "M M")])
+async def test_the_unit_stands_large_where_a_program_begins_and_where_it_is_posted(unit: Unit, word: str) -> None:
+    async with operator(Program(unit=unit, blocks=(Block(),))) as one:
+        units = one.screen.query_exactly_one("#units", Label)
+        assert word in str(units.content)
+        assert units.has_class("-new")
+    async with operator(plate(40, 30, 5, unit)) as one:
+        assert word not in str(one.screen.query_exactly_one("#units", Label).content)
+        one.app.action_post()
+        await one.settle()
+        assert str(one.screen.query_exactly_one(".head-unit", Label).content) == word
+
+
+def test_the_command_asks_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    save(plate(4, 0.9, 0.5), tmp_path / "part.toml")
+    main(["post", str(tmp_path / "part.toml")])
+    assert f"warning: INCH or MM? {LARGE}" in capsys.readouterr().err
+
+
+def test_a_refusal_names_its_block_and_the_largest_tool(capsys: pytest.CaptureFixture[str]) -> None:
+    for control in ([], ["--control", "linuxcnc"]):
+        assert main(["post", str(example_path("notch")), *control]) == 1
+        said = capsys.readouterr().err
+        assert "nothing was posted. Block 1, segment 4: GOUGE 0.2500 deep" in said
+        assert f"Block 1: {GOUGED}" in said
+
+
+async def test_the_post_screen_names_the_largest_tool() -> None:
+    async with operator("notch") as one:
+        one.app.action_post()
+        await one.settle()
+        await one.app.workers.wait_for_complete()
+        await one.settle()
+        assert f"Block 1: {GOUGED}" in str(one.screen.query_exactly_one("#post-findings", Static).content)
+
+
+def test_the_sheet_names_the_largest_tool_and_asks_for_the_unit() -> None:
+    notch = derive(load(example_path("notch")))
+    for write in (sheet_text, sheet_page):
+        said = " ".join(write(notch, name="notch", day="").split())
+        assert f"Block 1: {GOUGED}" in said.replace("! ", "")
+    asked = sheet_text(derive(plate(4, 0.9, 0.5)), name="plate", day="")
+    assert "INCH or MM? The tool is 0.5000 across" in asked
+    assert "READY to post. Know before you run it:" in asked
