@@ -149,7 +149,9 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
     assert found.tool_without_blends is not None
     assert found.tool.diameter < 45.0
     assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
-    words = "largest that fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
+    words = (
+        "largest that fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1"
+    )
     assert words in said(found)
     small = replace(asked, surface=started(square, 0), radius=found.tool_without_blends.diameter / 2)
     assert table_of(replace(small, blend=0.0)).row(found.tool_without_blends.value).clean
