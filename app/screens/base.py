@@ -44,6 +44,10 @@ from core.program.model import Program
 from core.units import Kind
 
 
+SMALLEST = (60, 20)
+"""Columns and rows that the screens are made for at least."""
+
+
 class Host(Protocol):
     """What screens ask of the App."""
 
@@ -220,12 +224,19 @@ class BaseScreen(Screen[None]):
         """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
         if not self.query(Prompt):
             return
-        self.query_exactly_one(Prompt).show(self.said or self.prompt_text())
+        self.query_exactly_one(Prompt).show(self.said or self.too_small() or self.prompt_text())
         self.query_exactly_one(Softkeys).refresh_keys()
 
     def show_work(self, work: Work | None) -> None:
         """How far long work is, on the status line."""
         self.query_exactly_one(Status).show_work("" if work is None else work.text)
+
+    def too_small(self) -> Sentence | None:
+        """That the terminal is smaller than any screen is made for; all keys act all the same."""
+        width, height = self.app.size
+        if width >= SMALLEST[0] and height >= SMALLEST[1]:
+            return None
+        return Sentence(f"{width}x{height}: make it {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
 
     def forget_typed(self) -> None:
         """Forget what has been typed and not been taken."""

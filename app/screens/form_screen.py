@@ -6,6 +6,7 @@ from typing import Any, ClassVar, Final
 
 from textual import on, work
 from textual.binding import Binding, BindingType
+from textual.widget import Widget
 from textual.widgets import Input, Select
 
 from app.screens.base import BaseScreen
@@ -26,6 +27,10 @@ from core.units import Kind, sentence
 CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 """The kinds of fields for which the calculator has answers."""
 
+SOFTKEY_WAIT: Final = 2.0
+"""Seconds after Esc in which a digit is a softkey."""
+ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
+
 
 class FormScreen(BaseScreen):
     """A screen with a form.
@@ -39,6 +44,7 @@ class FormScreen(BaseScreen):
         Binding("shift+tab,up", "step(-1)", "Field before", show=False),
         Binding("enter", "accept", "Take the field", show=False),
         Binding("escape", "restore", "Old value back", show=False),
+        *(Binding(f"{n}", f"armed_softkey({n})", f"F{n} after Esc", show=False, priority=True) for n in range(1, 9)),
         Binding("equals_sign", "calculator", "Calculator", show=False, priority=True),
     ]
 
@@ -47,6 +53,7 @@ class FormScreen(BaseScreen):
 
     def __init__(self) -> None:
         super().__init__()
+        self._armed: Widget | None = None
         self._sums: dict[str, dict[str, str]] = {}
         """What was typed into each case of the calculator."""
 
@@ -141,6 +148,7 @@ class FormScreen(BaseScreen):
         widget, field = event.input, self._field(event.input.name or "")
         if widget is not self.current or not isinstance(widget, NumberField):
             return
+        self.disarm()
         self.quiet()
         if field is None or field.kind is Kind.TEXT:
             return
@@ -208,9 +216,40 @@ class FormScreen(BaseScreen):
         self.action_step(1)
 
     def action_restore(self) -> None:
-        """The old value back."""
+        """The old value back; where there is none to bring back, the next digit is a softkey."""
         self.quiet()
-        self.forget_typed()
+        if self.half_typed or self.current is None:
+            self.forget_typed()
+            return
+        self._armed = self.focused
+        if isinstance(self.focused, NumberField):
+            self.focused.softkey_digits = True
+        self.say(ARMED)
+        self.set_timer(SOFTKEY_WAIT, self.disarm)
+
+    def disarm(self) -> None:
+        """A digit is typed again."""
+        if isinstance(self._armed, NumberField):
+            self._armed.softkey_digits = False
+        self._armed = None
+        if self.said is not None and self.said.text == ARMED:
+            self.quiet()
+
+    @property
+    def armed(self) -> bool:
+        """Whether the next digit is a softkey: Esc was pressed here not long ago, and nothing has been typed since."""
+        return self._armed is not None and self._armed is self.focused and not self.half_typed
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """A digit is a softkey only while it is armed, and where that softkey has a label."""
+        if action == "armed_softkey":
+            return self.armed and self.SOFTKEYS[int(str(parameters[0])) - 1] is not None
+        return super().check_action(action, parameters)
+
+    async def action_armed_softkey(self, number: int) -> None:
+        """The softkey of a digit that follows Esc."""
+        self.disarm()
+        await self.action_softkey(number)
 
     def forget_typed(self) -> None:
         """The field shows what the program holds."""

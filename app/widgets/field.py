@@ -76,6 +76,8 @@ class NumberField(LineInput):
         super().__init__(text, name=name, id=id, max_length=MAX_TYPED)
         self.resting, self.full = text, full or text
         self._untouched = False
+        self.softkey_digits = False
+        """Digits are softkeys and not typed."""
         self.letters = ""
         """Letters that are no part of a number: as the first character they are commands to the screen."""
 
@@ -103,6 +105,8 @@ class NumberField(LineInput):
     def check_consume_key(self, key: str, character: str | None) -> bool:
         """Every printable key is typed, but ? asks for help, = calculates, and Space lists what a field takes."""
         if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED):
+            return False
+        if self.softkey_digits and key in tuple("12345678"):
             return False
         return super().check_consume_key(key, character)
 

@@ -48,7 +48,7 @@ def test_the_drawing_is_what_the_locale_says(locale: dict[str, str | None], char
         if characters == "utf-8":
             return
         assert terminal.seen.isascii()
-        terminal.send(b"\x1b[18~\x1b[18~")
+        terminal.send(b"\x1b[18~\x1b[17~")
         terminal.until("LANG or TERM says that there is no UTF-8")
 
 

@@ -101,27 +101,23 @@ def test_esc_and_a_digit_and_esc_alone_still_work(square: Path) -> None:
 def test_a_split_arrow_on_the_question_discards_nothing(square: Path, seconds: float) -> None:
     left_with_work(square)
     with running([*PROGRAM, str(square)]) as terminal:
-        terminal.until("WORK THAT WAS NOT SAVED")
+        terminal.until("UNSAVED WORK FOUND")
         split(terminal, b"[D", seconds)
         terminal.read(quiet=0.5)
-        assert "Discarded" not in terminal.text
-        assert "WORK THAT WAS NOT SAVED" in terminal.text
+        assert "Kept as a backup" not in terminal.text
+        assert "UNSAVED WORK FOUND" in terminal.text
         terminal.send(b"r")
         terminal.until("Your work is back")
 
 
-def test_a_letter_alone_discards_nothing(square: Path) -> None:
-    """However a key is split: one that types D by accident has a question to pass."""
+def test_a_letter_alone_loses_nothing(square: Path) -> None:
+    """However a key is split: what one that types D by accident discards is kept."""
     left_with_work(square)
     with running([*PROGRAM, str(square)]) as terminal:
-        terminal.until("WORK THAT WAS NOT SAVED")
+        terminal.until("UNSAVED WORK FOUND")
         terminal.send(b"d")
-        terminal.until("DISCARD IT")
-        terminal.send(b"d")
-        terminal.send(ESC)
-        terminal.until("F1 RESTORE")
-        terminal.send(b"r")
-        terminal.until("Your work is back")
+        terminal.until("Kept as a backup")
+    assert list(square.parent.glob(".square.toml.cutcomp-journal.discarded-*"))
 
 
 def test_keys_over_a_line_whose_bytes_come_apart_by_up_to_300_ms(square: Path) -> None:

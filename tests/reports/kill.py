@@ -33,7 +33,7 @@ from tests.terminal import Terminal, cutcomp, running
 LIVES_OF_A_PART: Final = 20
 """After so many kills another part is begun, so that programs of all lengths are typed."""
 SIGNALS: Final = (signal.SIGKILL, signal.SIGKILL, signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)
-PATIENCE: Final = 30.0
+PATIENCE: Final = 120.0
 LONGEST_LIFE: Final = 2.0
 """Seconds of typing until the signal strikes."""
 
