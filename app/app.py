@@ -518,6 +518,9 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     def action_next_characters(self) -> None:
         """Draw with the next set of characters that the terminal has, from now on."""
+        if len(self.character_sets) == 1:
+            self.say("LANG or TERM says that there is no UTF-8: drawings are made of ASCII.")
+            return
         here = self.character_sets.index(self.characters)
         self.characters = self.character_sets[(here + 1) % len(self.character_sets)]
         self.say(f"Drawn with {self.characters} characters.")

@@ -43,7 +43,6 @@ from core.program.fields import Field
 from core.program.model import Program
 from core.units import Kind
 
-
 SMALLEST = (60, 20)
 """Columns and rows that the screens are made for at least."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from textual.widgets import OptionList
 
 from app.screens.dialogs import Answer, Question
+from core.program.model import Number
 from tests.app.widget_pilot import operator
 
 
@@ -21,3 +22,21 @@ async def test_a_question_with_many_lines_shows_all_its_answers_at_60x20() -> No
         assert box.region.height <= 20
         assert listed.region.bottom < box.region.bottom, "the answers are cut off"
         assert listed.region.height >= 3
+
+
+async def test_a_terminal_that_is_too_small_says_so_and_takes_numbers() -> None:
+    async with operator("pocket", (40, 12)) as at:
+        await at.press("tab")
+        assert at.prompt == "40x12: make it 60x20."
+        await at.press("7", "enter")
+        assert at.session.block.tool == Number(7.0)
+        await at.pilot.resize_terminal(60, 20)
+        await at.press("tab")
+        assert "make it" not in at.prompt
+
+
+async def test_where_there_is_only_ascii_the_key_for_characters_says_why() -> None:
+    async with operator("pocket") as at:
+        at.app.character_sets = ("ascii",)
+        await at.app.run_action("app.next_characters")
+        assert at.prompt.startswith("LANG or TERM says that there is no UTF-8")
