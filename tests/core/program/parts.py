@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from core.program.fields import PICK, TABLES, Field, Form
+from core.program.fields import PICK, STORED, Field, Form
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -21,6 +22,7 @@ from core.program.model import (
     PathChoice,
     Program,
     ProgramParameters,
+    Relative,
     Segment,
     Tool,
     Typed,
@@ -111,22 +113,29 @@ def _unread(one: Field, unit: Unit) -> st.SearchStrategy[Unread]:
 
 
 def typed(one: Field, unit: Unit) -> st.SearchStrategy[Typed]:
-    """A blank, a number the field takes, or text that cannot be read."""
-    return st.one_of(st.none(), _numbers(one).map(Number), _unread(one, unit))
+    """A blank, a number the field takes, a relative one where it takes such, or text that cannot be read."""
+    relative = (_numbers(one).map(Relative),) if one.relative else ()
+    return st.one_of(st.none(), _numbers(one).map(Number), *relative, _unread(one, unit))
 
 
 def _entries(form: Form, unit: Unit, *but: str) -> dict[str, st.SearchStrategy[Typed]]:
-    fields = (one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in but)
+    fields = (one for one in STORED[form] if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in but)
     return {one.name: typed(one, unit) for one in fields}
 
 
 def segments(unit: Unit) -> st.SearchStrategy[Segment]:
     """A random segment."""
-    choice = st.sampled_from((None, 0, 1))
-    lines = st.builds(LineSegment, **_entries(Form.LINE, unit), choice=choice)
-    arcs = st.builds(ArcSegment, st.sampled_from(Direction), **_entries(Form.ARC, unit), choice=choice)
+    ties = {"choice": st.sampled_from((None, 0, 1, 5, 4096)), "tangent": st.booleans()}
+    lines = st.builds(LineSegment, **_entries(Form.LINE, unit), **ties).map(_tied_once)
+    arcs = st.builds(ArcSegment, st.sampled_from(Direction), **_entries(Form.ARC, unit), **ties).map(_tied_once)
     blends = st.builds(BlendSegment, **_entries(Form.BLEND, unit))
     return st.one_of(lines, arcs, blends, st.builds(ChamferSegment, **_entries(Form.CHAMFER, unit)))
+
+
+def _tied_once(segment: LineSegment | ArcSegment) -> LineSegment | ArcSegment:
+    """A segment with TANGENT or an angle to the segment before, not both: one takes the place of the other."""
+    angle = segment.angle if isinstance(segment, LineSegment) else segment.start_angle
+    return replace(segment, tangent=False) if isinstance(angle, Relative) else segment
 
 
 coolants = st.one_of(st.none(), st.sampled_from(Coolant))
