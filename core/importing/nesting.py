@@ -52,8 +52,11 @@ def chords(pieces: Sequence[Piece]) -> list[Point]:
         if isinstance(piece, Arc):
             radius = max(piece.radius, 1e-9)
             step = max(2.0 * acos(max(1.0 - CHORD_ERROR / radius, -1.0)), 2.0 * np.pi / MAX_CHORDS)
-            count = max(ceil(abs(piece.sweep) / min(step, np.pi / 4.0)), 1)
-            points += [piece.point_at(part / count) for part in range(1, count)]
+            sweep = piece.sweep
+            count = max(ceil(abs(sweep) / min(step, np.pi / 4.0)), 1)
+            (x, y), (cx, cy) = piece.start, piece.center
+            spokes = complex(x - cx, y - cy) * np.exp(1j * sweep / count * np.arange(1, count))
+            points += zip((cx + spokes.real).tolist(), (cy + spokes.imag).tolist(), strict=True)
         points.append(piece.end)
     return points
 
@@ -78,7 +81,7 @@ def _polygon(points: list[Point]) -> shapely.Geometry:
     """A polygon of points; one that crosses itself is what it encloses by even and odd."""
     if len(points) < 4:
         return shapely.Polygon()
-    polygon = shapely.Polygon(points)
+    polygon: shapely.Geometry = shapely.polygons(np.array(points))
     return polygon if polygon.is_valid else shapely.make_valid(polygon)
 
 

@@ -64,7 +64,7 @@ def completed(terminal: Relayed, options: argparse.Namespace) -> None:
     press(terminal, "tab", "tab", *options.diameter, "enter")
     go(terminal, "f8", "SEGMENT")
     go(terminal, "f4", "BLEND OFFSET")
-    press(terminal, *options.blend, "enter")
+    press(terminal, "tab", *options.blend, "enter")
     for block in (1, 2):
         if block == 2:
             go(terminal, "f8", "2 blocks")

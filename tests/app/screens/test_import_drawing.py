@@ -85,6 +85,15 @@ class Importer(Operator):
             await self.pilot.pause(0.01)
         raise AssertionError(self.app.screen)
 
+    async def taken(self) -> None:
+        """Wait until the first block has segments."""
+        await self.until(lambda: self.session.program.blocks[0].segments)
+
+    @property
+    def question(self) -> Question:
+        assert isinstance(self.app.screen, Question)
+        return self.app.screen
+
     @property
     def rows(self) -> list[list[str]]:
         table = self.importing.query_exactly_one(ContourTable)
@@ -164,15 +173,15 @@ async def test_a_program_begun_for_a_drawing_takes_its_unit_and_others_keep_thei
             length = one.rows[0][4]
             assert length == ("140.000" if fresh else "5.5118")
             await one.press("enter")
-            await one.until(lambda one=one: len(one.session.program.blocks[0].segments))
+            await one.taken()
             assert one.session.program.unit is unit
 
 
 async def test_a_drawing_without_unit_asks_for_it_with_both_sizes(tmp_path):
     async with importer(DATA / "d04-nounits.dxf", tmp_path) as one:
         assert isinstance(one.app.screen, Question)
-        assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in one.app.screen.lines[0]
-        assert one.app.screen.safe == "MM"
+        assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in one.question.lines[0]
+        assert one.question.safe == "MM"
         await one.press("i")
         await one.until(lambda: one.importing.listed)
         assert one.rows[0][4] == "3556.000"
@@ -188,7 +197,7 @@ async def test_a_unit_that_is_not_told_leaves_the_screen(tmp_path):
 async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
     async with importer(DATA / "d19-cut-off.dxf", tmp_path) as one:
         assert isinstance(one.app.screen, Question)
-        assert one.app.screen.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
+        assert one.question.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
         await one.press(key)
         if taken:
             await one.until(lambda: one.importing.listed)
@@ -268,7 +277,7 @@ async def test_the_branch_question_joins_a_chain_with_one_of_the_ways(tmp_path):
         assert "branch at X 10.000 Y 0.000: 2 ways. B chooses." in one.about
         await one.press("b")
         await one.until(lambda: isinstance(one.app.screen, Question))
-        assert one.app.screen.question == "branch at X 10.000 Y 0.000: 2 ways"
+        assert one.question.question == "branch at X 10.000 Y 0.000: 2 ways"
         await one.press("f1")
         await one.until(lambda: len(one.rows) == 2)
         assert sorted(row[3] for row in one.rows) == ["1", "2"]
@@ -290,7 +299,7 @@ async def test_start_and_reverse_change_the_block(tmp_path):
         await one.press("backspace", "'9", "enter", "backspace", "'3", "'3", "enter")
         await one.until(lambda: one.contour.start == (9.0, 30.0))
         await one.press("enter")
-        await one.until(lambda: one.session.program.blocks[0].segments)
+        await one.taken()
         block = one.session.program.blocks[0]
         assert (block.x_start.value, block.y_start.value) == (9.0, 30.0)
         assert block.cutter_comp is CutterComp.RIGHT
@@ -323,7 +332,7 @@ async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_is_taken_b
         assert fitted is not None
         assert (fitted.before, len(fitted.pieces) < 150, fitted.off <= 0.005) == (2000, True, True)
         await one.press("enter")
-        await one.until(lambda: one.session.program.blocks[0].segments)
+        await one.taken()
         assert len(one.session.program.blocks[0].segments) <= len(fitted.pieces) + 1
         await one.press("ctrl+z")
         assert dumps(one.session.program) == before
@@ -333,11 +342,11 @@ async def test_more_than_five_hundred_segments_advise_fit_arcs_before_they_are_t
     async with importer(circle_of_lines(600), tmp_path) as one:
         await one.press("enter")
         await one.until(lambda: isinstance(one.app.screen, Question))
-        assert "segments: the form shows them, the look-ahead of a control may not." in one.app.screen.lines[0]
+        assert "segments: the form shows them, the look-ahead of a control may not." in one.question.lines[0]
         await one.press("enter")
         await one.until(lambda: one.rows[0][3] == "1")
         await one.press("enter")
-        await one.until(lambda: one.session.program.blocks[0].segments)
+        await one.taken()
         assert len(one.session.program.blocks[0].segments) == 1
 
 
@@ -350,7 +359,7 @@ async def test_equal_circles_fold_into_one_row_that_opens(tmp_path):
         await one.press("down", "space", "left")
         assert [row[0] for row in one.rows] == ["1", "-    2"]
         await one.press("enter")
-        await one.until(lambda: one.session.program.blocks[0].segments)
+        await one.taken()
         assert len(one.session.program.blocks) == 1
 
 
@@ -384,7 +393,7 @@ async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
         await one.press("f7")
         assert one.importing.picture.outer_size.width == one.importing.query_exactly_one("#desk").size.width
         await one.press("f7", "f1")
-        await one.until(lambda: one.session.program.blocks[0].segments)
+        await one.taken()
 
 
 async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
