@@ -18,7 +18,6 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.cli.control_options import (
-    FolderLibrary,
     Unusable,
     add_options,
     bytes_of,
@@ -27,6 +26,7 @@ from app.cli.control_options import (
     tools_of,
     unit_of,
 )
+from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import choices
 from core.pipeline.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable

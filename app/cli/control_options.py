@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 from app.documents.files import read_file, why
 from app.documents.nc_text import MAX_NC_BYTES
@@ -83,31 +81,6 @@ def bytes_of(path: Path) -> bytes:
         return read_file(path, MAX_NC_BYTES)[0]
     except (OSError, ValueError) as error:
         raise Unusable(f"{name_of(path)}: {why(error)}") from error
-
-
-PROGRAM_FILE_NAMES: Final = (
-    *("O{0:04}", "O{0:04}.nc", "{0:04}.nc", "{0}.nc"),
-    *("O{0:04}.txt", "{0}.txt", "{0}.tap", "{0}.eia"),
-)
-"""How the file of program number {0} may be called that a control has in its memory."""
-
-
-@dataclass(frozen=True, slots=True)
-class FolderLibrary:
-    """The programs of a folder by their numbers, as a control finds them in its memory."""
-
-    folder: Path
-
-    def __call__(self, number: int) -> tuple[str, bytes] | None:
-        """The name and text of a program, None where there is no file of it that can be read."""
-        for form in PROGRAM_FILE_NAMES:
-            path = self.folder / form.format(number)
-            if path.is_file():
-                try:
-                    return name_of(Path(path.name)), bytes_of(path)
-                except Unusable:
-                    return None
-        return None
 
 
 def name_of(path: Path) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from textual.message import Message
 
+from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NcText
 from core.progress import Progress, silent
 
@@ -33,6 +35,8 @@ class Question:
     control: str
     tools: ToolTable
     unit: Unit | None = None
+    folder: Path | None = None
+    """Where programs that it calls by their numbers are looked for."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,7 +75,8 @@ def run(question: Question, progress: Progress = silent) -> Result:
     from core.controls.registry import UnknownControl
     from core.pipeline.nc_proof import run_program
 
-    proof = run_program(question.text.data, question.control, question.tools, question.unit, progress)
+    library = FolderLibrary(question.folder)
+    proof = run_program(question.text.data, question.control, question.tools, question.unit, library, progress)
     assert not isinstance(proof, UnknownControl), proof.text
     return _result(question, proof, judged=False)
 
@@ -95,7 +100,9 @@ def compare(question: Question) -> tuple[Answer, ...]:
     """Every control's answer to a text."""
     from core.pipeline.checking import Asked, answer_all
 
-    return answer_all(question.text.data, Asked("all", question.tools, shop=False, unit=question.unit))
+    library = FolderLibrary(question.folder)
+    asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library)
+    return answer_all(question.text.data, asked)
 
 
 def likely_control(text: NcText) -> str:

@@ -91,10 +91,11 @@ class ProofScreen(BaseScreen):
         self.document, self._keep = document, keep
         text = document.text
         control = likely_control(text)
-        self.question = Question(text, control, ToolTable())
+        folder = None if document.file.path is None else document.file.path.absolute().parent
+        self.question = Question(text, control, ToolTable(), folder=folder)
         self.tool = first_tool(text)
         if asked is not None:
-            self.question = Question(text, asked.control or control, asked.tools, asked.unit)
+            self.question = Question(text, asked.control or control, asked.tools, asked.unit, folder)
             self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
         self.view_of: View | None = None

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
+from core.controls.iso.execute import NO_LIBRARY
+from core.controls.iso.macro_flow import ProgramLibrary
 from core.controls.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
@@ -35,10 +37,15 @@ class Proof:
 
 
 def run_program(
-    text: bytes, control: str, tools: ToolTable, unit: Unit | None = None, progress: Progress = silent
+    text: bytes,
+    control: str,
+    tools: ToolTable,
+    unit: Unit | None = None,
+    library: ProgramLibrary = NO_LIBRARY,
+    progress: Progress = silent,
 ) -> Proof | UnknownControl:
     """The program on a control, without the verdicts, which take longer than the run."""
-    result = run(text, control, tools, unit, progress=progress)
+    result = run(text, control, tools, unit, library, progress=progress)
     return result if isinstance(result, UnknownControl) else Proof(result, ())
 
 

@@ -15,7 +15,8 @@ from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
-from core.controls.control_tools import CutterTool
+from core.controls.control_tools import CutterTool, ToolTable
+from core.pipeline.checking import Asked
 from core.units import Unit
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 
@@ -55,12 +56,13 @@ class Proof(Operator):
 
 
 @asynccontextmanager
-async def at_proof(tmp_path, data: bytes = PROGRAM) -> AsyncIterator[Proof]:
+async def at_proof(tmp_path, data: bytes = PROGRAM, asked: Asked | None = None) -> AsyncIterator[Proof]:
     (tmp_path / "p.nc").write_bytes(data)
     service = DocumentService(state=tmp_path / "own")
     opened = service.open(tmp_path / "p.nc")
     assert isinstance(opened, Opened)
-    app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, opened=opened)
+    begun = session_of(service.new().document)
+    app = CutcompApp(begun, surroundings=SURROUNDINGS, service=service, opened=opened, asked=asked)
     async with app.run_test(size=(80, 24)) as pilot:
         one = Proof(app, pilot)
         await one.settle()
@@ -150,3 +152,12 @@ def test_a_tool_is_typed_with_its_number_or_as_a_diameter_alone(text, tool):
 
 def test_a_diameter_that_cannot_be_read_is_a_sentence():
     assert isinstance(read_tool("2=abc", 1, Unit.IN), str)
+
+
+async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_path):
+    (tmp_path / "O0007.nc").write_text("O7\nG1 X5. F100.\nM99\n")
+    asked = Asked("fanuc:a", ToolTable(), shop=False, unit=None)
+    async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", asked) as one:
+        assert "runs" in one.outcome
+        assert one.proof.result is not None
+        assert one.proof.result.proof.run.moves.points[-1, 0] == 5.0
