@@ -19,6 +19,7 @@ from app.screens.base import BaseScreen
 from app.screens.entry_screen import EntryScreen
 from app.screens.home import HomeScreen
 from app.widgets.field import NumberField
+from app.widgets.status import Status
 
 MOVES: Final = ("tab", "tab", "down", "up", "shift+tab", "left", "right", "pageup", "pagedown", "home", "end")
 RARE: Final = ("ctrl+home", "ctrl+end", "delete", "backspace", "insert", "escape", "space", "f9", "f10", "f12")
@@ -53,7 +54,8 @@ Key = tuple[str, int, str]
 
 def keys_of(screen: Screen[object]) -> dict[int, Key]:
     """The softkeys of the screen that stands and that act now, by number."""
-    if not isinstance(screen, BaseScreen):
+    # a screen that is still being made has none yet
+    if not isinstance(screen, BaseScreen) or not screen.query(Status):
         return {}
     name, found = type(screen).__name__, {}
     for number, key in enumerate(screen.SOFTKEYS, 1):
