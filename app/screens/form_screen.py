@@ -209,7 +209,8 @@ class FormScreen(BaseScreen):
         """The cursor to the field after or before this one."""
         names = self.names()
         here = names.index(name) if name in names else -1
-        self.focus_field(names[(here + by) % len(names)])
+        if names:
+            self.focus_field(names[(here + by) % len(names)])
 
     def action_accept(self) -> None:
         """Take the field and go on."""
