@@ -173,8 +173,16 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         return True
 
     def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
-        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
-        self._change(self.session.at(place, field))
+        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field.
+
+        A new segment in which nothing was typed is gone once the cursor has left it.
+        """
+        session, here = self.session, self.session.place
+        if place != here and (rest := session.without_empty()) is not session:
+            session = rest
+            if place.block == here.block and place.segment > here.segment:
+                place = FormPlace(place.block, place.segment - 1)
+        self._change(session.at(place, field))
 
     def action_undo(self) -> None:
         """Take one edit back; what is half-typed is forgotten."""
@@ -409,6 +417,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """PROGRAM, the list of blocks."""
         from app.screens.program import ProgramScreen
 
+        self._change(self.session.without_empty())
         self.bring(ProgramScreen)
 
     def action_home(self) -> None:
@@ -473,6 +482,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
     def _show_post(self) -> None:
         from app.screens.post import PostScreen
 
+        self._change(self.session.without_empty())
         file = self.session.file
         self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
 

@@ -40,12 +40,13 @@ from core.program.edit import (
     choose,
     delete_segment,
     insert_segment,
+    is_empty,
     recalculate_lookahead,
     take_solution,
     type_field,
 )
 from core.program.fields import SEGMENT_PROMPT, Field, read_typed
-from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSegment, Segment
+from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSegment, Number, Segment, Typed
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
@@ -95,11 +96,6 @@ class SegmentField(NumberField):
         character = (event.character or "").lower()
         if event.is_printable and not character.isdigit() and character not in self.letters:
             event.prevent_default()
-
-
-def is_empty(segment: Segment) -> bool:
-    """Whether nothing is typed in a segment but its feed."""
-    return replace(segment, feed=None) == type(segment)()
 
 
 class ContourScreen(FormScreen):
@@ -411,7 +407,7 @@ class ContourScreen(FormScreen):
         if field.name == "choice":
             return take_solution(session.program, session.place, int(text.partition(" ")[0]) - 1)
         if field.kind is Kind.CHOICE:
-            return choose(session.program, session.place, field.name, text)
+            return choose(session.program, session.place, field.name, text or None)
         typed = read_typed(text, field, session.program.unit)
         return type_field(session.program, session.place, field.name, typed)
 
@@ -574,10 +570,21 @@ class ContourScreen(FormScreen):
             self.focus_field(self.names()[1])
             return
         place = FormPlace(session.place.block, number)
-        outcome = insert_segment(self.current_session.program, place, segment)
+        if number == 1 and not session.block.segments:
+            segment = replace(segment, feed=_last_feed(session))
+        outcome = insert_segment(session.program, place, segment)
         form = table.form_of(segment)
         if self.host.apply(outcome, f"new {form} {number}, block {place.block}"):
             self.go(number, table.TABLES[form][0].name)
+
+    @on(ChoiceField.Blanked)
+    def _blanked(self, event: ChoiceField.Blanked) -> None:
+        """Del makes COOLANT blank again; all other choices always hold one."""
+        event.stop()
+        field = self._field(event.name)
+        if field is not None:
+            self.quiet()
+            self.pick(field, "")
 
     # ---- the list of a field
 
@@ -631,3 +638,15 @@ class ContourScreen(FormScreen):
         number = session.place.block
         self.host.apply(recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}")
         self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived_block.lookahead.calculated}.")
+
+
+def _last_feed(session: Session) -> Typed:
+    """The last feed typed in the blocks before, for the first segment of a block; blank where its tool has one."""
+    tools = {tool.number: tool for tool in session.program.tools}
+    number = session.block.tool
+    tool = tools.get(int(number.value)) if isinstance(number, Number) else None
+    if tool is not None and tool.feed is not None:
+        return None
+    before = session.program.blocks[: session.place.block - 1]
+    feeds = [segment.feed for block in before for segment in block.segments if isinstance(segment.feed, Number)]
+    return feeds[-1] if feeds else None

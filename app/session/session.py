@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from app.session.changes import changed
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
-from core.program.edit import FormPlace
+from core.program.edit import FormPlace, is_empty
 from core.program.history import History
 from core.program.model import Block, Program, Segment
 
@@ -129,6 +129,19 @@ class Session:
     def at(self, place: FormPlace, field: str | None = SEGMENT) -> Session:
         """The cursor moved; a place that does not exist becomes the nearest one that does."""
         return replace(self, cursor=Cursor(nearest_place(self.program, place), field))
+
+    def without_empty(self) -> Session:
+        """The session with the making of the new segment with the cursor undone, where nothing was typed in it."""
+        segment, history = self.segment, self.history
+        if segment is None or not is_empty(segment) or not (history.undo_label or "").startswith("new "):
+            return self
+        undone = history.undo()
+        same = len(undone.program.blocks) == len(self.program.blocks)
+        before = undone.program.blocks[self.place.block - 1].segments if same else ()
+        at = self.place.segment - 1
+        if (*self.block.segments[:at], *self.block.segments[at + 1 :]) != before:
+            return self
+        return self._with_history(undone)
 
     def saved_as(self, file: Path) -> Session:
         """The session after its program was saved under a name."""

@@ -162,7 +162,15 @@ class ChoiceField(Select[str], inherit_bindings=False):
         Binding("space", "show_overlay", "List", show=False),
         Binding("left", "step(-1)", "Choice before", show=False),
         Binding("right", "step(1)", "Next choice", show=False),
+        Binding("delete,backspace", "blank", "Blank again", show=False),
     ]
+
+    class Blanked(Message):
+        """The choice is to be blank again, which not every field can be."""
+
+        def __init__(self, name: str) -> None:
+            super().__init__()
+            self.name = name
 
     class Unknown(Message):
         """A letter was typed that no choice begins with."""
@@ -201,6 +209,10 @@ class ChoiceField(Select[str], inherit_bindings=False):
         """Go to the next choice, or to the one before."""
         here = self.choices.index(self.value) if self.value in self.choices else -1 if by > 0 else 0
         self.value = self.choices[(here + by) % len(self.choices)]
+
+    def action_blank(self) -> None:
+        """Take back what was picked."""
+        self.post_message(self.Blanked(self.name or ""))
 
     def on_blur(self) -> None:
         """Begin another word the next time."""

@@ -86,6 +86,11 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
     return _picked_anew(program, edited, where)
 
 
+def is_empty(segment: Segment) -> bool:
+    """Whether nothing is typed in a segment but its feed."""
+    return replace(segment, feed=None) == type(segment)()
+
+
 def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
     """Pick CUTTER COMP. or COOLANT of START, DIRECTION of an ARC, or the solution of a LINE or an ARC.
 

@@ -143,7 +143,7 @@ START: Final = (
     _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, FASTEST),
     _allowance("peck_depth", "PECK DEPTH", "Depth of one pass; 0 = full depth."),
     _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
-    _coolant("Coolant of the block. Blank: as TOOL SETUP has it for the tool."),
+    _coolant("Coolant of the block. Del blanks it: as TOOL SETUP has it for the tool."),
 )
 
 LINE: Final = (

@@ -8,7 +8,7 @@ import pytest
 
 from core.pipeline.derive import derive
 from core.pipeline.post import post_center_path
-from core.program.edit import new_block
+from core.program.edit import FormPlace, new_block
 from core.program.model import BlendSegment, ChamferSegment, Coolant, LineSegment, Number, Program, Tool
 from core.program.solve.solved import Origin, Solved
 from core.units import Unit
@@ -143,3 +143,34 @@ async def test_a_comma_is_a_decimal_point(typed, value):
     async with operator() as one:
         await one.press("pagedown", "tab", *[{",": "comma"}.get(letter, letter) for letter in typed], "enter")
         assert one.session.block.segments[0].x_end == Number(value)
+
+
+async def test_a_new_line_that_is_left_empty_is_gone_and_undo_goes_on_before_it():
+    async with operator() as one:
+        await one.press("tab", "'1", "enter", "ctrl+end", "right")
+        assert one.session.place.segment == 12
+        await one.press("pageup")
+        assert (len(one.session.block.segments), one.session.place.segment) == (11, 11)
+        await one.press("'5", "enter", "f2", "pagedown")
+        assert (len(one.session.block.segments), one.session.place.segment) == (11, 5)
+        await one.press("ctrl+end", "right", "f8")
+        assert len(one.session.block.segments) == 11
+
+
+async def test_the_first_segment_of_a_new_block_repeats_the_last_feed():
+    async with operator() as one:
+        await one.press("f8", "f2", "ctrl+end", "pagedown")
+        assert one.session.place == FormPlace(2, 1)
+        assert one.session.block.segments[0].feed == Number(12.0)
+
+
+async def test_del_blanks_coolant_again():
+    async with operator() as one:
+        await one.press(*["up"] * 1)
+        while one.at != "coolant":
+            await one.press("up")
+        await one.press("f")
+        assert one.session.block.coolant is not None
+        await one.press("delete")
+        assert one.session.block.coolant is None
+        assert one.tag("coolant") == "DEF"
