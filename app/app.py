@@ -87,10 +87,13 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         Binding("ctrl+s", "save", "Save", show=False, priority=True),
         Binding("ctrl+o", "home", "Open", show=False, priority=True),
         Binding("escape", "stop_work", "Stop", show=False, priority=True),
+        Binding("escape", "leave_guide", "Leave the guide", show=False, priority=True),
     ]
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
     shown: var[Session] = var(lambda: Session.of(Program()), init=False)
+    guided: var[bool] = var(default=False, init=False)
+    """The prompt leads through a first part; Esc ends it."""
     characters: var[str] = var("braille", init=False)
     """The set of characters that drawings and signs are made of."""
 
@@ -236,7 +239,9 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             screens[-1].say(text, tone)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Under a dialog nothing is done to files and edits: it is answered first."""
+        """Under a dialog nothing is done to files and edits; Esc ends the guide only with nothing else to take back."""
+        if action == "leave_guide":
+            return self.guided and isinstance(self.screen, BaseScreen) and self.screen.at_rest
         dialog = isinstance(self.screen, ModalScreen) and not isinstance(self.screen, CommandPalette)
         return not (dialog and action in NOT_UNDER_DIALOGS) and super().check_action(action, parameters)
 
@@ -342,6 +347,25 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         block = self.session.derived_block
         self.stopped = block if block.known else self.session.program
         self.say("Stopped. Any edit calculates again, or Ctrl+K and CALCULATE.", Tone.WARNING)
+
+    def begin_guide(self) -> None:
+        """The prompt leads through a first part from now on."""
+        self.guided = True
+
+    def action_leave_guide(self) -> None:
+        """The prompt is the screens' own again; what was typed stays."""
+        self.end_guide("The guide is off, the plate stays. GUIDED FIRST PART in Ctrl+K begins it anew.")
+
+    def end_guide(self, text: str) -> None:
+        """The prompt is the screens' own again; says so where it was not."""
+        if self.guided:
+            self.guided = False
+            self.say(text)
+
+    def watch_guided(self) -> None:
+        """The prompt changes at once."""
+        if isinstance(self.screen, BaseScreen):
+            self.screen.refresh_frame()
 
     def action_calculate(self) -> None:
         """Begin again what Esc has stopped."""
@@ -566,7 +590,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """Work on another program from now on, or on the same one under another name."""
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:
-            self._unit_mentioned = self._unit_settled = False
+            self.guided = self._unit_mentioned = self._unit_settled = False
         self.session = self.shown = session
         if not same:
             self._derive(Request(session.program))

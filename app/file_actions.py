@@ -100,6 +100,10 @@ class FileActions(App[int]):
         """A screen over all others."""
         raise NotImplementedError
 
+    def begin_guide(self) -> None:
+        """Lead through a first part from now on."""
+        raise NotImplementedError
+
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
         """IMPORT on a drawing: its contours go to the open program, which takes the drawing's unit if it is `fresh`."""
         # shapely and numpy are not needed by the first paint
@@ -302,6 +306,19 @@ class FileActions(App[int]):
         await self.close_documents(self._all_open())
         self.keep_settings(Settings(**{**_fields(self.settings), "unit": unit}))
         self.adopt(self.service.new(unit))
+
+    def action_guide(self) -> None:
+        """A first part, step by step."""
+        if not self.disk_is_behind():
+            self._guide()
+
+    @work(group="question")
+    async def _guide(self) -> None:
+        if self.service is None or not await self.may_close("GUIDED FIRST PART?", self._all_open()):
+            return
+        await self.close_documents(self._all_open())
+        self.adopt(self.service.new(Unit.IN))
+        self.begin_guide()
 
     def _all_open(self) -> list[Document]:
         return [self.document, *(proof.document for proof in self.proofs)]

@@ -32,6 +32,7 @@ from textual.widgets import Input
 
 from app.documents.document import NcDocument
 from app.session.block_findings import Entry as FindingEntry
+from app.session.guide import NOT_NEEDED
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
 from app.session.work import Work
@@ -83,6 +84,13 @@ class Host(Protocol):
 
     def end_work(self, work: Work) -> None:
         """It is done, or its result is not wanted any more."""
+
+    @property
+    def guided(self) -> bool:
+        """The prompt leads through a first part."""
+
+    def end_guide(self, text: str) -> None:
+        """The prompt is the screens' own again; says so where it was not."""
 
     @property
     def longest_work(self) -> Work | None:
@@ -223,8 +231,20 @@ class BaseScreen(Screen[None]):
         """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
         if not self.query(Prompt):
             return
-        self.query_exactly_one(Prompt).show(self.said or self.too_small() or self.prompt_text())
+        prompt = self.said or self.too_small() or self.prompt_text()
+        if self.host.guided and self.said is None and prompt.tone is not Tone.ERROR:
+            prompt = Sentence(f"GUIDE  {self.guide_text()}")
+        self.query_exactly_one(Prompt).show(prompt)
         self.query_exactly_one(Softkeys).refresh_keys()
+
+    def guide_text(self) -> str:
+        """The next step of the guided first part on this screen."""
+        return NOT_NEEDED
+
+    @property
+    def at_rest(self) -> bool:
+        """Esc has nothing to take back or to close here."""
+        return False
 
     def show_work(self, work: Work | None) -> None:
         """How far long work is, on the status line."""

@@ -20,6 +20,7 @@ from app.screens.enter_stops import next_stop, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.screens.values import prompt_of
 from app.session.block_findings import Entry, block_findings, remedy
+from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
 from app.session.work import Work
@@ -455,6 +456,16 @@ class ContourScreen(FormScreen):
             return self._run_sentence("Right arrow: next segment. ENTER: edit this one.") or Sentence(prompt)
         return super().prompt_text()
 
+    def guide_text(self) -> str:
+        """The next field of the plate."""
+        session, at = self.current_session, "" if self.current is None else self.current.name or ""
+        return on_form(session, self.names(), at, next_stop(session, at))
+
+    @property
+    def at_rest(self) -> bool:
+        """The cursor is in a field in which nothing is half-typed."""
+        return self.current is not None and self.focused is self.current and not self.half_typed
+
     def refresh_frame(self) -> None:
         """SEGMENT gets its > while it has the cursor."""
         super().refresh_frame()
@@ -505,7 +516,8 @@ class ContourScreen(FormScreen):
             self.go(session.place.segment + 1)
         elif session.derived_block.solved.closed:
             self.focus_field(SEGMENT)
-            self.say(CLOSED)
+            if not self.host.guided:
+                self.say(CLOSED)
         else:
             self._insert(session.place.segment + 1, LineSegment())
 

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from app.documents.naming import typed
 from app.screens.entry_screen import EntryScreen
+from app.session.guide import SAVE_NAME
 from app.session.messages import Sentence
 from app.widgets.softkeys import Softkey
 
@@ -23,6 +24,10 @@ class SaveAsScreen(EntryScreen):
     def entered(self, text: str) -> None:
         """Save under this name."""
         self.host.save_as(text)
+
+    def guide_text(self) -> str:
+        """A name for the plate."""
+        return SAVE_NAME
 
     def prompt_text(self) -> Sentence:
         """What to type."""

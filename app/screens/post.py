@@ -18,6 +18,7 @@ from textual.widgets.option_list import Option
 from app.documents.naming import typed, with_suffix
 from app.screens.dialogs import Answer, Phrase, Question
 from app.screens.entry_screen import EntryScreen
+from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
@@ -168,6 +169,10 @@ class PostScreen(EntryScreen):
         unsaved = [Content.styled(" The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
         return [*against, *ready, *left, *notes, *unsaved]
 
+    def guide_text(self) -> str:
+        """The name stands there already."""
+        return POST_NAME
+
     def prompt_text(self) -> Sentence:
         """What Enter does."""
         if self.made is None or not self.made.against:
@@ -230,3 +235,4 @@ class PostScreen(EntryScreen):
         lines = made.text.count("\n")
         self.notify(f"Posted: {written_at(path)}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
+        self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

@@ -16,6 +16,7 @@ from textual.widgets import DataTable, Label
 from app.documents.survey import outcome_of
 from app.screens.base import BaseScreen
 from app.session.derivation import program_times
+from app.session.guide import on_program
 from app.session.messages import Sentence
 from app.session.session import Session
 from app.widgets.drawing import Drawing
@@ -109,6 +110,15 @@ class ProgramScreen(BaseScreen):
         words = f"{count} block{'s' if count != 1 else ''}   {event.total}"
         self.query_exactly_one("#block-count", Label).update(words)
         self._draw()
+
+    def guide_text(self) -> str:
+        """What to do with the plate."""
+        return on_program(self.current_session)
+
+    @property
+    def at_rest(self) -> bool:
+        """Nothing is typed on this screen."""
+        return True
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""

@@ -62,7 +62,7 @@ class Status(Horizontal):
             free = self.surroundings.free()
         self._show("clock", self.surroundings.clock())
         room = "" if free is None else f"Free: {size_text(free)}"
-        self._show("units", f"Prog Units: {self._unit}   {self._work or room}".rstrip())
+        self._show("units", self._work or f"Prog Units: {self._unit}   {room}".rstrip())
         self.query_exactly_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
     def show(self, session: Session) -> None:

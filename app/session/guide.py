@@ -1,0 +1,134 @@
+"""The guided first part: the next step of a small plate, from its first field to the posted file.
+
+The guide keeps no place of its own: what comes next follows from the program as it stands and from the field with the
+cursor, so that no key, wrong or right, can lose it.  The plate is 2 by 1, milled around its outside from the middle of
+its lower side, clockwise, the tool on the left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from app.session.session import Session
+from core.program.fields import Form, field_of, form_of
+from core.program.model import CutterComp, LineSegment, Number
+
+CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", "0"))
+"""Where the five lines end."""
+SAVE_NAME: Final = "Type a name such as plate, then Enter. Without a folder it goes where you started the program."
+POST_NAME: Final = "Enter writes the NC file under the name that stands there."
+NOT_NEEDED: Final = "This screen is not needed now: Ctrl+K, then 8 goes back."
+WHOLE_WAY: Final = "Typed, checked, saved, posted: that is the whole way."
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One field of the plate: what is typed there, and why."""
+
+    segment: int
+    name: str
+    text: str
+    why: str
+
+
+STEPS: Final = (
+    Step(0, "tool", "1", "Tool 1 of the tool table is an end mill of 0.5."),
+    Step(0, "cutter_comp", "LEFT", "Seen along the travel, the tool runs on the left."),
+    Step(0, "x_start", "1", "The contour begins in the middle of the lower side."),
+    Step(0, "y_start", "0", "The lower side lies on Y 0."),
+    Step(0, "z_start", "0", "The top of the material is Z 0."),
+    Step(0, "z_bottom", "-.25", "The cut goes a quarter deep."),
+    Step(1, "feed", "10", "The feed holds for the segments that follow too."),
+    Step(1, "x_end", CORNERS[0][0], "First to the left corner."),
+    Step(1, "y_end", CORNERS[0][1], "It lies on Y 0 too."),
+    *(
+        Step(number, name, text, f"Corner {number} of the plate." if number < len(CORNERS) else "Back to the start.")
+        for number, corner in enumerate(CORNERS[1:], 2)
+        for name, text in zip(("x_end", "y_end"), corner, strict=True)
+    ),
+)
+
+
+def next_step(session: Session) -> Step | None:
+    """The first field that is not yet as the plate wants it, in block 1; None where all are."""
+    block = session.program.blocks[0]
+    for step in STEPS:
+        if step.segment > len(block.segments):
+            return step
+        held = block if step.segment == 0 else block.segments[step.segment - 1]
+        if not _meets(getattr(held, step.name, None), step.text):
+            return step
+    return None
+
+
+def _meets(held: object, text: str) -> bool:
+    if isinstance(held, CutterComp):
+        return held == text
+    return isinstance(held, Number) and held.value == float(text)
+
+
+def on_program(session: Session) -> str:
+    """The next step on the list of blocks."""
+    if len(session.program.blocks) > 1:
+        here = session.place.block
+        return "Down goes to block 2." if here == 1 else f"The plate needs no block {here}: F1 deletes it."
+    if next_step(session) is not None:
+        return "Enter opens block 1, in which the contour is typed."
+    if session.file is None or session.unsaved:
+        return "Ctrl+S saves the program; it asks for a name."
+    return "F3 POST NC writes the file for the machine (or Ctrl+K, then 3)."
+
+
+def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -> str:
+    """The next step on MILL CONTOUR: `names` are its fields, `at` has the cursor, and Enter goes on to `stop`."""
+    step = next_step(session)
+    if step is None:
+        return _finished(session)
+    block, place = session.program.blocks[0], session.place
+    if place.block != 1:
+        return "The plate is in block 1: F8 goes to the list of blocks."
+    if step.segment > len(block.segments):
+        return f"{len(block.segments)} of {len(CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
+    held = block.segments[step.segment - 1] if step.segment else None
+    if place.segment != step.segment:
+        return _to_segment(session, step)
+    if held is not None and not isinstance(held, LineSegment):
+        return f"The plate has a LINE here, and this is {form_of(held)}. F1 deletes it (or Ctrl+K, then 1)."
+    return _on_field(step, names, at, stop)
+
+
+def _to_segment(session: Session, step: Step) -> str:
+    if step.segment == 0:
+        return "START is next: Ctrl+Home goes there (or 0 and Enter on the SEGMENT line)."
+    key = "Down" if session.place.segment < step.segment else "Up"
+    return f"Segment {step.segment} is next: Page {key} goes there."
+
+
+def _on_field(step: Step, names: Sequence[str], at: str, stop: str | None) -> str:
+    label = field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+    if at != step.name:
+        return f"{'Enter' if stop == step.name else _way(names, at, step.name)} goes to {label}."
+    if step.name == "cutter_comp":
+        return f"{label}: press L until LEFT stands there. {step.why}"
+    return f"{label}: type {step.text}, then Enter. {step.why}"
+
+
+def _way(names: Sequence[str], at: str, there: str) -> str:
+    """The arrow that is the shorter way, which may lead round, and how often it is pressed."""
+    here = names.index(at) if at in names else 0
+    down = (names.index(there) - here) % len(names)
+    key, count = ("Down", down) if down <= len(names) - down else ("Up", len(names) - down)
+    return key if count == 1 else f"{key} {count} times"
+
+
+def _finished(session: Session) -> str:
+    block = session.derived.block(1)
+    if not block.known:
+        return "The contour is closed. The verdict is being calculated."
+    if block.errors:
+        return "The contour stands, but something is against it: F10 lists it, Ctrl+Z takes back what made it."
+    if session.file is None or session.unsaved:
+        return "The verdict says GOUGE none, and the drawing shows the tool's path. Ctrl+S saves; it asks for a name."
+    return "Saved. F8 goes to the list of blocks (or Ctrl+K, then 8)."

@@ -1,0 +1,81 @@
+"""The guided first part: an operator who does what the prompt says, and one who does not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from app.app import CutcompApp
+from app.documents.files import load
+from app.documents.service import DocumentService
+from app.file_actions import session_of
+from core.pipeline.derive import derive
+from core.program.model import CutterComp
+from tests.app.widget_pilot import SURROUNDINGS, Operator
+
+KEYS = {"Page Down": "pagedown", "Page Up": "pageup", "Ctrl+S": "ctrl+s", "Ctrl+Home": "ctrl+home"}
+
+
+@asynccontextmanager
+async def guided(folder: Path) -> AsyncIterator[Operator]:
+    """An operator who chose the guide."""
+    service = DocumentService(state=folder / "own")
+    opened = service.new()
+    app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Operator(app, pilot)
+        await one.settle()
+        app.action_guide()
+        await one.settle()
+        yield one
+        await one.settle()
+    service.stop()
+
+
+async def obey(one: Operator) -> None:
+    """Press what the guide says, and nothing else."""
+    text = one.prompt.removeprefix("GUIDE ").strip()
+    if typed := re.search(r": type (\S+), then Enter", text):
+        await one.press(f"'{typed[1]}", "enter")
+    elif "press L until LEFT" in text:
+        await one.press("l")
+    elif text.startswith("Type a name"):
+        await one.press("ctrl+u", "'plate", "enter")
+    elif arrows := re.match(r"(Down|Up) (\d+) times", text):
+        await one.press(*[arrows[1].lower()] * int(arrows[2]))
+    elif key := re.search(r"\b(Ctrl\+S|Ctrl\+Home|Page Down|Page Up|F8|F3|F1|Enter|Down|Up)\b", text):
+        await one.press(KEYS.get(key[1], key[1].lower()))
+    else:
+        assert "being calculated" in text
+
+
+async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with guided(tmp_path) as one:
+        await one.press("tab", "7", "enter", "pagedown")
+        for _ in range(60):
+            if not one.app.guided:
+                break
+            await obey(one)
+        await one.settle()
+        assert one.prompt == "Posted. Typed, checked, saved, posted: that is the whole way."
+    program = load(tmp_path / "plate.toml")
+    (block,) = derive(program).blocks
+    assert program.blocks[0].cutter_comp is CutterComp.LEFT
+    assert (block.solved.closed, block.findings) == (True, ())
+    assert (tmp_path / "plate.nc").exists()
+
+
+async def test_escape_ends_it_and_the_plate_stays(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with guided(tmp_path) as one:
+        assert one.prompt.startswith("GUIDE  ")
+        await one.press("enter", "l", "1", "escape")
+        assert one.app.guided
+        await one.press("escape")
+        assert not one.app.guided
+        assert one.session.block.cutter_comp is CutterComp.LEFT
+        await one.press("tab")
+        assert not one.prompt.startswith("GUIDE")
