@@ -72,7 +72,7 @@ async def test_escape_ends_it_and_the_plate_stays(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with guided(tmp_path) as one:
         assert one.prompt.startswith("GUIDE  ")
-        await one.press("enter", "l", "1", "escape")
+        await one.press("enter", "l", "enter", "1", "escape")
         assert one.app.guided
         await one.press("escape")
         assert not one.app.guided
