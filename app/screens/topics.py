@@ -124,7 +124,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         ),
         (Form.LINE, "feed"): _FEED,
         (Form.LINE, "choice"): Topic(
-            "The drawing shows both, dashed. Left and right step; nothing is posted until one is picked."
+            "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
         ),
         (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
         (Form.ARC, "x_end"): _END_X,
@@ -138,7 +138,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
         (Form.ARC, "feed"): _FEED,
         (Form.ARC, "choice"): Topic(
-            "The drawing shows both, dashed. Left and right step; nothing is posted until one is picked."
+            "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
         ),
         **{(form, "point_x"): _POINT for form in (Form.LINE, Form.ARC)},
         **{(form, "point_y"): _POINT for form in (Form.LINE, Form.ARC)},
