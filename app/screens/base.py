@@ -155,6 +155,7 @@ class BaseScreen(Screen[None]):
     def __init__(self) -> None:
         super().__init__()
         self._marked: dict[str, Widget | None] = {}
+        self._composed = False
 
     @property
     def host(self) -> Host:
@@ -213,6 +214,7 @@ class BaseScreen(Screen[None]):
 
     def on_mount(self) -> None:
         """Follow the App's session."""
+        self._composed = True
         self.watch(self.app, "session", self._follow)
 
     def on_screen_resume(self) -> None:
@@ -229,7 +231,7 @@ class BaseScreen(Screen[None]):
 
     def refresh_frame(self) -> None:
         """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
-        if not self.query(Prompt):
+        if not self._composed:
             return
         prompt = self.said or self.too_small() or self.prompt_text()
         if self.host.guided and self.said is None and prompt.tone is not Tone.ERROR:
@@ -247,7 +249,9 @@ class BaseScreen(Screen[None]):
         return False
 
     def show_work(self, work: Work | None) -> None:
-        """How far long work is, on the status line."""
+        """How far long work is, on the status line; a screen that is still being made has none."""
+        if not self._composed:
+            return
         self.query_exactly_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:
@@ -263,7 +267,8 @@ class BaseScreen(Screen[None]):
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line, until the next accepted key."""
         self.said = Sentence(text, tone)
-        self.refresh_frame()
+        if self._composed:
+            self.refresh_frame()
 
     def quiet(self) -> None:
         """The prompt again."""

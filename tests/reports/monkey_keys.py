@@ -19,7 +19,6 @@ from app.screens.base import BaseScreen
 from app.screens.entry_screen import EntryScreen
 from app.screens.home import HomeScreen
 from app.widgets.field import NumberField
-from app.widgets.status import Status
 
 MOVES: Final = ("tab", "tab", "down", "up", "shift+tab", "left", "right", "pageup", "pagedown", "home", "end")
 RARE: Final = ("ctrl+home", "ctrl+end", "delete", "backspace", "insert", "escape", "space", "f9", "f10", "f12")
@@ -55,7 +54,7 @@ Key = tuple[str, int, str]
 def keys_of(screen: Screen[object]) -> dict[int, Key]:
     """The softkeys of the screen that stands and that act now, by number."""
     # a screen that is still being made has none yet
-    if not isinstance(screen, BaseScreen) or not screen.query(Status):
+    if not isinstance(screen, BaseScreen) or not screen.is_mounted:
         return {}
     name, found = type(screen).__name__, {}
     for number, key in enumerate(screen.SOFTKEYS, 1):
