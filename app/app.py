@@ -448,7 +448,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """HOME, the files of a folder."""
         from app.screens.home import HomeScreen
 
-        if not isinstance(self.screen, HomeScreen):
+        if not isinstance(self.screen, HomeScreen) and self.take_typed():
             file = self.session.file
             self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
 
@@ -608,6 +608,10 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         for screen in self.screen_stack:
             if isinstance(screen, BaseScreen):
                 screen.quiet()
+
+    def take_typed(self) -> bool:
+        """Take what is half-typed on the screen in front; False where it is refused."""
+        return not isinstance(self.screen, BaseScreen) or self.screen.take()
 
     def show_screen(self, screen: BaseScreen) -> None:
         """A screen over all others."""

@@ -70,6 +70,10 @@ class FileActions(App[int]):
         """The prompts again, on every screen."""
         raise NotImplementedError
 
+    def take_typed(self) -> bool:
+        """Take what is half-typed on the screen in front; False where it is refused."""
+        raise NotImplementedError
+
     def bring_form(self) -> None:
         """MILL CONTOUR to the front."""
         raise NotImplementedError
@@ -224,7 +228,7 @@ class FileActions(App[int]):
     async def ask(self, ask: Ask) -> str:
         """The word of the answer to a question; only in a worker."""
         answers = [Answer(answer.word, answer.effect) for answer in ask.answers]
-        return await self.push_screen_wait(Question(ask.title, [*ask.lines, *ask.details], answers, ask.safe))
+        return await self.push_screen_wait(Question(ask.title, ask.lines, answers, ask.safe, ask.details))
 
     def open_file(self, path: Path) -> None:
         """Work on a file, or show a folder; what is not saved is asked about first."""
@@ -354,7 +358,7 @@ class FileActions(App[int]):
 
     def action_save(self) -> None:
         """Save under the name the program, or the NC text in front, has, or ask for one."""
-        if self.disk_is_behind():
+        if self.disk_is_behind() or not self.take_typed():
             return
         if self.proof is not None:
             self._save_nc(self.proof, None)
@@ -476,7 +480,8 @@ class FileActions(App[int]):
 
     async def action_quit(self) -> None:
         """Leave; asks where something is not saved."""
-        self._leave()
+        if self.take_typed():
+            self._leave()
 
     @work(group="question")
     async def _leave(self) -> None:
@@ -509,6 +514,7 @@ def session_of(document: ContourDocument, before: Session | None = None) -> Sess
         document.field_name,
         document.file.path,
         document.title,
+        look_only=document.file.holder is not None,
     )
     return session if before is None or before.program is not session.program else session.like(before)
 

@@ -283,6 +283,7 @@ class ProofScreen(BaseScreen):
         self.query_exactly_one("#proof-control", Label).update(control)
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
+        name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
         self.query_exactly_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
         self.query_exactly_one("#proof-outcome", Static).update(self._outcome())
 

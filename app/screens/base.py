@@ -261,6 +261,10 @@ class BaseScreen(Screen[None]):
             return None
         return Sentence(f"{width}x{height}: make it {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
 
+    def take(self) -> bool:
+        """Take what has been typed into the field with the cursor; False where it is refused, and says why."""
+        return True
+
     def forget_typed(self) -> None:
         """Forget what has been typed and not been taken."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import ClassVar
 
 from textual import events, on
@@ -18,6 +19,10 @@ from textual.widgets.option_list import Option
 from app.widgets.field import LineInput
 from core.units import Kind, Unit, Unreadable, parse
 
+TALL = 16
+"""Rows from which on a question has blank lines."""
+MORE = "And more."
+"""In place of details for which there is no room."""
 GO_BACK = "GO BACK"
 """The answer that changes nothing; Esc and F8 give it too."""
 
@@ -33,22 +38,25 @@ class Answer:
 class Question(ModalScreen[str]):
     """A question: its title, what would be lost, and the answers; the screen's result is the word of one.
 
-    `safe` is the answer that is chosen at first.  Esc and F8 answer GO BACK.
+    `details` stand under the lines as far as there is room.  `safe` is the answer that is chosen at first.  Esc and F8
+    answer GO BACK.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape,f8,alt+8,ctrl+q", "answer('GO BACK')", "Go back", show=False)
     ]
 
-    def __init__(self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str) -> None:
+    def __init__(
+        self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str, details: Sequence[str] = ()
+    ) -> None:
         super().__init__()
-        self.question, self.lines, self.safe = title, tuple(lines), safe
+        self.question, self.lines, self.details, self.safe = title, tuple(lines), tuple(details), safe
         self.answers = (*answers, Answer(GO_BACK, "nothing changes"))
 
     def compose(self) -> ComposeResult:
         """A framed box: the loss, then one answer a line."""
-        with Vertical(id="question"):
-            yield Static("\n".join(self.lines), id="loss", markup=False)
+        with Vertical(id="question", classes="-wide" if self.details else ""):
+            yield Static("\n".join((*self.lines, *self.details)), id="loss", markup=False)
             yield OptionList(
                 *(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers", compact=True
             )
@@ -59,9 +67,36 @@ class Question(ModalScreen[str]):
         words = [answer.word for answer in self.answers]
         self.query_exactly_one(OptionList).highlighted = words.index(self.safe)
 
+    @property
+    def readable(self) -> bool:
+        """Whether the terminal has room for all of it: what cannot be read is not answered, but by going back."""
+        box = self.query_exactly_one("#question")
+        return self.region.contains_region(box.region) and box.virtual_size.height <= box.size.height
+
+    @on(events.Resize)
+    def _resized(self) -> None:
+        self.query_exactly_one("#question").set_class(self.size.height < TALL, "-tight")
+        self.call_after_refresh(self._fit)
+
+    def _fit(self) -> None:
+        """As many details as there is room for; where there is none for the rest, say so."""
+        box, loss = self.query_exactly_one("#question"), self.query_exactly_one("#loss", Static)
+        frame = box.region.height - box.size.height
+        room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
+        shown = list(self.details)
+        while shown and _rows((*self.lines, *shown), loss.size.width) > room:
+            shown = [*shown[: -2 if shown[-1] == MORE else -1], MORE] if len(shown) > 1 else []
+        loss.update("\n".join((*self.lines, *shown)))
+        self.call_after_refresh(self._show_title)
+
+    def _show_title(self) -> None:
+        title = self.question if self.readable else "A QUESTION: MAKE THE WINDOW LARGER"
+        self.query_exactly_one("#question").border_title = title
+
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
-        self.dismiss(event.option_id or GO_BACK)
+        if self.readable or event.option_id == GO_BACK:
+            self.dismiss(event.option_id or GO_BACK)
 
     def action_answer(self, word: str) -> None:
         """Give an answer."""
@@ -75,9 +110,14 @@ class Question(ModalScreen[str]):
         word = keys.get(event.key) or next(
             (answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter)), None
         )
-        if word is not None:
+        if word is not None and self.readable:
             event.stop()
             self.dismiss(word)
+
+
+def _rows(lines: Sequence[str], width: int) -> int:
+    """Rows that lines take when they are wrapped."""
+    return sum(max(1, len(wrap(line, max(width, 1)))) for line in lines)
 
 
 def _line(answer: Answer) -> str:

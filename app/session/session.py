@@ -42,7 +42,7 @@ class Session:
 
     `file` is None until the program has a name, `saved` is the program as the file holds it.  `derived` always belongs
     to `program`: an outline at first, in full once the worker is done.  `title` names the example part it began with.
-    `table` is the look-ahead table of the block that it was made of.
+    `table` is the look-ahead table of the block that it was made of.  `look_only`: somebody else has the file open.
     """
 
     history: History
@@ -52,6 +52,7 @@ class Session:
     file: Path | None = None
     title: str = ""
     table: tuple[DerivedBlock, Table | None] | None = None
+    look_only: bool = False
 
     @staticmethod
     def of(program: Program, file: Path | None = None, *, saved: Program | None = None, title: str = "") -> Session:
@@ -61,13 +62,21 @@ class Session:
 
     @staticmethod
     def of_history(
-        history: History, saved: Program, place: FormPlace, field: str, file: Path | None, title: str
+        history: History,
+        saved: Program,
+        place: FormPlace,
+        field: str,
+        file: Path | None,
+        title: str,
+        *,
+        look_only: bool = False,
     ) -> Session:
         """A session on work that has a history, the cursor where it was; in a new program in its first field."""
         if field == SEGMENT and not history.past:
             field = _first_field(history.program)
         cursor = Cursor(nearest_place(history.program, place), field)
-        return Session(history, saved, outline(history.program), cursor, file, title)
+        derived = outline(history.program)
+        return Session(history, saved, derived, cursor, file, title, look_only=look_only)
 
     def like(self, before: Session) -> Session:
         """The session with what was known of the same program before."""
@@ -86,6 +95,8 @@ class Session:
     @property
     def file_label(self) -> str:
         """The program's name as screens show it; a star where something is not saved."""
+        if self.look_only:
+            return f"LOOK ONLY {self.file.stem if self.file else ''}"
         name = self.file.stem if self.file else f"{self.title} (example)" if self.title else "NO NAME"
         return f"{name}{' *' if self.unsaved else ''}"
 
