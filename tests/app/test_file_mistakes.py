@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 import pytest
 from textual.widgets import DataTable, Input
@@ -24,14 +25,16 @@ from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 __all__ = ["folder"]
 
 
+def visible(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir() if not path.name.startswith(".")} - {"settings.toml"}
+
+
 async def entered(one: Operator, action: str, name: str) -> None:
     """A name typed on SAVE AS or OPEN A PATH, over the one that stands there."""
     await one.app.run_action(action)
     await one.pilot.pause()
     one.screen.query_one("#entry", Input).value = name
     await one.press("enter")
-    await one.app.workers.wait_for_complete()
-    await one.settle()
 
 
 @pytest.mark.parametrize(
@@ -47,11 +50,11 @@ async def entered(one: Operator, action: str, name: str) -> None:
 )
 async def test_a_name_that_cannot_be_saved_under_is_said_and_the_next_character_replaces_it(folder, name, words):
     async with at_work(folder) as one:
-        before = sorted(folder.iterdir())
+        before = visible(folder)
         await entered(one, "app.save_as", name)
         assert words in one.prompt
         assert len(one.prompt) < 160
-        assert [path for path in sorted(folder.iterdir()) if path.name != "settings.toml"] == before
+        assert visible(folder) == before
         await one.press("y", "enter")
         assert one.session.file == folder / "y.toml"
 
@@ -104,7 +107,7 @@ async def test_a_number_that_no_enter_followed_is_saved_and_asked_about(folder):
 async def test_a_text_that_is_no_number_is_mended_before_it_is_saved(folder):
     async with at_work(folder) as one:
         await one.press("tab", "'9x", "ctrl+s")
-        assert "9x is not a number" in one.prompt
+        assert one.prompt.startswith("9x cannot be read.")
         assert load(folder / "part.toml").blocks[0].tool == Number(1.0)
 
 
@@ -146,7 +149,6 @@ async def test_a_program_opened_over_an_nc_text_asks_about_its_lines_and_closes_
         await one.press("escape")
         assert len(one.app.proofs) == 1
         await one.press("enter", key)
-        await one.app.workers.wait_for_complete()
         assert isinstance(one.app.screen, ContourScreen)
         assert one.session.title == "notch"
         assert [path.name for path in folder.iterdir() if path.name.startswith(".")] == []
@@ -189,15 +191,13 @@ async def test_work_that_was_discarded_is_listed_among_the_files_and_comes_back(
         await one.press("d")
         assert "Ctrl+O lists it" in one.prompt
         assert one.session.block.tool == Number(1.0)
-        await one.press("ctrl+o", "end")
+        await one.press("ctrl+o", "ctrl+end")
         table = one.screen.query_one("#programs", DataTable)
         assert [str(cell) for cell in table.get_row_at(table.cursor_row)][::4] == ["part.toml", "discarded"]
         assert one.prompt.startswith("Unsaved work on part.toml, discarded")
         await one.press("enter")
-        await one.app.workers.wait_for_complete()
         assert isinstance(one.app.screen, Question)
         await one.press("r")
-        await one.app.workers.wait_for_complete()
         assert one.session.block.tool == Number(7.0)
         assert one.session.file == folder / "part.toml"
 
