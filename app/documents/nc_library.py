@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.documents.files import read_file
-from app.documents.nc_text import MAX_NC_BYTES
+from app.documents.files import read_file, read_start
+from app.documents.nc_text import MAX_NC_BYTES, NC_SUFFIXES
 
 PROGRAM_FILE_NAMES: Final = (
     *("O{0:04}", "O{0:04}.nc", "{0:04}.nc", "{0}.nc"),
     *("O{0:04}.txt", "{0}.txt", "{0}.tap", "{0}.eia"),
 )
 """How the file of program number {0} may be called that a control has in its memory."""
+
+MAX_SEARCHED_FILES: Final = 500
+SEARCHED_BYTES: Final = 4096
+"""At the beginning of a file its number is looked for."""
+_NUMBER: Final = re.compile(rb"^[ \t]*[O:][ \t]*([0-9]{1,8})(?![0-9.])", re.MULTILINE | re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,12 +31,31 @@ class FolderLibrary:
 
     def __call__(self, number: int) -> tuple[str, bytes] | None:
         """The name and text of a program, None where there is no file of it that can be read."""
-        for form in PROGRAM_FILE_NAMES if self.folder is not None else ():
-            path = (self.folder or Path()) / form.format(number)
-            if path.is_file():
-                try:
-                    text = read_file(path, MAX_NC_BYTES)[0]
-                except (OSError, ValueError):
-                    return None
-                return "".join(sign if sign.isprintable() else "?" for sign in path.name), text
+        if self.folder is None:
+            return None
+        named = (self.folder / form.format(number) for form in PROGRAM_FILE_NAMES)
+        path = next((path for path in named if path.is_file()), None) or self._beginning_with(number)
+        if path is None:
+            return None
+        try:
+            text = read_file(path, MAX_NC_BYTES)[0]
+        except (OSError, ValueError):
+            return None
+        return "".join(sign if sign.isprintable() else "?" for sign in path.name), text
+
+    def _beginning_with(self, number: int) -> Path | None:
+        """The file whose first program has this number, whatever the file is called."""
+        assert self.folder is not None
+        with suppress(OSError):
+            files = sorted(path for path in self.folder.iterdir() if path.suffix.lower() in NC_SUFFIXES)
+            for path in files[:MAX_SEARCHED_FILES]:
+                if (first := _NUMBER.search(_start(path))) and int(first[1]) == number:
+                    return path
         return None
+
+
+def _start(path: Path) -> bytes:
+    try:
+        return read_start(path, SEARCHED_BYTES)
+    except OSError:
+        return b""

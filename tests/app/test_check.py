@@ -12,6 +12,7 @@ from subprocess import PIPE, Popen
 import pytest
 
 from app.cli.check import check
+from app.documents.nc_library import FolderLibrary
 from core.controls.control_names import shown_name
 from core.controls.control_tools import ToolTable
 from core.pipeline.checking import Asked, answer_all
@@ -320,3 +321,15 @@ def test_klartext_on_another_control_is_said_to_be_another_language(
     file.write_text(FRAGMENT)
     _, out, _ = output(capsys, file, "--control", "linuxcnc")
     assert "LANGUAGE" in out
+
+
+def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None:
+    """As programs are called on a disk: gauge_o1002.cnc."""
+    (tmp_path / "other.nc").write_text("%\nO1003\nM99\n%")
+    (tmp_path / "gauge_o1002.cnc").write_text("%\n(GAUGE)\nO1002 (PART)\nG1 X5. F100.\nM99\n%")
+    found = FolderLibrary(tmp_path)(1002)
+    assert found is not None
+    assert found[0] == "gauge_o1002.cnc"
+    assert b"X5." in found[1]
+    assert FolderLibrary(tmp_path)(1004) is None
+    assert FolderLibrary(None)(1002) is None

@@ -78,7 +78,11 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
     if cycle.code is None:
         cycle.began = flat(state.position, state.plane)[2] - flat(state.shift, state.plane)[2]
     for needed in ("R", letter) if cycle.code != code else ():
-        if needed not in words:
+        if needed == "R" and needed not in words and not state.dialect.cycle_r_needed:
+            cycle.r = 0.0 if state.incremental else cycle.began
+            text = "The cycle has no R; cutcomp takes the height at which it begins."
+            state.log.tell(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
+        elif needed not in words:
             _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
     if "R" in words:
         cycle.r = words["R"] * scale

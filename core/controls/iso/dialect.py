@@ -115,7 +115,8 @@ class Dialect:
     `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
-    compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D, and H, may stand in any block.
+    compensation; `returns_to_r`: G99 is in force at the start.
+    `cycle_r_needed`: a cycle's first block must have R.  `d_anywhere`: D, and H, may stand in any block.
     `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
     where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
     nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
@@ -145,6 +146,7 @@ class Dialect:
     cycles: bool = True
     cycle_rule: str = "CYCLE"
     returns_to_r: bool = False
+    cycle_r_needed: bool = True
     d_anywhere: bool = False
     dwell_takes_axes: bool = True
     rate_clears_feed: bool = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from types import MappingProxyType
 from typing import Final
 
@@ -45,6 +45,17 @@ JUMPS: Final = (FANUC, HAAS)
 
 OFFSETS_ANYWHERE: Final = (NINE_SERIES, FANUC, HAAS)
 """The controls that take D, and H, in any block, also with T."""
+
+
+LATHE_CYCLES: Final = frozenset((700, 710, 720, 730, 740, 750, 760))
+"""G codes that call a cycle of lathes where U, W, or P and Q stand with them."""
+
+
+def lathe_cycle(number: int, letters: Container[str]) -> str:
+    """The sentence that says that a code with these words is a lathe's, "" where it need not be."""
+    if number in LATHE_CYCLES and ("U" in letters or "W" in letters or ("P" in letters and "Q" in letters)):
+        return f"G{number / 10:g} is a cycle of lathes. cutcomp checks programs of mills."
+    return ""
 
 
 def only_on(controls: tuple[str, ...]) -> str:

@@ -17,7 +17,7 @@ from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import NoArc, center_by_radius, given_center
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
-from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, only_on
+from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Point3, flat
@@ -164,7 +164,7 @@ class Machine(ModalState):
             code = self.dialect.codes.get(number)
             if code is None:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
-                text = f"{text} {only_on(CODES.get(number, ()))}".rstrip()
+                text = lathe_cycle(number, block.words) or f"{text} {only_on(CODES.get(number, ()))}".rstrip()
                 self.log.stop("CODE", text, block.line, block.column("G", number))
             if number == _G80 and code.group == "motion" and self._moves_in(block):
                 continue
@@ -239,6 +239,7 @@ class Machine(ModalState):
                 self.control.own_code(code.value, block)
             case CodeAction.UNSUPPORTED:
                 text = f"cutcomp does not support G{code.value / 10:g}, and the path after it would be wrong."
+                text = lathe_cycle(code.value, block.words) or text
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:

@@ -52,6 +52,8 @@ _SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
 _WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?0*+[1-9][0-9]*+(?![0-9.])")
 _NO_LENGTHS: Final = re.compile(r"G0?5|G6[56]|M9[789]")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
+_FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
+"""Lines such as $AddRegPart and #region, which never reach a control."""
 _EXPRESSIONS: Final = frozenset("#[,")
 
 ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
@@ -117,6 +119,10 @@ class MacroFlow(Flow):
         """More rows: the lines cut at their semicolons; gives the index of the first one."""
         begin = len(self.lines)
         for number, line in enumerate(lines, first_number):
+            if _FOR_EDITORS.match(line):
+                said = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
+                self.log.tell(Severity.INFO, "TEXT", said, number, 1)
+                continue
             for start, text in _parts(line):
                 if start and _is_remark(text):
                     said = f"Text after the end of the block is ignored: {quoted(text)}"
@@ -635,8 +641,10 @@ def _between_percents(lines: Sequence[str]) -> list[str]:
 
 
 def _is_remark(text: str) -> bool:
-    """Whether what stands after a semicolon is a remark: it has letters that are neither words nor a macro's."""
+    """Whether what stands after a semicolon is a remark: a number, or letters that are neither words nor a macro's."""
     bare = capitals(without_comments(text))
+    if bare.strip()[:1] in "+-.0123456789" and bare.strip():
+        return True
     return _LETTERS.search(bare) is not None and not _KEYWORD.match("".join(bare.split()))
 
 

@@ -24,6 +24,7 @@ from core.geometry.piece import Side
 
 DIALECT: Final[Dialect] = replace(
     fanuc.DIALECT,
+    cycle_r_needed=False,
     codes=codes(
         *fanuc.GROUPS,
         ("system", CodeAction.SYSTEM, (1540,)),

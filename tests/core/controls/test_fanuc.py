@@ -643,3 +643,37 @@ def test_an_oblique_move_in_three_axes_under_compensation_is_run() -> None:
     # where y = 10 meets the line 5 to the left of the one from (30, 0) in direction (4, 1)
     corner = (70 - 5 * 17**0.5, 10.0, -2.0)
     assert any(apart(move.end, corner) < 1e-6 for move in flat(done))
+
+
+def test_what_stands_behind_a_semicolon_may_be_a_number() -> None:
+    done = ran("G21 G90 G0 X0 Y0\nM6 T1 ; 0.8128\nM30")
+    assert not alarms(done)
+
+
+@pytest.mark.parametrize("line", ["$AddRegPart 1 X2.925 Y2.005", "#region", "  #EndRegion (part)"])
+def test_lines_for_editors_and_simulators_are_ignored(line: str) -> None:
+    done = ran(f"O1\n{line}\nG21 G90 G0 X3. Y0\nM30")
+    assert not alarms(done)
+    assert done.moves.points[-1, 0] == 3.0
+    assert any("for an editor or a simulator" in finding.text for finding in done.findings)
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+@pytest.mark.parametrize("line", ["G71 P10 Q20 U0.02 W0.01 F0.01", "G72 P1 Q2", "G75 R.1 W2."])
+def test_a_cycle_of_lathes_is_named_as_such(line: str, control: str) -> None:
+    done = registry.run(f"O1\nG20 G90 G0 X0 Z0\n{line}\nM30".encode(), control)
+    assert not isinstance(done, UnknownControl)
+    stop = next(finding for finding in done.findings if finding.line == done.stopped_at)
+    assert stop.text == f"{line[:3]} is a cycle of lathes. cutcomp checks programs of mills."
+
+
+def test_a_drilling_cycle_of_haas_may_go_without_r() -> None:
+    """By hand: from Z 0.1 down to -0.45 and back."""
+    text = b"O1\nG20 G90 G0 X1. Y2. Z0.1\nG81 G98 Z-0.45 F9.\nG80\nM30"
+    done = registry.run(text, "haas:a")
+    assert not isinstance(done, UnknownControl)
+    assert done.stopped_at is None
+    assert [round(z / 25.4, 4) for z in done.moves.points[-2:, 2].tolist()] == [-0.45, 0.1]
+    other = registry.run(text, "fanuc:a")
+    assert not isinstance(other, UnknownControl)
+    assert other.stopped_at == 3

@@ -182,7 +182,11 @@ def test_polar_points_by_angles_that_are_not_right_ones() -> None:
 
 @pytest.mark.parametrize("center", ["CC X+2 Z+0", "CC Z+0 X+2", "CC IX+2 IZ+0"])
 def test_an_arc_about_a_center_in_zx_runs_there(center: str) -> None:
-    """Angles count from Z toward X: the tool stands at -90 degrees, and 90 less is below the center."""
+    """In the plane Z/X the angle's axis is +Z (TNC 310 pilot, page 8; TNC 620 ISO, page 84), and + turns from Z to X.
+
+    By hand: from the center X2 Z0 the tool at X0 Z0 is 2 away toward -X: Z = 2 cos a = 0 and X = 2 sin a = -2, so
+    a = -90.  IPA-90 goes on to -180, with DR- as its sign says: Z = 2 cos(-180) = -2, X = 2 + 2 sin(-180) = 2.
+    """
     made = clean(START, center, "CP IPA-90 DR-", "C X+4 Z+0 DR-")
     assert [move.plane for move in list(made.moves)[1:]] == [Plane.ZX] * 2
     assert points(made, 1) == [NEAR((2, 0, -2)), NEAR((4, 0, 0))]
