@@ -14,7 +14,7 @@ from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
 from app.documents.tool_tables import tool_line
-from app.screens.contour_cells import cells_at, fields_at, form_at, run_label, run_trouble, value_at
+from app.screens.contour_cells import cells_at, fields_at, form_at, run_here, run_label, run_trouble, value_at
 from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_stops, unanswered
 from app.screens.form_screen import FormScreen
@@ -413,9 +413,10 @@ class ContourScreen(FormScreen):
         return type_field(session.program, session.place, field.name, typed)
 
     def label(self, field: Field) -> str:
-        """FIELD of START or of a segment."""
-        place = self.current_session.place
+        """FIELD of START or of a segment; of a run, whose calculated fields it changes, also which one."""
+        place, run = self.current_session.place, run_here(self.current_session)
         where = "START" if place.segment == 0 else f"segment {place.segment}"
+        where += f", run {run.first}-{run.last}" if run is not None and run.first < run.last else ""
         return f"{field.label} of {where}, block {place.block}"
 
     def trouble(self, field: Field) -> Sentence | None:

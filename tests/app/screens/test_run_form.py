@@ -72,6 +72,14 @@ async def test_a_half_typed_number_moves_the_calculated_fields_of_the_run_and_es
         assert (one.value("y_end"), one.value("radius")) == ("10.000", "10.000")
 
 
+async def test_undo_names_the_run_whose_calculated_fields_come_back():
+    async with operator(golden("c18")) as one:
+        await to(one, 2, "radius")
+        await one.press("delete", "'2", "tab", "ctrl+z")
+        assert one.prompt.startswith("Undone: RADIUS of segment 2, run 1-3, block 1.")
+        assert one.value("y_end") == "10.000"
+
+
 async def test_a_half_typed_number_that_undetermines_the_run_leaves_its_text_alone():
     async with operator(golden("c18")) as one:
         await to(one, 2, "radius")
