@@ -19,9 +19,9 @@ from textual.reactive import reactive
 from textual.widgets import Static
 
 from app.documents.survey import Outcome
-from app.session.words import length, segment_numbers
+from app.session.words import length, segment_numbers, shortened
 from core.pipeline.derived import DerivedBlock
-from core.units import Unit
+from core.units import Unit, sentence
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 HIGHEST: Final = 20
 """The largest look-ahead value."""
+CHIPS_WIDTH: Final = 58
+"""Cells of the chips' line on the narrowest screens."""
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
 
@@ -227,12 +229,12 @@ def _advice(case: Case) -> str:
 
 
 def chips(case: Case, marks: Marks) -> Content:
-    """GOUGE, UNCUT, DELETED; in a block without segments what to type first."""
+    """GOUGE, UNCUT, DELETED; in a block without segments what to type first, without a path what is in its way."""
     if hint := first_step(case.block):
         return Content.styled(f" {hint}", "$c-label")
     judgment = case.judgment
     if case.block.side is None or judgment is None:
-        return Content("")
+        return _in_the_way(case, marks)
     gouge = _gouge_chip(judgment, case.unit, marks)
     left = length(judgment.uncut_length, case.unit)
     whole = not isfinite(judgment.uncut_length) or judgment.uncut
@@ -240,6 +242,15 @@ def chips(case: Case, marks: Marks) -> Content:
     gone = (f"{marks.deleted} DELETED {case.deleted}", "$c-deleted")
     deleted = gone if case.deleted else (f"{marks.good} DELETED none", "$c-good")
     return _row((gouge, uncut, deleted))
+
+
+def _in_the_way(case: Case, marks: Marks) -> Content:
+    """The first error, as much of its sentence as has room; F10 lists it in full."""
+    if not case.block.known or not case.block.errors:
+        return Content("")
+    first = case.block.errors[0]
+    role = "$c-warn" if first.code in NOT_YET else "$c-err"
+    return Content.styled(shortened(f"{marks.gouge} {sentence(first, case.unit)}", CHIPS_WIDTH), f"bold {role}")
 
 
 def _gouge_chip(judgment: Judgment, unit: Unit, marks: Marks) -> tuple[str, str]:

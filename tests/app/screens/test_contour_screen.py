@@ -151,3 +151,11 @@ async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
         assert one.prompt.startswith("Up and down show the places of the findings.")
         shown = "".join(str(option.prompt) for option in one.screen.query_exactly_one("#findings").options)
         assert shown.count("Corner too tight") == 1
+
+
+async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
+    async with operator(size=(40, 12)) as one:
+        await one.press(*["down"] * 7)
+        assert one.at == "z_bottom"
+        await one.pilot.pause(0.3)
+        assert one.screen.query_exactly_one("#desk").region.contains_region(one.screen.focused.region)

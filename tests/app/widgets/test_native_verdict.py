@@ -12,6 +12,7 @@ from app.session.words import segment_numbers
 from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
+from core.program.model import Number
 from core.units import Unit
 
 
@@ -92,3 +93,11 @@ async def test_the_widget_shows_another_case_as_soon_as_it_is_set(pocket, notch)
             await pilot.pause()
             assert verdict.border_title == title(case)
             assert str(app.query_one("#chips", Static).content) == str(chips(case, MARKS["braille"]))
+
+
+def test_without_a_path_the_chips_say_what_is_in_its_way():
+    program = load(example("pocket"))
+    program = replace(program, blocks=(replace(program.blocks[0], tool=Number(9.0)),))
+    case = Case(derive(program).block(1), None, program.unit)
+    assert chips(case, MARKS["braille"]).plain.startswith("✖ Tool 9")
+    assert len(chips(case, MARKS["braille"])) <= 58
