@@ -36,6 +36,7 @@ from app.session.guide import NOT_NEEDED
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
 from app.session.work import Work
+from app.widgets.drawing import Drawing
 from app.widgets.prompt import Prompt
 from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
 from app.widgets.status import Status, Surroundings
@@ -216,6 +217,12 @@ class BaseScreen(Screen[None]):
         """Follow the App's session."""
         self._composed = True
         self.watch(self.app, "session", self._follow)
+        self.watch(self.app, "characters", self._draw_with)
+
+    def _draw_with(self, characters: str) -> None:
+        """Every drawing is made of these characters."""
+        for drawing in self.query(Drawing):
+            drawing.characters = characters
 
     def on_screen_resume(self) -> None:
         """Catch up with what has changed while another screen was in front."""

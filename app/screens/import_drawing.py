@@ -375,7 +375,6 @@ class ImportScreen(BaseScreen):
         drawing, contour = self.picture, self.contour
         before = drawing.subject
         view = before.view if isinstance(before, Picked) and before.backdrop is self._backdrop else None
-        drawing.characters = self.host.characters
         if contour is None:
             drawing.heading, drawing.subject = "DRAWING", None
             return

@@ -154,7 +154,6 @@ class ProgramScreen(BaseScreen):
         block = session.derived.block(self.chosen)
         times = self.times.get(block.number)
         drawing.heading = f"BLOCK {block.number}{f'  {times}' if times else ''}"
-        drawing.characters = self.host.characters
         drawing.subject = Subject(block, session.program.unit)
 
     @on(DataTable.RowSelected)

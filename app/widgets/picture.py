@@ -54,7 +54,6 @@ class Picture(Horizontal):
         }
         for name, subject in subjects.items():
             drawing = self.query_exactly_one(f"#{name}", Drawing)
-            drawing.characters = characters
             drawing.subject = subject
         loupe = self.query_exactly_one("#loupe", Drawing)
         loupe.heading = title
