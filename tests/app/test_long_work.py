@@ -14,6 +14,7 @@ from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.session import work
 from app.widgets.status import Status
+from core.progress import Stopped
 from tests.app.widget_pilot import Operator, operator
 
 
@@ -37,7 +38,7 @@ class Slow:
         while not self.go.is_set():
             try:
                 told(0.4)
-            except work.Stopped:
+            except Stopped:
                 self.stopped = True
                 raise
             sleep(0.005)
@@ -109,6 +110,7 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
         slow.go.set()
         await one.press("enter")
         await one.pilot.pause(0.2)
+        assert isinstance(one.screen, post_module.PostScreen)
         assert one.screen.made is not None
         assert "Free:" in status(one)
 

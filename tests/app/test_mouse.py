@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from app import theme
+from app.screens.contour import ContourScreen
 from app.widgets.drawing import Drawing
 from core.program.model import Number
 from tests.app.widget_pilot import Operator, operator
@@ -42,7 +43,10 @@ async def test_a_click_in_the_drawing_goes_to_the_nearest_segment():
 
 async def test_a_click_on_the_number_of_a_finding_takes_it_in_hand():
     async with operator() as one:
-        await click_at(one, one.screen.query_exactly_one("#outline", Drawing), one.screen.entries[2].at)
+        assert isinstance(one.screen, ContourScreen)
+        place = one.screen.entries[2].at
+        assert place is not None
+        await click_at(one, one.screen.query_exactly_one("#outline", Drawing), place)
         assert one.screen.in_hand == 2
         assert one.session.place.segment == 0
 

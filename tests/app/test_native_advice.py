@@ -7,6 +7,7 @@ from threading import Event
 
 import app.app as app_module
 from app.app import QUIET
+from app.screens.contour import ContourScreen
 from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool
 from tests.app.widget_pilot import Operator, operator
 
@@ -37,6 +38,7 @@ async def advised(one: Operator) -> list[str]:
             break
         await one.pilot.pause(QUIET / 10)
     await one.settle()
+    assert isinstance(one.screen, ContourScreen)
     return [entry.text for entry in one.screen.entries]
 
 

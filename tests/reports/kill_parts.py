@@ -13,10 +13,10 @@ from app.documents.document import ContourDocument, FileState
 from app.documents.journal import Journal
 from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
-from app.screens.contour import NEW_SEGMENTS, is_empty
+from app.screens.contour import NEW_SEGMENTS
 from app.screens.contour_cells import fields_at, value_at
 from app.session.session import Session
-from core.program.edit import FormPlace, Refused, delete_segment, insert_segment, type_field
+from core.program.edit import FormPlace, Refused, delete_segment, insert_segment, is_empty, type_field
 from core.program.fields import read_typed
 from core.program.history import History, differences
 from core.program.model import Number, Program

@@ -265,8 +265,7 @@ def nearest(expected: Point | tuple[Point, Point], moves: Sequence[Point | tuple
 
 
 def apart(first: Point | tuple[Point, Point], second: Point | tuple[Point, Point]) -> float:
-    numbers = [flat(first), flat(second)]
-    return max(abs(a - b) for a, b in zip(*numbers, strict=True))
+    return max(abs(a - b) for a, b in zip(flat(first), flat(second), strict=True))
 
 
 def flat(move: Point | tuple[Point, Point]) -> list[float]:
@@ -295,4 +294,4 @@ def test_the_expected_points_are_those_of_the_published_cases() -> None:
     assert center == pytest.approx((73.169873, 36.471143), abs=1e-6)
     assert leave == pytest.approx((77.5, 38.971143), abs=1e-6)
     assert three_arcs()[0][1] == pytest.approx((18.413365, 12.193081), abs=1e-6)
-    assert all(isclose(hypot(*end), 23.0) for _, end in (cam()[0], cam()[3]))
+    assert all(isclose(hypot(*flat(move)[-2:]), 23.0) for move in (cam()[0], cam()[3]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from textual.widgets import DataTable, OptionList
+
 from core.program.edit import FormPlace
 from core.program.model import Number, Unread
 from tests.app.widget_pilot import operator
@@ -142,14 +144,14 @@ async def test_a_larger_terminal_brings_the_segment_list_up_with_its_rows():
     async with operator() as one:
         await one.pilot.resize_terminal(132, 43)
         await one.settle()
-        assert one.screen.query_exactly_one("#segments").row_count == 12
+        assert one.screen.query_exactly_one("#segments", DataTable).row_count == 12
 
 
 async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
     async with operator("notch") as one:
         await one.press("f10")
         assert one.prompt.startswith("Up and down show the places of the findings.")
-        shown = "".join(str(option.prompt) for option in one.screen.query_exactly_one("#findings").options)
+        shown = "".join(str(option.prompt) for option in one.screen.query_exactly_one("#findings", OptionList).options)
         assert shown.count("Corner too tight") == 1
 
 

@@ -171,7 +171,8 @@ def last_number(case: dict[str, Any]) -> tuple[int, str, float]:
 def blanked(program: Program, segment: int, field: str) -> Program:
     """The program before a field of a segment was typed."""
     block = program.blocks[0]
-    before = replace(block.segments[segment - 1], **{field: None})
+    blank: dict[str, Any] = {field: None}
+    before = replace(block.segments[segment - 1], **blank)
     segments = (*block.segments[: segment - 1], before, *block.segments[segment:])
     return replace(program, blocks=(replace(block, segments=segments),))
 
