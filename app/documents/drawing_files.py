@@ -12,11 +12,12 @@ import time
 from collections.abc import Callable
 from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
 from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 from typing import Final, Generic, TypeVar, cast
 
 from core.importing.contours import ContourList, ImportOptions, contours_of
@@ -148,6 +149,7 @@ def _work(there: Connection, cache: str, function: Callable[..., object], argume
     """In the process: the result or the error goes through the pipe."""
     # Ctrl+C is for the process that waits
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, daemon=True).start()
     _spare_fonts(Path(cache))
     sent = 0.0
 
@@ -168,6 +170,14 @@ def _work(there: Connection, cache: str, function: Callable[..., object], argume
         message = DrawingError("TOO_MUCH", "The drawing needs more memory than there is.")
     with suppress(BrokenPipeError):
         there.send(message)
+
+
+def _end_with_parent() -> None:
+    """In the process: end at once when the program that waits for it is gone, however it went."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _spare_fonts(cache: Path) -> None:

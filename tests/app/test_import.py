@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -159,3 +163,37 @@ def test_a_screen_reads_and_lists_a_drawing_in_workers() -> None:
     with pytest.raises(DrawingError) as refused:
         drawing_lister(drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf", None).result()
     assert refused.value.readable == 1
+
+
+KILLED = """
+import os, signal, time
+from app.documents.drawing_files import Worker
+from tests.app.test_import import wait_for_ever
+
+if __name__ == "__main__":
+    worker = Worker(wait_for_ever)
+    print(worker._process.pid, flush=True)
+    time.sleep(1.0)
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_worker_ends_with_the_program_that_was_killed(tmp_path: Path) -> None:
+    script = tmp_path / "killed.py"
+    script.write_text(KILLED)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    ended = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False)
+    child = int(ended.stdout)
+    for _ in range(500):
+        if not running(child):
+            break
+        time.sleep(0.02)
+    assert not running(child)
+
+
+def running(pid: int) -> bool:
+    """Whether a process does anything still; one that nobody has waited for does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
