@@ -15,17 +15,30 @@ from textual import work
 from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
+from app.documents.files import refuse_program, write_output
 from app.documents.folders import chosen
 from app.documents.left_overs import file_of_copy
 from app.documents.naming import is_drawing, is_folder, program_named, typed
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.patience import DISK, Disk
-from app.documents.questions import DISCARD, GO_BACK, LEAVE, SAVE, Ask, held_sentence, leaving, name_of, not_answering
+from app.documents.questions import (
+    DISCARD,
+    GO_BACK,
+    LEAVE,
+    SAVE,
+    Ask,
+    before_output,
+    held_sentence,
+    leaving,
+    name_of,
+    not_answering,
+)
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
 from app.screens.dialogs import Answer, Phrase, Question
 from app.session.messages import Tone
 from app.session.session import SEGMENT, Session
+from core.program.file.read import StoreError
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -411,6 +424,29 @@ class FileActions(App[int]):
             proof.saved(result.document)
             self.notify(result.notice.text, timeout=4)
         return isinstance(result, Saved)
+
+    async def may_write(self, path: Path, file: Path | None) -> bool:
+        """Whether what is made of the program of `file` may be written there; only in a worker."""
+
+        def before() -> Ask | None:
+            refuse_program(path)
+            return before_output(path, file)
+
+        try:
+            ask = await self.on_disk(before)
+        except StoreError as error:
+            self.say(error.text, Tone.ERROR)
+            return False
+        return ask is None or await self.ask(ask) != GO_BACK
+
+    async def write(self, path: Path, text: str) -> bool:
+        """Write what is made of the program; whether it was written.  Only in a worker."""
+        try:
+            await self.on_disk(lambda: write_output(path, text))
+        except StoreError as error:
+            self.say(error.text, Tone.ERROR)
+            return False
+        return True
 
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""

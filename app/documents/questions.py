@@ -13,7 +13,7 @@ from typing import Final
 
 from app.documents import times
 from app.documents.document import Document
-from app.documents.folders import folder, printable_path
+from app.documents.folders import folder, outside, printable_path
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import UNNAMED, Unreadable
 from app.documents.lock import Owner
@@ -133,6 +133,13 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
         lines.append(f"{printable_path(path)} leads there.")
     lines += _replaced(target, holder) if target.exists() else []
     return Ask("WRITE IN ANOTHER FOLDER?", tuple(lines), (Answer(WRITE_THERE),))
+
+
+def before_output(path: Path, file: Path | None) -> Ask | None:
+    """Before what is made of the program of a file is written into another folder, or in the place of something."""
+    if outside(path, file):
+        return write_outside(path, file, None)
+    return replace_file(path, None) if os.path.lexists(path) else None
 
 
 def write_through_link(path: Path) -> Ask:

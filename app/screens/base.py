@@ -113,6 +113,12 @@ class Host(Protocol):
     def save_as(self, text: str) -> None:
         """Save the program under a typed name."""
 
+    async def may_write(self, path: Path, file: Path | None) -> bool:
+        """Whether what is made of the program of `file` may be written there; asks.  Only in a worker."""
+
+    async def write(self, path: Path, text: str) -> bool:
+        """Write what is made of the program; whether it was written.  Only in a worker."""
+
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""
 

@@ -16,7 +16,7 @@ from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.documents.naming import typed, with_suffix
-from app.screens.dialogs import Answer, Phrase, Question
+from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
@@ -26,7 +26,6 @@ from app.session.work import Work
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
-from core.program.file.read import StoreError
 from core.progress import Stopped
 
 if TYPE_CHECKING:
@@ -209,28 +208,18 @@ class PostScreen(EntryScreen):
         await self._write(path, override)
 
     async def _write(self, path: Path, override: str | None) -> None:
-        from app.documents.files import write_output
-        from app.documents.folders import chosen, outside, written_at
+        from app.documents.folders import chosen, written_at
 
         session = self.current_session
         path = with_suffix(chosen(path, session.file), ".nc")
-        if outside(path, session.file):
-            asked = Question("WRITE OUTSIDE THE FOLDER?", [f"{path}"], [Answer("WRITE")], "GO BACK")
-            if await self.app.push_screen_wait(asked) != "WRITE":
-                return
-        elif path.exists():
-            asked = Question("REPLACE THE FILE?", [f"{path} exists."], [Answer("REPLACE")], "GO BACK")
-            if await self.app.push_screen_wait(asked) != "REPLACE":
-                return
+        if not await self.host.may_write(path, session.file):
+            return
         # made again under the name that was typed; nothing stale is written
         made = await asyncio.to_thread(nc_text, session.program, path.stem, self.choice, override)
         if made.against and override is None:
             self.say(f"NOT POSTED: {made.against[0]}", Tone.ERROR)
             return
-        try:
-            write_output(path, made.text)
-        except StoreError as error:
-            self.say(str(error), Tone.ERROR)
+        if not await self.host.write(path, made.text):
             return
         lines = made.text.count("\n")
         self.notify(f"Posted: {written_at(path)}, {lines} lines.", timeout=5)

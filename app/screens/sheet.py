@@ -10,16 +10,13 @@ from textual.app import ComposeResult
 from textual.content import Content
 from textual.widgets import Static
 
-from app.documents.files import refuse_program, write_output
-from app.documents.folders import chosen, outside, printable_path, written_at
+from app.documents.folders import chosen, written_at
 from app.documents.naming import typed, with_suffix
-from app.screens.dialogs import Answer, Question
 from app.screens.entry_screen import EntryScreen
-from app.session.messages import Sentence, Tone
+from app.session.messages import Sentence
 from app.session.posting import setup_sheet
 from app.session.session import Session
 from app.widgets.softkeys import Softkey
-from core.program.file.read import StoreError
 from core.program.model import Program
 
 PAGES = (".html", ".htm")
@@ -67,22 +64,9 @@ class SheetScreen(EntryScreen):
     @work(exclusive=True, group="question")
     async def _write(self, path: Path) -> None:
         session = self.current_session
-        try:
-            refuse_program(path)
-        except StoreError as error:
-            self.say(str(error), Tone.ERROR)
+        if not await self.host.may_write(path, session.file):
             return
-        word, title, line = "", "", printable_path(path)
-        if outside(path, session.file):
-            word, title = "WRITE THERE", "WRITE IN ANOTHER FOLDER?"
-        elif path.exists():
-            word, title, line = "REPLACE", "REPLACE THE FILE?", f"{line} exists."
-        if word and await self.app.push_screen_wait(Question(title, [line], [Answer(word)], "GO BACK")) != word:
-            return
-        try:
-            write_output(path, setup_sheet(session.program, path, self.host.now()))
-        except StoreError as error:
-            self.say(str(error), Tone.ERROR)
+        if not await self.host.write(path, setup_sheet(session.program, path, self.host.now())):
             return
         self.notify(f"Setup sheet: {written_at(path)}", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")

@@ -266,3 +266,30 @@ async def test_the_current_folder_may_go_away(folder, monkeypatch):
         await one.press("escape", "ctrl+o")
         assert isinstance(app.screen, HomeScreen)
     service.stop()
+
+
+@pytest.mark.parametrize("action", ["app.post", "app.sheet"])
+async def test_what_is_made_of_a_program_asks_before_another_folder_or_a_file_and_never_replaces_a_program(
+    folder, action
+):
+    (folder.parent / "x.txt").write_text("somebody's")
+    async with at_work(folder) as one:
+        await one.app.run_action(action)
+        await one.app.workers.wait_for_complete()
+        await one.pilot.pause()
+        screen = one.screen
+        for name, title in (("../x.txt", "WRITE IN ANOTHER FOLDER?"), ("settings.toml", ""), ("note.txt", "REPLACE")):
+            (folder / "note.txt").write_text("somebody's")
+            screen.query_one("#entry", Input).value = name
+            await one.press("enter")
+            if not title:
+                assert "is a program and would be overwritten" in one.prompt
+                continue
+            assert isinstance(one.app.screen, Question)
+            assert one.app.screen.question.startswith(title)
+            assert "Its content is replaced." in " ".join(one.app.screen.lines)
+            await one.press("escape")
+        assert {(folder.parent / "x.txt").read_text(), (folder / "note.txt").read_text()} == {"somebody's"}
+        await one.press("enter", "r")
+        await one.app.workers.wait_for_complete()
+        assert (folder / "note.txt").read_text() != "somebody's"

@@ -15,6 +15,9 @@ from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
 
+PATIENCE = 60.0
+"""Seconds that a busy machine may take for a step."""
+
 
 @contextmanager
 def operator(part: Path, login: str) -> Iterator[Terminal]:
@@ -28,38 +31,38 @@ def operator(part: Path, login: str) -> Iterator[Terminal]:
 def killed(terminal: Terminal) -> None:
     """kill -9, waited for: a dead one that nobody has waited for counts as running."""
     os.kill(terminal.pid, signal.SIGKILL)
-    status(terminal, 5.0)
+    status(terminal, PATIENCE)
 
 
 def tool(terminal: Terminal, number: str, undo: int) -> None:
     """TOOL typed, from wherever the cursor is."""
     terminal.send(b"\x1b[1;5H\t" + number.encode() + b"\t")
-    terminal.until(f"undo {undo}")
+    terminal.until(f"undo {undo}", longest=PATIENCE)
 
 
 def saved(terminal: Terminal) -> None:
     terminal.send(b"\x13")
-    terminal.until("Saved")
+    terminal.until("Saved", longest=PATIENCE)
     terminal.send(b"\x11")
-    assert status(terminal, 5.0) == 0
+    assert status(terminal, PATIENCE) == 0
 
 
 def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(part: Path) -> None:
     with operator(part, "ann") as ann:
-        ann.until("MILL CONTOUR")
+        ann.until("MILL CONTOUR", longest=PATIENCE)
         tool(ann, "7", 1)
         killed(ann)
     with operator(part, "bob") as bob:
-        bob.until("part.toml by ann")
+        bob.until("part.toml by ann", longest=PATIENCE)
         bob.send(b"l")
-        bob.until("Kept for ann")
+        bob.until("Kept for ann", longest=PATIENCE)
         tool(bob, "9", 1)
         saved(bob)
     assert load(part).blocks[0].tool == Number(9.0)
     with operator(part, "ann") as ann:
-        ann.until("TOOL 7, was 9")
+        ann.until("TOOL 7, was 9", longest=PATIENCE)
         ann.send(b"r")
-        ann.until("Your work is back")
+        ann.until("Your work is back", longest=PATIENCE)
         saved_over(ann)
     assert load(part).blocks[0].tool == Number(7.0)
 
@@ -67,32 +70,32 @@ def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(p
 def saved_over(terminal: Terminal) -> None:
     """The file was written since the work began: both are kept."""
     terminal.send(b"\x13")
-    terminal.until("CHANGED MEANWHILE")
+    terminal.until("CHANGED MEANWHILE", longest=PATIENCE)
     terminal.send(b"y")
-    terminal.until("Saved")
+    terminal.until("Saved", longest=PATIENCE)
 
 
 def test_what_was_typed_on_after_a_take_over_is_offered_at_the_next_start(part: Path) -> None:
     with operator(part, "ann") as first:
-        first.until("MILL CONTOUR")
+        first.until("MILL CONTOUR", longest=PATIENCE)
         tool(first, "7", 1)
         typed_on_after_a_take_over(part, first)
     with operator(part, "ann") as again:
-        again.until("UNSAVED WORK FOUND")
-        again.until("2 edits")
+        again.until("UNSAVED WORK FOUND", longest=PATIENCE)
+        again.until("2 edits", longest=PATIENCE)
 
 
 def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
     """By the same login; what the first one typed since is seen by nobody."""
     with operator(part, "ann") as second:
-        second.until("OPEN ALREADY")
+        second.until("OPEN ALREADY", longest=PATIENCE)
         second.send(b"t")
-        second.until("UNSAVED WORK FOUND")
+        second.until("UNSAVED WORK FOUND", longest=PATIENCE)
         second.send(b"r")
-        second.until("Your work is back")
+        second.until("Your work is back", longest=PATIENCE)
         first.send(b"\x1b[1;5H\t2\t")
-        first.until("has had this program open")
-        first.until("undo 2")
+        first.until("has had this program open", longest=PATIENCE)
+        first.until("undo 2", longest=PATIENCE)
         killed(first)
         tool(second, "8", 2)
         saved(second)
@@ -102,18 +105,18 @@ def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
 def test_a_lock_without_content_is_nobodys(part: Path, content: bytes) -> None:
     part.with_name(f".{part.name}.cutcomp-lock").write_bytes(content)
     with operator(part, "ann") as ann:
-        ann.until("MILL CONTOUR")
+        ann.until("MILL CONTOUR", longest=PATIENCE)
         ann.read(quiet=0.3)
         assert "OPEN ALREADY" not in ann.text
 
 
 def test_what_may_only_be_looked_at_says_so(part: Path) -> None:
     with operator(part, "ann") as ann:
-        ann.until("MILL CONTOUR")
+        ann.until("MILL CONTOUR", longest=PATIENCE)
         with operator(part, "bob") as bob:
-            bob.until("OPEN ALREADY")
+            bob.until("OPEN ALREADY", longest=PATIENCE)
             bob.send(b"l")
-            bob.until("LOOK ONLY part")
+            bob.until("LOOK ONLY part", longest=PATIENCE)
             bob.send(b"\t7")
             bob.read(quiet=0.3)
             assert "LOOK ONLY part" in bob.text
