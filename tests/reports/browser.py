@@ -88,7 +88,7 @@ class Browser:
             await self.ask("Input.dispatchKeyEvent", type="keyUp", modifiers=held, **{**values, "text": ""})
             await asyncio.sleep(0.15)
 
-    async def until(self, text: str, *, longest: float = 20.0) -> None:
+    async def until(self, text: str, *, longest: float = 60.0) -> None:
         """Wait for a text on the screen; AssertionError with the screen if it never comes."""
         for _ in range(int(longest / 0.05)):
             if text in self.text:
@@ -146,7 +146,7 @@ async def browsing(program: str, address: str) -> AsyncIterator[Browser]:
 
 async def _port(file: Path) -> int:
     """The browser writes its own port there."""
-    for _ in range(400):
+    for _ in range(1600):
         if file.exists() and (lines := file.read_text().splitlines()):
             return int(lines[0])
         await asyncio.sleep(0.05)

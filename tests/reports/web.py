@@ -46,7 +46,7 @@ def serving(folder: Path, port: int) -> Iterator[str]:
             stderr=subprocess.DEVNULL,
         )
     try:
-        for _ in range(200):
+        for _ in range(1200):
             with socket.socket() as one:
                 if one.connect_ex(("127.0.0.1", port)) == 0:
                     break
@@ -61,26 +61,28 @@ async def keyed(program: str, page: str, folder: Path, picture: Path | None) -> 
     """A plate keyed in by the guide's words; what was seen on the way."""
     seen = []
     async with browsing(program, page) as browser:
-        await browser.until("GUIDED FIRST")
+        await browser.until("GUIDED FIRST", longest=60.0)
         seen.append(f"start screen, {browser.screen.columns}x{browser.screen.lines}")
         # not F7, which Chromium keeps to itself
         await asyncio.sleep(1.0)
-        await browser.press("escape", "7")
+        await browser.press("ctrl+k", "7")
         await browser.until("GUIDE  Enter")
-        await browser.press("enter", "enter", "l", "tab", "tab", *"1", "enter", *"0", "enter", *"0", "enter")
-        await browser.press(*"-.25", "enter", "pagedown", "l", *"0", "enter", *"0", "enter", "enter", "enter", "enter")
-        await browser.press(*"10", "enter")
-        for x, y in ("01", "21", "20", "10"):
-            await browser.press("l", x, "enter", y, "enter", "pagedown")
-        await browser.press("escape")
+        await browser.press("enter", "l", "enter", *"1", "enter", *"0", "enter", *"-.25", "enter")
+        await browser.until("LINE")
+        for x, y in ("00", "01", "21", "20", "10"):
+            await browser.press(x, "enter", y, "enter")
         await browser.until("GOUGE none")
         seen.append("plate keyed in, GOUGE none")
         if picture is not None:
             await browser.picture(picture)
-        await browser.press("ctrl+s", "delete", *"plate", "enter")
+        await browser.press("ctrl+s")
+        await browser.until("SAVE AS")
+        await browser.press(*"plate", "enter")
         await browser.until("Saved")
-        await browser.press("escape", "8", "f6")
-        await browser.until("Nothing stands against posting")
+        await browser.press("f8")
+        await browser.until("PROGRAM")
+        await browser.press("f3")
+        await browser.until("POST NC")
         await browser.press("enter")
         await browser.until("Posted")
         seen.append(f"posted, {len((folder / 'plate.nc').read_text().splitlines())} lines")
