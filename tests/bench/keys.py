@@ -1,21 +1,8 @@
-"""First paint and key-to-screen times through a real pseudo-terminal: `python -m tests.bench.keys`.
+"""Bytes and work of a key on the screens made of widgets, beside stock Textual: `python -m tests.bench.keys`.
 
-The empty Textual app is started in turn with the program, so that both see the same machine; medians are printed
-side by side.  Keys are typed into two contours of 200 segments: a plate whose every corner the tool reaches, and a
-gear none of whose 50 gaps it enters, where every remedy is tried after every change.
-
-Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.  `changed` is
-the time from the key to the first screen that shows the derived path, `finished` that to the last byte: by then the
-look-ahead table stands, and what the contour needs.  `there` is the work of both as it would be where the bars were
-set: by how many times slower a minimal Textual app starts here or rs274 runs, the smaller of the two.
-Where half-typed numbers are tried out in a thread, `changed` is the screen with the digit, on which the accepted path
-still stands: then only `finished` tells the rest.
-The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  So what
-would help has been tried for a half-typed number before Enter, as for an operator who looks at the screen; behind keys
-without a rest it follows Enter.  `idle` are the bytes sent while nobody types, which must be 0.
-
-`a LINE as it is typed` is every key of typing the ends of lines anew, in the mix in which an operator presses them:
-half a number is another contour, often a wild one.
+A stock form of 13 labelled Inputs and the program on a plate of 200 segments are started in turn in one run on
+one machine, so that ratios can be trusted where times cannot.  `work` is the processor's time of a key until the screen
+is at rest, for the program with everything that its workers derive; `echo` is the work until the first byte.
 """
 
 from __future__ import annotations
@@ -36,12 +23,28 @@ from pathlib import Path
 from app.documents.files import save
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program, Segment, Tool
-from tests.bench.machine import EMPTY_SECONDS, Slowness, at_work, rs274_slowness, worked
-from tests.terminal import Terminal, running
+from tests.bench.machine import at_work, worked
+from tests.terminal import Terminal, cutcomp, running
 
+STOCK_FORM = """
+from textual.app import App
+from textual.containers import Horizontal
+from textual.widgets import Input, Label
+
+class Form(App):
+    CSS = "Horizontal { height: 1; } Label { width: 20; } Input { width: 14; }"
+
+    def compose(self):
+        for number in range(13):
+            with Horizontal():
+                yield Label(f"FIELD {number}")
+                yield Input(compact=True)
+
+Form().run(mouse=False)
+"""
 EMPTY_APP = """
 from textual.app import App
-from textual.widgets import Static
+from textual.widgets import Input, Static
 
 class Empty(App):
     def compose(self):
@@ -175,124 +178,74 @@ def first_paint(arguments: list[str], text: str) -> float:
         return time.perf_counter() - begun
 
 
-def empty_paint() -> float:
-    """The same of the empty app."""
-    return first_paint([sys.executable, "-c", EMPTY_APP], "READY")
-
-
-def slowness(rounds: int) -> Slowness:
-    """How much slower than where the bars were set the empty app is here, and rs274."""
-    empty = statistics.median(empty_paint() for _ in range(rounds))
-    return Slowness(rs274_slowness(), empty / EMPTY_SECONDS)
-
-
-def side_by_side(program: Program, rounds: int) -> tuple[float, float]:
-    """Median first paint of the empty app and of ours on a program, started in turn."""
-    with tempfile.TemporaryDirectory() as folder:
-        save(program, path := Path(folder) / "part.toml")
-        ours = [sys.executable, "-m", "app", str(path)]
-        empty, own = zip(*((empty_paint(), first_paint(ours, "MILL CONTOUR")) for _ in range(rounds)), strict=True)
-    return statistics.median(empty), statistics.median(own)
-
-
 @contextmanager
-def opened(program: Program) -> Iterator[Terminal]:
-    """Our program at rest on a file of its own, beside which no earlier run has left unsaved work."""
+def program_at_rest(program: Program) -> Iterator[Terminal]:
+    """The program on a file of its own."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.toml"
         save(program, path)
-        with running([sys.executable, "-m", "app", str(path)]) as terminal:
+        with running(cutcomp(str(path))) as terminal:
             terminal.until("MILL CONTOUR")
             answer(terminal, b"")
             yield terminal
 
 
-def key_answers(program: Program, before: list[bytes], keys: list[bytes]) -> list[Answer]:
-    """Type the keys one by one, each after the program has come to rest, behind some that are not counted."""
-    with opened(program) as terminal:
-        for key in before:
-            answer(terminal, key)
-        return [answer(terminal, key) for key in keys]
+@contextmanager
+def stock_at_rest() -> Iterator[Terminal]:
+    """The stock form."""
+    with running([sys.executable, "-c", STOCK_FORM]) as terminal:
+        terminal.until("FIELD 12")
+        answer(terminal, b"")
+        yield terminal
 
 
-def tabs_and_idle(program: Program, count: int) -> tuple[list[Answer], int]:
-    """Tab through the fields, then do nothing: the answers, and the bytes that come all the same."""
-    with opened(program) as terminal:
-        answers = [answer(terminal, b"\t") for _ in range(count)]
-        return answers, terminal.read(quiet=IDLE, longest=IDLE).count
+def report(name: str, answers: list[Answer]) -> str:
+    """One line: medians of work in milliseconds and of bytes, and the 95th percentile of the bytes."""
+    work, echo = (1000 * statistics.median(each.work[index] for each in answers) for index in (1, 0))
+    sizes = sorted(each.count for each in answers)
+    high = sizes[round(0.95 * (len(sizes) - 1))]
+    return f"{name:<34}{echo:9.1f}{work:9.1f}{statistics.median(sizes):9.0f}{high:9}{len(answers):5}"
 
 
-def report(name: str, answers: list[Answer], slower: float | None = None) -> str:
-    """One line of the table: milliseconds and bytes, median and 95th percentile; then the work as it would be there."""
-    times = ((one.changed, one.work[0], one.finished, one.work[1]) for one in answers)
-    told = [_middle_and_high([1000 * value for value in column]) for column in zip(*times, strict=True)]
-    sizes = _middle_and_high([float(one.count) for one in answers])
-    there = [] if slower is None else [(middle / slower, high / slower) for middle, high in told[1::2]]
-    here, beyond = ("".join(f"{middle:8.1f}{high:7.1f}" for middle, high in columns) for columns in (told, there))
-    return f"{name:<33}{here}{sizes[0]:7.0f}{sizes[1]:6.0f}{len(answers):5}{beyond}"
-
-
-def _middle_and_high(values: list[float]) -> tuple[float, float]:
-    return statistics.median(values), sorted(values)[round(0.95 * (len(values) - 1))]
-
-
-def line_keys(program: Program, number: int) -> Iterator[bytes]:
-    """The keys that type a LINE's ends anew, X moved a little, and lead to X END of the LINE four segments on."""
-    x, y = _ends(program, number)
-    for value in (x + 0.004, y):
-        yield from (digit.encode() for digit in f"{value:.4f}")
-        yield b"\r"
-    yield from (b"\t", b"\x1b[A")
-    yield from [b"\x1b[6~"] * 4
-    yield b"\t"
-
-
-def rows_of(program: Program, name: str, number: int, count: int, slower: float) -> Iterator[str]:
-    """The table of one program, `count` keys of each kind; `number` is a LINE whose X END is moved to and fro."""
-    x, _ = _ends(program, number)
-    digits = [str(digit % 10).encode() for digit in range(count)]
-    yield report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits), slower)
-    there = [str(number).encode(), b"\r", b"\t"]
-    typed = [key for digit in digits for key in (digit, b"\x7f")]
-    yield report(f"{name}: a digit of X END", key_answers(program, [*there, str(x).encode()], typed)[::2], slower)
-    tabs, idle = tabs_and_idle(program, count)
-    yield report(f"{name}: Tab", tabs, slower)
-    depths = [key for row in range(count) for key in (f"-.{row + 26}".encode(), b"\r", b"\x1b[A")]
-    yield report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths)[1::3], slower)
-    points = [key for row in range(count) for key in (f"{x + 0.004 * (row % 5 + 1):.4f}".encode(), b"\r", b"\x1b[A")]
-    yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3], slower)
-    lines = [key for line in range(max(1, count // 3)) for key in line_keys(program, number + 4 * line)]
-    yield report(f"{name}: a LINE as it is typed", key_answers(program, there, lines), slower)
-    yield f"{f'{name}: idle for {IDLE:.0f} s':<93}{idle:7}"
+def paints(program: Program, rounds: int) -> tuple[float, float]:
+    """Median seconds to the first paint of an empty app that imports Input, and of the program, in turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        save(program, path := Path(folder) / "part.toml")
+        ours = cutcomp(str(path))
+        empty = [sys.executable, "-c", EMPTY_APP]
+        pairs = [(first_paint(empty, "READY"), first_paint(ours, "MILL CONTOUR")) for _ in range(rounds)]
+    return statistics.median(pair[0] for pair in pairs), statistics.median(pair[1] for pair in pairs)
 
 
 def main() -> None:
-    """Print the tables, row by row."""
+    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--starts", type=int, default=9, help="starts of the empty app and of ours")
-    parser.add_argument("--keys", type=int, default=6, help="keys of each kind")
+    parser.add_argument("--starts", type=int, default=5)
+    parser.add_argument("--keys", type=int, default=8)
     options = parser.parse_args()
-    empty, ours = side_by_side(gear(200), options.starts)
+    program = plate()
+    empty, ours = paints(program, options.starts)
     print(f"first paint   empty app {1000 * empty:.0f} ms   cutcomp {1000 * ours:.0f} ms   {ours / empty:.2f}:1")
-    if not options.keys:
-        return
-    print(
-        f"{'median and 95th percentile':<33}{'changed':>15}{'work':>15}{'finished':>15}{'work':>15}{'bytes':>13}    n"
-        f"{'there':>15}{'there':>15}"
-    )
-    for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
-        print((slower := slowness(options.starts)).told())
-        for row in rows_of(contour, name, number, options.keys, slower.least):
-            print(row, flush=True)
-    print(slowness(options.starts).told())
-
-
-def _ends(program: Program, number: int) -> tuple[float, float]:
-    segment = program.blocks[0].segments[number - 1]
-    assert isinstance(segment, LineSegment)
-    assert isinstance(segment.x_end, Number)
-    assert isinstance(segment.y_end, Number)
-    return segment.x_end.value, segment.y_end.value
+    print(f"{'':<34}{'echo':>9}{'work':>9}{'bytes':>9}{'95 %':>9}{'n':>5}")
+    digits = [str(row % 10).encode() for row in range(options.keys)]
+    with stock_at_rest() as terminal:
+        print(report("stock form: a digit", [answer(terminal, digit) for digit in digits]))
+        print(report("stock form: Tab", [answer(terminal, b"\t") for _ in digits]), flush=True)
+    every: list[Answer] = []
+    with program_at_rest(program) as terminal:
+        for key in (b"105", b"\r", b"\t"):
+            answer(terminal, key)
+        rows = {
+            "a digit of X END": [answer(terminal, digit) for digit in digits],
+            "Esc": [answer(terminal, b"\x1b")],
+            "Tab": [answer(terminal, b"\t") for _ in digits],
+            "Page Down": [answer(terminal, b"\x1b[6~") for _ in digits],
+        }
+        for name, answers in rows.items():
+            print(report(f"plate: {name}", answers), flush=True)
+            every += answers
+        print(report("plate: every key", every))
+        print(f"plate: idle for {IDLE:.0f} s: {terminal.read(quiet=IDLE, longest=IDLE).count} bytes")
 
 
 if __name__ == "__main__":
