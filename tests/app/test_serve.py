@@ -8,8 +8,6 @@ import json
 import os
 import shlex
 import signal
-import socket
-import subprocess
 import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -24,8 +22,8 @@ import aiohttp
 
 from app.cli import web, web_children
 from app.cli.web import FULL, SESSIONS
+from tests.app.serving import WITHOUT_PRCTL, children, free_port, none_left, server, some_children
 
-ROOT = Path(__file__).parents[2]
 SECRET = "a-secret-of-the-test"
 QUIET = [
     sys.executable,
@@ -33,12 +31,6 @@ QUIET = [
     "import os; print('__GANGLION__', flush=True)\nwhile b'quit' not in os.read(0, 9999): pass",
 ]
 """A program that paints nothing and ends when it is asked to."""
-
-
-def free_port() -> int:
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return int(one.getsockname()[1])
 
 
 @asynccontextmanager
@@ -156,29 +148,6 @@ def python(program: str) -> list[str]:
     return [sys.executable, "-c", program]
 
 
-def children(process: int) -> list[int]:
-    """The programs that a process has started and that have not ended."""
-    path = Path(f"/proc/{process}/task/{process}/children")
-    return [int(word) for word in path.read_text().split() if alive(int(word))]
-
-
-def alive(process: int) -> bool:
-    """Whether a process is there and no zombie."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
-async def none_left(processes: list[int], longest: float) -> list[int]:
-    """The processes that are left after this many seconds, or none as soon as there is none."""
-    for _ in range(int(longest / 0.05)):
-        if not any(map(alive, processes)):
-            break
-        await asyncio.sleep(0.05)
-    return [each for each in processes if alive(each)]
-
-
 async def test_a_page_that_asks_for_any_size_gets_a_screen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Seen: 5 columns and 100,000 lines of a page that had not measured its type took a gigabyte a minute."""
     async with served(monkeypatch, python(ECHO)) as site:
@@ -235,41 +204,6 @@ def handshake(root: str) -> bytes:
         "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==",
     )
     return ("\r\n".join(lines) + "\r\n\r\n").encode()
-
-
-async def some_children(process: int) -> list[int]:
-    """The programs a process has started, once there are any."""
-    for _ in range(200):
-        if started := children(process):
-            return started
-        await asyncio.sleep(0.05)
-    raise AssertionError("no program was started")
-
-
-WITHOUT_PRCTL = "web_children.dies_with_parent = lambda: None"
-
-
-@asynccontextmanager
-async def server(folder: Path, before: str) -> AsyncIterator[tuple[subprocess.Popen[bytes], str]]:
-    """`cutcomp serve` as a process of its own, and the address it has printed."""
-    code = f"from app.cli import web_children; {before}\nfrom app.__main__ import main; main(['serve', '--port', "
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
-    process = subprocess.Popen(
-        [sys.executable, "-c", f"{code}'{free_port()}'])"],
-        cwd=folder,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-    )
-    assert process.stdout is not None
-    try:
-        line = await asyncio.to_thread(process.stdout.readline)
-        assert line.startswith(b"Open http://")
-        yield process, line.decode().split()[-1]
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find the programs")

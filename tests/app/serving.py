@@ -1,0 +1,80 @@
+"""`cutcomp serve` as a process, and the programs it has started, for tests and reports."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def free_port() -> int:
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return int(one.getsockname()[1])
+
+
+def children(process: int) -> list[int]:
+    """The programs that a process has started and that have not ended."""
+    path = Path(f"/proc/{process}/task/{process}/children")
+    return [int(word) for word in path.read_text().split() if alive(int(word))]
+
+
+def alive(process: int) -> bool:
+    """Whether a process is there and no zombie."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+async def none_left(processes: list[int], longest: float) -> list[int]:
+    """The processes that are left after this many seconds, or none as soon as there is none."""
+    for _ in range(int(longest / 0.05)):
+        if not any(map(alive, processes)):
+            break
+        await asyncio.sleep(0.05)
+    return [each for each in processes if alive(each)]
+
+
+async def some_children(process: int) -> list[int]:
+    """The programs a process has started, once there are any."""
+    for _ in range(200):
+        if started := children(process):
+            return started
+        await asyncio.sleep(0.05)
+    raise AssertionError("no program was started")
+
+
+WITHOUT_PRCTL = "web_children.dies_with_parent = lambda: None"
+
+
+@asynccontextmanager
+async def server(
+    folder: Path, before: str = "pass", environment: dict[str, str] | None = None
+) -> AsyncIterator[tuple[subprocess.Popen[bytes], str]]:
+    """`cutcomp serve` as a process of its own, and the address it has printed."""
+    code = f"from app.cli import web_children; {before}\nfrom app.__main__ import main; main(['serve', '--port', "
+    own = {"PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
+    process = subprocess.Popen(
+        [sys.executable, "-c", f"{code}'{free_port()}'])"],
+        cwd=folder,
+        env=os.environ | own | (environment or {}),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
+    assert process.stdout is not None
+    try:
+        line = await asyncio.to_thread(process.stdout.readline)
+        assert line.startswith(b"Open http://")
+        yield process, line.decode().split()[-1]
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
