@@ -31,7 +31,7 @@ def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, more: di
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     take(part, ELSEWHERE)
     with running([*PROGRAM, str(part)], environment={"TERM": term, **more}) as terminal:
-        terminal.until("OPEN ALREADY")
+        terminal.until("OPEN ALREADY", longest=30.0)
         terminal.read(quiet=0.3)
         terminal.send(b"l")
         terminal.until("GOUGE none", longest=30.0)
@@ -55,16 +55,18 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
     """On 20 by 5, and on one cell, the keys still act; larger again, everything is there."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     with running([*PROGRAM, str(part)], columns=size[0], rows=size[1]) as terminal:
-        terminal.read(quiet=1.0)
+        while b"\x1b[?1049h" not in terminal.seen:
+            terminal.read(quiet=0.2)
+        terminal.read(quiet=1.5)
         for key in (b"\t\t\t\t", b"\x1b[18~", b"+", b"\x1b[C", b"\x1b[18~", b"\x1b[19~", b"2.5\r"):
             terminal.send(key)
             terminal.read(quiet=0.2)
         assert terminal.ended() is None
         if size[0] >= 20:
-            assert "60x20" in terminal.text
+            terminal.until("60x20", longest=30.0)
         terminal.resize(80, 24)
         terminal.until("GOUGE", longest=30.0)
-        terminal.until("2.5000")
+        terminal.until("2.5000", longest=30.0)
         terminal.until("undo 1")
 
 

@@ -61,7 +61,7 @@ async def keyed(program: str, page: str, folder: Path, picture: Path | None) -> 
     """A plate keyed in by the guide's words; what was seen on the way."""
     seen = []
     async with browsing(program, page) as browser:
-        await browser.until("GUIDED FIRST", longest=60.0)
+        await browser.until("GUIDED", longest=60.0)
         seen.append(f"start screen, {browser.screen.columns}x{browser.screen.lines}")
         # not F7, which Chromium keeps to itself
         await asyncio.sleep(1.0)
