@@ -30,8 +30,13 @@ def turn_of(segment: Mapping[str, Any]) -> int:
 # the generator
 
 
-def random_case(seed: int, least: int = 2, most: int = 5, *, points: bool = False) -> tuple[Case, list[dict[str, Any]]]:
-    """A run with as many data as it has unknowns, and the answer it was made from; with `points` some are POINTs."""
+def random_case(
+    seed: int, least: int = 2, most: int = 5, *, points: bool = False, relative: bool = False
+) -> tuple[Case, list[dict[str, Any]]]:
+    """A run with as many data as it has unknowns, and the answer it was made from.
+
+    With `points` some data are POINTs, with `relative` some count from the start or from the heading before.
+    """
     pick = random.Random(seed)
     start = (pick.uniform(-50.0, 50.0), pick.uniform(-50.0, 50.0))
     pieces, tangents = _contour(pick, start, pick.randint(least, most))
@@ -52,8 +57,28 @@ def random_case(seed: int, least: int = 2, most: int = 5, *, points: bool = Fals
         segment: dict[str, Any] = {key: piece[key] for key in ("kind", "direction") if key in piece}
         segment |= {name: pools[index][name] for at, name in chosen if at == index}
         segment |= segment.pop("point", {})
-        segments.append(segment)
+        segments.append(_made_relative(pick, segment, pieces, index, start) if relative else segment)
     return {"units": "MM", "start": list(start), "segments": segments}, pieces
+
+
+def _made_relative(
+    pick: random.Random, segment: dict[str, Any], pieces: Sequence[Piece], index: int, start: tuple[float, float]
+) -> dict[str, Any]:
+    """A segment of which about half of the numbers that can be are relative."""
+    before = pieces[index - 1] if index else {"x_end": start[0], "y_end": start[1]}
+    bases = {f"{axis}_{place}": before[f"{axis}_end"] for axis in "xy" for place in ("end", "center")}
+    if index and "tangent" not in segment:
+        heading = before.get("angle", before.get("start_angle", 0.0)) + before.get("turned", 0.0)
+        bases |= {"angle": heading, "start_angle": heading}
+    made: dict[str, Any] = {}
+    for name, value in segment.items():
+        if name not in bases or pick.random() < 0.5:
+            made[name] = value
+        elif name in ("angle", "start_angle"):
+            made[f"{name}_inc"] = (value - bases[name] + 180.0) % 360.0 - 180.0
+        else:
+            made[f"{name}_inc"] = value - bases[name]
+    return made
 
 
 def _contour(pick: random.Random, start: tuple[float, float], count: int) -> tuple[list[dict[str, Any]], list[bool]]:

@@ -90,7 +90,7 @@ def codes(block: SolvedBlock) -> Sequence[str]:
 
 def keeps_coordinate(case: Case) -> bool:
     """Whether a line has one end coordinate alone: it keeps the other one, which a random run does not mean."""
-    alone = ({"x_end"}, {"y_end"})
+    alone = ({"x_end"}, {"y_end"}, {"x_end_inc"}, {"y_end_inc"})
     return any(each["kind"] == "LINE" and each.keys() - {"kind"} in alone for each in case["segments"])
 
 

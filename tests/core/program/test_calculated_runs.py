@@ -463,3 +463,20 @@ def test_inch_and_millimeter_programs_have_the_same_answers() -> None:
 def in_inches(segment: dict[str, Any]) -> dict[str, Any]:
     lengths = ("x_end", "y_end", "x_center", "y_center", "radius", "length")
     return {key: value / 25.4 if key in lengths else value for key, value in segment.items()}
+
+
+def test_random_runs_with_relative_numbers_have_their_original_among_answers_that_meet_every_number() -> None:
+    met = ties = 0
+    for seed in range(300000, 300120):
+        case, truth = random_case(seed, 2, 4, relative=True)
+        if keeps_coordinate(case):
+            continue
+        chains, waits = every_chain(case)
+        for chain in chains:
+            assert walk(case, chain) < 1e-6, seed
+        if chains and not waits:
+            assert min(apart(chain, truth) for chain in chains) < 1e-5, seed
+            met += 1
+            ties += any(name.endswith("_inc") for segment in case["segments"] for name in segment)
+    assert met > 20
+    assert ties > 15
