@@ -32,7 +32,7 @@ from app.widgets.picture import Picture
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import Case, Verdict
-from core.finding import Severity
+from core.finding import Finding, Severity
 from core.program import fields as table
 from core.program.edit import (
     Edited,
@@ -62,6 +62,7 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
 }
 """The letters that make a new segment, or another kind of one with nothing typed."""
 KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
+LATER: Final = "Or Page Down: the next segment may give it."
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
 
@@ -426,9 +427,16 @@ class ContourScreen(FormScreen):
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
             if here and finding.severity is Severity.ERROR and (session.block.segments or finding.code not in NOT_YET):
                 tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
-                return Sentence(sentence(finding, session.program.unit), tone)
+                return Sentence(sentence(finding, session.program.unit) + self._or_later(finding), tone)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
         return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
+
+    def _or_later(self, finding: Finding) -> str:
+        """That a segment in which something is typed may be determined by one that is still to come."""
+        session = self.current_session
+        last = session.segment is not None and session.place.segment == len(session.block.segments)
+        waits = finding.code == "MISSING" and last and not run_stops(session)
+        return f" {LATER}" if waits and session.segment is not None and not is_empty(session.segment) else ""
 
     def _run_sentence(self, prompt: str) -> Sentence | None:
         """Why the run of the segment with the cursor has no answer, and where there is room the prompt below."""
@@ -436,7 +444,7 @@ class ContourScreen(FormScreen):
         finding = run_trouble(session)
         if finding is None:
             return None
-        text = sentence(finding, session.program.unit)
+        text = sentence(finding, session.program.unit) + self._or_later(finding)
         if finding.code == "NOT_YET":
             text += f" Or F7: point to the end of segment {finding.segment:g}."
         elif len(text) < self.size.width - 1:

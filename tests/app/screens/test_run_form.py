@@ -152,6 +152,15 @@ async def test_tangent_is_switched_by_space():
         assert (one.value("tangent"), header(one)) == ("YES", "ARC     RUN 1-3")
 
 
+async def test_a_last_segment_that_waits_says_that_the_next_one_may_give_it():
+    async with operator(program_of(case_of(line(angle=30)))) as one:
+        await to(one, 1, "x_end")
+        assert one.prompt.endswith("Or Page Down: the next segment may give it.")
+        await one.press("pagedown", "'100", "tab", "'0", "tab")
+        assert "1 more value" in one.prompt
+        assert "Page Down" not in one.prompt
+
+
 # what is said
 
 
