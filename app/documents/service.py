@@ -454,9 +454,13 @@ class DocumentService:
 
     def keep(self, document: Document) -> Notice | None:
         """Put on the disk what was edited since the last time; call it before the next key is read."""
-        kept = self._open[document.file.opening]
+        closed = document.file.opening not in self._open
+        kept = self._open.setdefault(document.file.opening, _Kept(document))
         known, kept.known = kept.known, document
-        if document.same_edits(known):
+        if closed and document.unsaved:
+            # edited behind its closing, which waited for the disk: it is open again, with all of its work
+            self._lock(kept)
+        elif document.same_edits(known):
             return None
         try:
             gone = self._write(kept, known, document)

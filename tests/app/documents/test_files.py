@@ -90,8 +90,10 @@ def test_loading_what_may_not_be_read(tmp_path, monkeypatch):
     def forbidden(*_args: object, **_named: object) -> None:
         raise PermissionError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(os, "open", forbidden)
-    assert refusal(lambda: load(path)).endswith("it is protected. Ask for permission, or choose another place.")
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", forbidden)
+        said = refusal(lambda: load(path))
+    assert said.endswith("it is protected. Ask for permission, or choose another place.")
 
 
 def test_saving_where_no_file_can_be(tmp_path):

@@ -189,6 +189,14 @@ def test_a_full_disk_is_told_and_the_work_goes_on(own: Path, file: Path, monkeyp
     assert started(own, file).answer("RESTORE").work == operator.work
 
 
+def test_an_edit_behind_the_closing_is_kept_with_all_work(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    operator.service.close(operator.document)
+    operator.type(8)
+    operator.killed()
+    assert started(own, file).answer("RESTORE").work == operator.work
+
+
 def test_a_full_disk_from_the_first_edit_on_has_room_in_the_end(
     own: Path, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
