@@ -1,0 +1,61 @@
+"""What is typed wrong stays to be mended, what is missing is asked for, and nothing is taken unasked."""
+
+from __future__ import annotations
+
+from textual import events
+
+from core.program.model import Number
+from tests.app.widget_pilot import operator
+
+
+async def test_a_number_out_of_range_stays_marked_and_forbids_posting():
+    async with operator() as one:
+        await one.press(*["down"] * 9, "'-5", "enter")
+        assert (one.at, one.value("speed"), one.tag("speed")) == ("speed", "-5", "ERR")
+        assert one.prompt == "SPEED (RPM) must be a whole number from 1 to 100000, not -5."
+        assert one.session.derived_block.errors
+        await one.press("'2400", "enter")
+        assert one.tag("speed") == ""
+
+
+async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setup():
+    async with operator() as one:
+        await one.press("f6", "tab", "tab", "tab")
+        assert one.at == "speed@0"
+        for text in ("-5", "1x"):
+            await one.press(f"'{text}", "enter")
+            assert (one.at, one.app.focused.value) == ("speed@0", text)
+            assert text in one.prompt
+        await one.press("'3000", "enter")
+        assert one.session.program.tools[0].speed == Number(3000.0)
+
+
+async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_segments_it_is_about():
+    async with operator() as one:
+        await one.press("'7", "enter", "tab", "delete", "down", "delete", "enter")
+        assert one.session.block.segments[6].y_end is None
+        title = str(one.screen.query_exactly_one("#verdict").border_title)
+        assert "segments 1-6 only" in title
+        chips = str(one.screen.query_exactly_one("#chips").render())
+        assert "GOUGE" in chips
+        await one.press("f10")
+        assert "Segments 7 and 8 need 1 more value: RADIUS of 8, or an end." in [
+            entry.text for entry in one.screen.entries
+        ]
+
+
+async def test_the_only_block_stays():
+    async with operator() as one:
+        await one.press("f8", "f1")
+        assert len(one.session.program.blocks) == 1
+        assert one.session.history.undo_count == 0
+
+
+async def test_pasted_text_takes_no_field_and_presses_no_key():
+    async with operator() as one:
+        await one.press("tab", "tab", "tab", "tab")
+        one.app.post_message(events.Paste("3.5\nf1\n7"))
+        await one.settle()
+        assert one.at == "x_start"
+        assert one.session.history.undo_count == 0
+        assert len(one.session.block.segments) == 11
