@@ -144,10 +144,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         return ContourScreen()
 
     def on_ready(self) -> None:
-        """Once the first screen stands, work out what follows from the program, and ask what is to be asked."""
-        gc.freeze()
-        gc.enable()
-        self._derive(Request(self.session.program))
+        """Once the first screen is painted, work out what follows from the program; ask what is to be asked."""
+        self.call_after_refresh(self._first_painted)
         if self._home:
             self.action_home()
         if self.drawing is not None:
@@ -161,6 +159,13 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.tell(self._opened.notice)
             if self._opened.offer is not None:
                 self._ask_offer(document, self._opened.offer)
+
+    def _first_painted(self) -> None:
+        """The numeric libraries come now: the first paint does without them."""
+        gc.freeze()
+        gc.enable()
+        if not self._deriving:
+            self._derive(Request(self.session.program))
 
     # ---- the session
 

@@ -262,7 +262,9 @@ class ContourScreen(FormScreen):
         findings = self.query_exactly_one(FindingsList)
         findings.characters, findings.entries = characters, self.entries
         self._show_lists(shown)
-        self._show_picture(shown)
+        if block.known or before is not None:
+            # not in the first paint, which does without the numeric libraries
+            self._show_picture(shown)
 
     def show_work(self, work: Work | None) -> None:
         """How far it is also stands in the title of the verdict, which is the last one until it is done."""

@@ -61,8 +61,8 @@ class Cell:
 class LineInput(Input):
     """A line of text whose cursor does not blink: a terminal at rest gets no bytes."""
 
-    def __init__(self, value: str = "", **options: Any) -> None:  # noqa: ANN401  # those of Input
-        super().__init__(value, compact=True, **options)
+    def __init__(self, value: str = "", *, compact: bool = True, **options: Any) -> None:  # noqa: ANN401  # those of Input
+        super().__init__(value, compact=compact, **options)
         self.cursor_blink = False
 
 
@@ -73,7 +73,8 @@ class NumberField(LineInput):
     """
 
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
-        super().__init__(text, name=name, id=id, max_length=MAX_TYPED)
+        # the style sheet makes it one line high; classes for that and for validity would style each field three times
+        super().__init__(text, compact=False, name=name, id=id, max_length=MAX_TYPED, validate_on=())
         self.resting, self.full = text, full or text
         self._untouched = False
         self.softkey_digits = False

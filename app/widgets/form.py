@@ -19,8 +19,9 @@ class Form(Horizontal):
 
     def compose(self) -> ComposeResult:
         """The columns."""
-        for column in range(1 + max(row.cell.column for row in self.rows.values())):
-            with Vertical(classes="column"):
+        last = max(row.cell.column for row in self.rows.values())
+        for column in range(1 + last):
+            with Vertical(classes=f"column {'-first' if not column else ''} {'-last' if column == last else ''}"):
                 yield from (row for row in self.rows.values() if row.cell.column == column)
 
     def show(self, cells: Sequence[Cell]) -> None:
