@@ -13,7 +13,9 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal
 from textual.content import Content
+from textual.geometry import Size
 from textual.message import Message
+from textual.reactive import Reactive
 from textual.strip import Strip
 from textual.widgets import Input, Label, Select, Static
 
@@ -71,6 +73,9 @@ class NumberField(LineInput):
 
     `resting` is what the program holds; the value differs from it only while something is being typed.
     """
+
+    virtual_size: Reactive[Size] = Reactive(Size(0, 0), repaint=False)
+    """The width of the text: its room in the form is fixed, so that a digit lays out nothing."""
 
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
         # the style sheet makes it one line high; classes for that and for validity would style each field three times

@@ -61,9 +61,8 @@ class SoftkeyLabel(Static):
         self.number, self.key = number, key
         self._state: tuple[Softkey | None, bool, bool] | None = None
 
-    def show(self, key: Softkey | None, *, acts: bool) -> None:
-        """Show the key bright or dim; nothing happens where it is shown so already."""
-        short = self.screen.has_class("-narrow")
+    def show(self, key: Softkey | None, *, acts: bool, short: bool) -> None:
+        """Show the key bright or dim, and its short name; nothing happens where it is shown so already."""
         if self._state == (key, acts, short):
             return
         self.key, self._state = key, (key, acts, short)
@@ -107,10 +106,11 @@ class Softkeys(Vertical):
     ) -> None:
         super().__init__(id="softkeys")
         self.keys, self.more, self.acts = tuple(keys), tuple(more), acts
+        self._labels = [SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1)]
 
     def compose(self) -> ComposeResult:
         """Eight labels, then the rest."""
-        yield from (SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1))
+        yield from self._labels
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
         yield Static(Text("\n").join(more), id="more")
         yield Static(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend")
@@ -121,5 +121,6 @@ class Softkeys(Vertical):
 
     def refresh_keys(self) -> None:
         """Show which of them act now."""
-        for label, key in zip(self.query(SoftkeyLabel), self.keys, strict=True):
-            label.show(key, acts=key is not None and self.acts(key))
+        short = self.screen.has_class("-narrow")
+        for label, key in zip(self._labels, self.keys, strict=True):
+            label.show(key, acts=key is not None and self.acts(key), short=short)
