@@ -143,11 +143,14 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """MILL CONTOUR."""
         return ContourScreen()
 
+    def on_mount(self) -> None:
+        """The first screen, before the first key is read."""
+        if self._home:
+            self.action_home()
+
     def on_ready(self) -> None:
         """Once the first screen is painted, work out what follows from the program; ask what is to be asked."""
         self.call_after_refresh(self._first_painted)
-        if self._home:
-            self.action_home()
         if self.drawing is not None:
             self.show_drawing(self.drawing, fresh=True)
         if self._opened is not None:

@@ -16,12 +16,11 @@ from textual.app import App
 from textual.message import Message
 from textual.message_pump import MessagePump
 
-LONGEST_WAIT: Final = 1.0
-"""Seconds after which the next key is handed on all the same: a widget that was removed answers nothing."""
-LOOKS: Final = 10
-"""In so many pieces it is waited.  Pieces in which the program was late do not count: the key is still on its way."""
-LONGEST_LATE: Final = 10.0
-"""Seconds after which the next key is handed on in any case."""
+LOOK: Final = 0.1
+"""Seconds between two looks whether a key is still making its way."""
+MAX_LOOKS: Final = 10
+"""So many looks in a row that see it stand still give it up: a widget that was removed answers nothing.  They are
+counted one after the other, so that a program that was busy all the time is not taken for one that stands still."""
 FEWEST_ROUNDS: Final = 2
 """One behind the key, one behind the message of a binding that it has run."""
 
@@ -37,9 +36,8 @@ class KeyOrder:
     def __init__(self, app: App[Any]) -> None:
         self.app = app
         self.waiting: deque[Message] = deque()
-        self.on_its_way = 0
-        """The number of the key on its way, 0 for none."""
-        self._count = 0
+        self.on_its_way: _Walk | None = None
+        """What goes round behind the key that was handed on last."""
         self._patience: TimerHandle | None = None
 
     def take(self, message: Message) -> None:
@@ -48,54 +46,73 @@ class KeyOrder:
             self.app.post_message(message)
             return
         self.waiting.append(message)
-        if not self.on_its_way:
-            self._send()
+        if self.on_its_way is None:
+            self.send_next()
 
-    def _send(self) -> None:
+    def send_next(self) -> None:
+        """Hand the next key on, if one waits."""
         if self._patience is not None:
             self._patience.cancel()
-            self._patience = None
         if not self.waiting:
-            self.on_its_way = 0
+            self.on_its_way = None
             return
-        self._count += 1
-        self.on_its_way = self._count
-        # taken before the key: it goes to the widget that has the cursor now
-        way = self._way()
+        # made before the key is sent: that goes to the widget that has the cursor now
+        self.on_its_way = walk = _Walk(self)
         self.app.post_message(self.waiting.popleft())
-        self._wait(LOOKS, get_running_loop().time() + LONGEST_LATE)
-        self._go(self._count, [self.app, *way], FEWEST_ROUNDS)
+        self._look(walk, -1, 0)
+        walk.go()
 
-    def _wait(self, looks: int, end: float) -> None:
-        """Hand the next key on after so many more looks that come in time."""
-        loop, piece = get_running_loop(), LONGEST_WAIT / LOOKS
-        due = loop.time() + piece
+    def _look(self, walk: _Walk, steps: int, still: int) -> None:
+        """Give a walk up that has stood still for too long; `steps` are those of the last look."""
+        still = still + 1 if walk.steps == steps else 0
+        if still == MAX_LOOKS:
+            self.send_next()
+        else:
+            self._patience = get_running_loop().call_later(LOOK, self._look, walk, walk.steps, still)
 
-        def look() -> None:
-            late = loop.time() > due + piece / 2
-            if loop.time() > end or (looks == 1 and not late):
-                self._send()
-            else:
-                self._wait(looks if late else looks - 1, end)
-
-        self._patience = loop.call_later(piece, look)
-
-    def _way(self) -> list[MessagePump]:
+    def way(self) -> list[MessagePump]:
         """From the widget with the cursor up to the App."""
         if not self.app.screen_stack:
             return [self.app]
         return [*(self.app.focused or self.app.screen).ancestors_with_self]
 
-    def _go(self, number: int, way: list[MessagePump], rounds: int) -> None:
+
+class _Walk:
+    """The callback that goes round behind one key."""
+
+    def __init__(self, order: KeyOrder) -> None:
+        self.order = order
+        self.steps = 0
+        self._rounds = FEWEST_ROUNDS
+        way = order.way()
+        self._screen, self._rest = way[-2:], [order.app, *way]
+
+    def go(self) -> None:
         """On to the next on the way, behind what waits there; one that is closed is passed over."""
-        if number != self.on_its_way:
+        if self.order.on_its_way is not self:
             return
-        while way:
-            pump, *way = way
-            if pump.call_later(self._go, number, way, rounds):
+        self.steps += 1
+        while self._rest:
+            if self._rest.pop(0).post_message(events.Callback(self.go)):
                 return
-        way = self._way()
-        if rounds > 1 or any(pump.message_queue_size for pump in way):
-            self._go(number, way, rounds - 1)
+        self._next_round()
+
+    def _next_round(self) -> None:
+        """Once more while there is something to wait for; else look a last time when all that was begun has run."""
+        self._rounds -= 1
+        if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.way()):
+            self._rest = self.order.way()
+            self.go()
         else:
-            self._send()
+            get_running_loop().call_soon(self._end)
+
+    def _end(self) -> None:
+        """The next key; on another screen, which a worker too may have brought, go round as often again."""
+        if self.order.on_its_way is not self:
+            return
+        way = self.order.way()
+        if way[-2:] == self._screen:
+            self.order.send_next()
+        else:
+            self._screen, self._rest, self._rounds = way[-2:], way, FEWEST_ROUNDS
+            self.go()

@@ -43,3 +43,5 @@ def teach() -> None:
         table[f"\x1bO{letter}"] = (key,)
     for letter, key in SCO.items():
         table[f"\x1b[{letter}"] = (key,)
+    # as the system hands Enter on that was pressed before the screens had the terminal
+    table["\n"] = (Keys.Enter,)

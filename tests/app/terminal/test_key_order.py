@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from asyncio import get_running_loop
+from pathlib import Path
 from random import Random
 from time import monotonic, sleep
 
 from textual import events
 
+from app.app import CutcompApp
+from app.documents.service import DocumentService
+from app.file_actions import session_of
 from app.terminal import key_order
 from app.terminal.key_order import KeyOrder
 from app.terminal.split_keys import TORN, UNENDED
 from core.program.model import Number
-from tests.app.widget_pilot import Operator, operator
+from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
 
 async def burst(one: Operator, *keys: str) -> None:
@@ -44,6 +48,20 @@ async def test_a_key_that_was_split_and_a_paste_without_an_end_are_told_and_what
         assert one.session.block.tool == Number(12.0)
 
 
+async def test_keys_behind_the_one_that_opens_a_file_go_to_that_file(part: Path, own: Path):
+    service = DocumentService(state=own)
+    app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, home=True)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Operator(app, pilot)
+        await one.settle()
+        await burst(one, "enter", "pagedown", "tab", "5", "enter")
+        assert one.session.file == part
+        assert one.session.place.segment == 1
+        segment = one.session.block.segments[0]
+        assert segment.x_end == Number(5.0)
+        service.stop()
+
+
 async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
     async with operator() as one:
         count = len(one.session.block.segments)
@@ -66,7 +84,7 @@ async def test_random_keys_at_once_do_what_they_do_one_by_one():
 
 async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch):
     """Every turn of the loop takes so long that a key needs longer than it is waited for."""
-    monkeypatch.setattr(key_order, "LONGEST_WAIT", 0.1)
+    monkeypatch.setattr(key_order, "LOOK", 0.01)
     async with operator() as one:
         loop, end = get_running_loop(), monotonic() + 4.0
 
