@@ -279,7 +279,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             if running[0].trial or not request.trial:
                 running[1].stopped = True
 
-    @work(thread=True, group="derive")
+    # described, as every worker that takes a program: else Textual writes all of it down, before the next key
+    @work(thread=True, group="derive", description="derive")
     def _derive_in_thread(self, request: Request, work: Work) -> None:
         try:
             result = derived(request, work)
@@ -330,7 +331,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self._making_table = block, self.begin_work(self._calculation_stopped)
         self._make_table_in_thread(block, self.session.program, self._making_table[1])
 
-    @work(thread=True, group="table")
+    @work(thread=True, group="table", description="table")
     def _make_table_in_thread(self, block: DerivedBlock, program: Program, work: Work) -> None:
         try:
             self.post_message(TableMade(block, lookahead_table(block, program, work)))
@@ -396,7 +397,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         if table is not None and not table.complete and self.shown is self.session and self._deriving is None:
             self._advise_in_thread(block, self.session.program, table)
 
-    @work(thread=True, group="advice", exclusive=True)
+    @work(thread=True, group="advice", exclusive=True, description="advice")
     def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
         worker = get_current_worker()
         for noted in advised(block, program, table, lambda: not worker.is_cancelled):

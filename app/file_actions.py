@@ -232,7 +232,7 @@ class FileActions(App[int]):
         if opened.offer is not None:
             self._ask_offer(document, opened.offer)
 
-    @work(group="offer")
+    @work(group="offer", description="offer")
     async def _ask_offer(self, document: ContourDocument | NcDocument, offer: Offer) -> None:
         word, service = await self.ask(offer.ask), self.service
         if service is not None:
@@ -453,7 +453,7 @@ class FileActions(App[int]):
         if not self.disk_is_behind():
             self._close_nc(document)
 
-    @work(group="question")
+    @work(group="question", description="close")
     async def _close_nc(self, document: NcDocument) -> None:
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
             await self.close_documents([self.proof.document])

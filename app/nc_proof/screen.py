@@ -232,7 +232,7 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self._run(question, self._work)
 
-    @work(thread=True, exclusive=True, group="proof")
+    @work(thread=True, exclusive=True, group="proof", description="proof")
     def _run(self, question: Question, work: Work) -> None:
         try:
             result = run(question, part(work, 0.0, RUN_SHARE))

@@ -118,7 +118,7 @@ class PostScreen(EntryScreen):
         self._show()
         self._make_in_thread(program, self.choice, self._work)
 
-    @work(thread=True, exclusive=True, group="post")
+    @work(thread=True, exclusive=True, group="post", description="post")
     def _make_in_thread(self, program: Program, choice: str, work: Work) -> None:
         name = Path(self._text or "part").stem
         try:

@@ -95,7 +95,7 @@ class ProgramScreen(BaseScreen):
         if all(block.known for block in session.derived.blocks):
             self._time(session.derived)
 
-    @work(thread=True, exclusive=True, group="times")
+    @work(thread=True, exclusive=True, group="times", description="times")
     def _time(self, derived: Derived) -> None:
         self.post_message(Timed(derived, *program_times(derived)))
 

@@ -44,7 +44,7 @@ class SheetScreen(EntryScreen):
         """The sheet of the program as it is now."""
         self._make(session.program)
 
-    @work(thread=True, exclusive=True, group="sheet")
+    @work(thread=True, exclusive=True, group="sheet", description="sheet")
     def _make(self, program: Program) -> None:
         text = setup_sheet(program, Path("sheet.txt"), self.host.now())
         self.app.call_from_thread(self._show, text)

@@ -128,7 +128,8 @@ class Drawing(Widget):
         shown = all(node.display for node in self.ancestors_with_self if isinstance(node, Widget))
         return self.is_attached and shown and bool(self.size)
 
-    @work(thread=True, exclusive=True, group="drawing")
+    # described, as every worker that takes a program: else Textual writes all of it down, before the next key
+    @work(thread=True, exclusive=True, group="drawing", description="picture")
     def _make(self, subject: Drawable, columns: int, rows: int, characters: str) -> None:
         # numpy and shapely are not needed by the first paint
         from core.draw.characters import Mode
