@@ -25,13 +25,14 @@ def keys() -> str:
     return f"{typed}{F6}{F8}{F4}{F8}{F7}{F8}\t{at}.125\r{at}.5\r{F7}{F8}{SAVE}"
 
 
+@pytest.mark.timeout(130)
 def test_a_hundred_keys_sent_before_the_first_paint_all_arrive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     part = tmp_path / "part.toml"
     part.write_bytes(example("pocket").read_bytes())
     monkeypatch.setenv("PYTHONPATH", str(Path.cwd()))
     with running([sys.executable, "-m", "app"], cwd=str(tmp_path)) as terminal:
         terminal.send(keys().encode())
-        terminal.until("Saved: part.toml", longest=50)
+        terminal.until("Saved: part.toml", longest=100)
     segments = load(part).blocks[0].segments
     for number in LINES:
         segment = segments[number - 1]
