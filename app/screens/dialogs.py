@@ -13,6 +13,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.screen import ModalScreen
+from textual.widget import Widget
 from textual.widgets import Input, Label, OptionList, Static
 from textual.widgets.option_list import Option
 
@@ -68,19 +69,30 @@ class Question(ModalScreen[str]):
         self.query_exactly_one(OptionList).highlighted = words.index(self.safe)
 
     @property
+    def _box(self) -> Widget | None:
+        """The frame; None before it stands, and once the dialog is leaving."""
+        return next(iter(self.query("#question")), None)
+
+    @property
     def readable(self) -> bool:
         """Whether the terminal has room for all of it: what cannot be read is not answered, but by going back."""
-        box = self.query_exactly_one("#question")
-        return self.region.contains_region(box.region) and box.virtual_size.height <= box.size.height
+        box = self._box
+        return (
+            box is not None and self.region.contains_region(box.region) and box.virtual_size.height <= box.size.height
+        )
 
     @on(events.Resize)
     def _resized(self) -> None:
-        self.query_exactly_one("#question").set_class(self.size.height < TALL, "-tight")
-        self.call_after_refresh(self._fit)
+        if self._box is not None:
+            self._box.set_class(self.size.height < TALL, "-tight")
+            self.call_after_refresh(self._fit)
 
     def _fit(self) -> None:
         """As many details as there is room for; where there is none for the rest, say so."""
-        box, loss = self.query_exactly_one("#question"), self.query_exactly_one("#loss", Static)
+        box = self._box
+        if box is None:
+            return
+        loss = box.query_exactly_one("#loss", Static)
         frame = box.region.height - box.size.height
         room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
         shown = list(self.details)
@@ -90,8 +102,8 @@ class Question(ModalScreen[str]):
         self.call_after_refresh(self._show_title)
 
     def _show_title(self) -> None:
-        title = self.question if self.readable else "A QUESTION: MAKE THE WINDOW LARGER"
-        self.query_exactly_one("#question").border_title = title
+        if self._box is not None:
+            self._box.border_title = self.question if self.readable else "A QUESTION: MAKE THE WINDOW LARGER"
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:

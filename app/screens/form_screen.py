@@ -10,14 +10,12 @@ from textual.widget import Widget
 from textual.widgets import Input, Select
 
 from app.screens.base import BaseScreen
-from app.screens.calculator import Calculator
 from app.screens.dialogs import ChooseLine
 from app.screens.values import prompt_of, unread_text, unusable
 from app.session.messages import Sentence, Tone
 from app.widgets.field import ChoiceField, NumberField
 from app.widgets.form import Form
 from core.finding import Severity
-from core.program.calculator import CASES, outputs_for
 from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed
 from core.program.model import Number, Unread
@@ -283,6 +281,10 @@ class FormScreen(BaseScreen):
     @work(exclusive=True, group="question")
     async def _calculate(self, field: Field, widget: NumberField) -> None:
         """An answer of one of the shop's usual cases into a field, as if it had been typed."""
+        # the form stands before what only the calculator needs is loaded
+        from app.screens.calculator import Calculator
+        from core.program.calculator import CASES, outputs_for
+
         cases = {case.name: case for case in CASES if outputs_for(case, field.kind)}
         name = await self.app.push_screen_wait(ChooseLine("CALCULATOR", [(each, f" {each}") for each in cases]))
         if not name:

@@ -40,3 +40,14 @@ async def test_where_there_is_only_ascii_the_key_for_characters_says_why() -> No
         at.app.character_sets = ("ascii",)
         await at.app.run_action("app.next_characters")
         assert at.prompt.startswith("LANG or TERM says that there is no UTF-8")
+
+
+async def test_keys_and_sizes_that_come_while_a_dialog_leaves_do_no_harm() -> None:
+    async with operator("pocket") as at:
+        question = Question("LEAVE?", ["part is not saved."], [Answer("DISCARD", "")], "GO BACK")
+        at.app.push_screen(question)
+        await at.settle()
+        await question.query_one("#question").remove()
+        await at.pilot.resize_terminal(70, 22)
+        await at.press("d")
+        assert not question.readable

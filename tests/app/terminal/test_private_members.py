@@ -40,11 +40,12 @@ def _is_self(node: ast.expr) -> bool:
 
 def test_nothing_private_of_textual_is_used_outside_the_terminal() -> None:
     own, used = own_names(), []
+    # os._exit is public, whatever it is called
     for path, tree in trees():
         if path.relative_to(APP).parts[0] in ELSEWHERE:
             continue
         for node in ast.walk(tree):
-            if isinstance(node, ast.Attribute) and private(node.attr) and node.attr not in own:
+            if isinstance(node, ast.Attribute) and private(node.attr) and node.attr not in {*own, "_exit"}:
                 used.append(f"{path.name}:{node.lineno} {node.attr}")
             elif isinstance(node, ast.ImportFrom) and any(map(private, (node.module or "").split("."))):
                 used.append(f"{path.name}:{node.lineno} {node.module}")
