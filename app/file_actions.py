@@ -207,7 +207,7 @@ class FileActions(App[int]):
         holder = self.document.file.holder
         if holder is None or self.service is None:
             return ""
-        return f"{held_sentence(holder, self.service.clock())} SAVE AS makes a copy of your own."
+        return f"{held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
 
     def keep_settings(self, settings: Settings) -> None:
         """Settings as they are from now on."""

@@ -466,7 +466,7 @@ class DocumentService:
             gone = self._write(kept, known, document)
         except (OSError, StoreError) as error:
             kept.failing = True
-            return Notice(f"Not on disk: {_reason(error)} Ctrl+S saves elsewhere.", warning=True)
+            return Notice(f"Not on disk: {_reason(error)} SAVE AS (Ctrl+K) saves elsewhere.", warning=True)
         was_failing, kept.failing = kept.failing, False
         return (
             self._taken_notice(kept)
@@ -557,7 +557,7 @@ class DocumentService:
         if owner is None:
             return None
         kept.warned = True
-        return Notice(f"{held_sentence(owner, self.clock())} SAVE AS keeps your work.", warning=True)
+        return Notice(f"{held_sentence(owner, self.clock())} SAVE AS (Ctrl+K) keeps your work.", warning=True)
 
     # ---- save
 
@@ -579,7 +579,7 @@ class DocumentService:
     ) -> Saved[AnyDocument] | Ask | Trouble:
         kept, file = self._open[document.file.opening], document.file.path
         if path is None and file is None:
-            return Trouble(f"{name_of(document)} has no name yet. SAVE AS gives it one.")
+            return Trouble(f"{name_of(document)} has no name yet. SAVE AS (Ctrl+K) gives it one.")
         target = file if path is None else chosen(path, file)
         assert target is not None
         if document.kind is Kind.CONTOUR and target != file:
@@ -599,7 +599,7 @@ class DocumentService:
         if is_folder(target):
             return Trouble(f"{name} is not saved: this is a folder. Type a file's name.")
         if holder is not None and target == document.file.path:
-            return Trouble(f"{held_sentence(holder, self.clock())} SAVE AS saves your own copy.")
+            return Trouble(f"{held_sentence(holder, self.clock())} SAVE AS (Ctrl+K) saves your own copy.")
         standing = self._standing(target)
         if standing is not None and standing.known.file.opening is not document.file.opening:
             return Trouble(f"{printable(target.name)} is open here, too. Type another name.", standing.known)
@@ -660,7 +660,7 @@ class DocumentService:
         except (StoreError, ValueError) as error:
             cause = error.__cause__ or error
             reason = why(cause) if isinstance(cause, OSError | ValueError) else str(error)
-            return Trouble(f"{short_path(path)} is not saved: {reason} SAVE AS saves elsewhere.")
+            return Trouble(f"{short_path(path)} is not saved: {reason} SAVE AS (Ctrl+K) saves elsewhere.")
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)

@@ -184,7 +184,7 @@ class ProofScreen(BaseScreen):
         """Type in the listing, or only read it."""
         listing = self.query_exactly_one(Listing)
         if self.document.file.holder is not None:
-            self.say("Somebody else has this file open. SAVE AS makes a copy of your own.", Tone.WARNING)
+            self.say("Somebody else has this file open. SAVE AS (Ctrl+K) makes a copy of your own.", Tone.WARNING)
             return
         listing.focus()
         listing.read_only = not listing.read_only

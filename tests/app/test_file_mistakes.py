@@ -209,7 +209,7 @@ async def test_what_may_only_be_looked_at_says_so_in_the_title_until_it_is_a_cop
         await one.press("l")
         assert one.session.file_label == "LOOK ONLY part"
         await one.press("tab", "'7", "enter", "ctrl+s")
-        assert one.prompt.endswith("SAVE AS saves your own copy.")
+        assert one.prompt.endswith("SAVE AS (Ctrl+K) saves your own copy.")
         await entered(one, "app.save_as", "mine")
         assert one.session.file_label == "mine"
         assert one.session.block.tool == Number(1.0)

@@ -183,7 +183,7 @@ def test_a_full_disk_is_told_and_the_work_goes_on(own: Path, file: Path, monkeyp
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", full)
         assert operator.type(8).said.startswith("Not on disk: the disk is full.")
-        assert "Ctrl+S saves elsewhere." in operator.type(9).said
+        assert "SAVE AS (Ctrl+K) saves elsewhere." in operator.type(9).said
     assert operator.type(6).said == "Work is kept on the disk again."
     operator.killed()
     assert started(own, file).answer("RESTORE").work == operator.work

@@ -45,7 +45,7 @@ def trouble(operator: Typist, path: Path | None = None, *answers: str) -> str:
 
 def test_without_a_name_nothing_is_saved_before_there_is_one(own: Path, part: Path) -> None:
     operator = started(own).type(7)
-    assert trouble(operator) == "This program has no name yet. SAVE AS gives it one."
+    assert trouble(operator) == "This program has no name yet. SAVE AS (Ctrl+K) gives it one."
     operator.save(part.with_name("other"))
     assert operator.said == "Saved: other.toml"
     assert operator.document.file.path == part.with_name("other.toml")
@@ -182,7 +182,7 @@ def test_the_second_opener_may_look_and_save_a_copy(own: Path, file: Path) -> No
     assert "since 4 Mar 2025 at 05:00." in later.asked
     operator.answer("LOOK")
     assert operator.document.file.holder == ELSEWHERE
-    assert trouble(operator).endswith("open since 05:00. SAVE AS saves your own copy.")
+    assert trouble(operator).endswith("open since 05:00. SAVE AS (Ctrl+K) saves your own copy.")
     operator.save(file.with_name(f"mine{file.suffix}"))
     assert operator.document.file.holder is None
     operator.type(7).save()
