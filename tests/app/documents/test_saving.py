@@ -198,7 +198,7 @@ def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, f
     assert second.work == first.work
     first.type(8)
     assert "has had this program open" in first.said
-    assert first.said.endswith("SAVE AS keeps your work.")
+    assert first.said.endswith("SAVE AS (Ctrl+K) keeps your work.")
     assert "has had" not in first.type(9).said
     second.save()
     assert number_in(file) == 7
