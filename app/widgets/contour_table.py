@@ -59,7 +59,7 @@ class ContourTable(DataTable[Content]):
     @property
     def current(self) -> Row | None:
         """The row with the cursor."""
-        return self.rows_shown[self.cursor_row] if self.cursor_row < len(self.rows_shown) else None
+        return self.rows_shown[self.cursor_row] if 0 <= self.cursor_row < len(self.rows_shown) else None
 
 
 def _heading(label: str, width: int) -> str:
