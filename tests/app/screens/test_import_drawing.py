@@ -369,7 +369,7 @@ async def test_the_filter_holds_back_what_does_not_match(tmp_path):
         assert [row[1] for row in one.rows] == ["HOLE"]
         await one.press("'x")
         assert one.rows == []
-        await one.press("enter", "up", "home", "f1", "f6", "slash", "backspace")
+        await one.press("enter", "up", "home", "f1", "f6", "escape", "slash", "'h", "'o", "'l", "'e")
         await one.press("enter", "space")
         assert one.importing.marked == {2}
         await one.press("escape")
