@@ -7,7 +7,7 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -43,10 +43,10 @@ async def none_left(processes: list[int], longest: float) -> list[int]:
     return [each for each in processes if alive(each)]
 
 
-async def some_children(process: int) -> list[int]:
-    """The programs a process has started, once there are any."""
+async def some_children(process: int, others: Sequence[int] = ()) -> list[int]:
+    """The programs a process has started besides others, once there are any."""
     for _ in range(200):
-        if started := children(process):
+        if started := [child for child in children(process) if child not in others]:
             return started
         await asyncio.sleep(0.05)
     raise AssertionError("no program was started")

@@ -39,12 +39,13 @@ async def served(monkeypatch: pytest.MonkeyPatch, words: list[str]) -> AsyncIter
     from aiohttp.test_utils import TestServer
 
     monkeypatch.setattr(web, "command", lambda _: shlex.join(words))
+    others = children(os.getpid())
     port = free_port()
     server = TestServer(await web.site(None, "127.0.0.1", port, SECRET)._make_app(), host="127.0.0.1", port=port)
     await server.start_server()
     async with aiohttp.ClientSession() as session:
         try:
-            yield Site(session, f"http://127.0.0.1:{port}")
+            yield Site(session, f"http://127.0.0.1:{port}", others)
         finally:
             await server.close()
 
@@ -52,8 +53,12 @@ async def served(monkeypatch: pytest.MonkeyPatch, words: list[str]) -> AsyncIter
 class Site:
     """A browser's view of what is served."""
 
-    def __init__(self, session: aiohttp.ClientSession, root: str) -> None:
-        self.session, self.root = session, root
+    def __init__(self, session: aiohttp.ClientSession, root: str, others: list[int]) -> None:
+        self.session, self.root, self.others = session, root, others
+
+    async def programs(self) -> list[int]:
+        """The programs of its pages, once there are any; what this process had started before is none of them."""
+        return await some_children(os.getpid(), self.others)
 
     async def get(self, path: str) -> aiohttp.ClientResponse:
         answer = await self.session.get(f"{self.root}{path}")
@@ -164,7 +169,7 @@ async def test_a_program_whose_page_reads_nothing_ends(monkeypatch: pytest.Monke
         reader, writer = await asyncio.open_connection("127.0.0.1", int(site.root.rpartition(":")[2]), limit=1024)
         writer.write(handshake(site.root))
         await reader.readline()
-        started = await some_children(os.getpid())
+        started = await site.programs()
         assert await none_left(started, 5.0) == []
         writer.close()
 
@@ -174,7 +179,7 @@ async def test_a_program_that_takes_no_keys_ends(monkeypatch: pytest.MonkeyPatch
     deaf = "import time; print('__GANGLION__', flush=True); time.sleep(60)"
     async with served(monkeypatch, python(deaf)) as site:
         page = await site.page()
-        started = await some_children(os.getpid())
+        started = await site.programs()
         await page.send_json(["stdin", "a" * 1_000_000])
         assert await none_left(started, 5.0) == []
 
@@ -185,7 +190,7 @@ async def test_of_what_a_program_complains_of_only_the_beginning_is_kept(
     async with served(monkeypatch, python(FLOOD)) as site:
         page = await site.page()
         await page.receive_bytes()
-        started = children(os.getpid())
+        started = await site.programs()
         await page.close()
         assert await none_left(started, 5.0) == []
     complaints = [len(record.getMessage()) for record in caplog.records if record.levelname == "ERROR"]
