@@ -84,6 +84,8 @@ class _Walk:
         self.order = order
         self.steps = 0
         self._rounds = FEWEST_ROUNDS
+        self._taken = False
+        """Whether somebody on the way has taken the callback in this round."""
         way = order.way()
         self._screen, self._rest = way[-2:], [order.app, *way]
 
@@ -94,8 +96,12 @@ class _Walk:
         self.steps += 1
         while self._rest:
             if self._rest.pop(0).post_message(events.Callback(self.go)):
+                self._taken = True
                 return
-        self._next_round()
+        # where nobody takes anything, not even the App, the program is leaving
+        if self._taken:
+            self._taken = False
+            self._next_round()
 
     def _next_round(self) -> None:
         """Once more while there is something to wait for; else look a last time when all that was begun has run."""

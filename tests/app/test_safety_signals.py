@@ -186,7 +186,7 @@ def test_two_operators_with_one_file(part: Path) -> None:
             first.send(b"\x13")
             first.until("TAKEN OVER")
             first.send(b"k")
-            first.until("Saved")
+            first.until("part.mine-")
     assert load(part).blocks[0].tool == Number(9.0)
     mine = next(part.parent.glob("part.mine-*.toml"))
     assert load(mine).blocks[0].tool == Number(8.0)
