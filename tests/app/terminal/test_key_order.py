@@ -7,7 +7,7 @@ from pathlib import Path
 from random import Random
 from time import monotonic, sleep
 
-from pytest import MonkeyPatch
+import pytest
 from textual import events
 from textual.message_pump import MessagePump
 
@@ -100,11 +100,11 @@ async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch
         assert one.session.block.tool == Number(7.0)
 
 
-async def test_a_program_that_is_leaving_and_takes_nothing_more_is_left_alone(monkeypatch: MonkeyPatch):
+async def test_a_program_that_is_leaving_and_takes_nothing_more_is_left_alone(monkeypatch: pytest.MonkeyPatch):
     async with operator() as one:
         order = KeyOrder(one.app)
         with monkeypatch.context() as patch:
-            patch.setattr(MessagePump, "post_message", lambda _, message: False)
+            patch.setattr(MessagePump, "post_message", lambda *_: False)
             patch.setattr(MessagePump, "message_queue_size", 1)
             order.take(events.Key("5", "5"))
         assert not order.waiting
