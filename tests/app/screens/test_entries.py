@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from textual import events
 
+from app.screens.contour import ContourScreen
 from core.program.model import Number
 from tests.app.widget_pilot import operator
 
@@ -39,6 +40,7 @@ async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_
         chips = str(one.screen.query_exactly_one("#chips").render())
         assert "GOUGE" in chips
         await one.press("f10")
+        assert isinstance(one.screen, ContourScreen)
         assert "Segments 7 and 8 need 1 more value: RADIUS of 8, or an end." in [
             entry.text for entry in one.screen.entries
         ]

@@ -14,8 +14,13 @@ from tests.app.widget_pilot import operator
 async def test_no_worker_writes_the_program_down(monkeypatch: pytest.MonkeyPatch) -> None:
     """A worker without a description gets one of all its arguments: a second for 2,000 segments."""
     written: list[str] = []
+
+    def written_down(self: object) -> str:
+        written.append(type(self).__name__)
+        return ""
+
     for kind in (Program, DerivedBlock):
-        monkeypatch.setattr(kind, "__repr__", lambda self: written.append(type(self).__name__) or "")
+        monkeypatch.setattr(kind, "__repr__", written_down)
     async with operator() as one:
         await one.press("pagedown", "tab", "'1.5", "enter", "f4", "f8", "f8", "f8")
     assert written == []
