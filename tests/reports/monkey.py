@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import chdir
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -51,10 +51,9 @@ from core.program.history import History
 from tests.app.documents.typist import DEAD, ELSEWHERE, TIME
 from tests.app.widget_pilot import SURROUNDINGS
 from tests.reports.kill_parts import contour_work
-from tests.reports.monkey_keys import Coverage, Monkey
+from tests.reports.monkey_keys import Coverage, Monkey, Typist
 
 ROOT: Final = Path(__file__).parents[2]
-SIZES: Final = ((80, 24), (80, 24), (132, 43), (110, 30), (60, 20), (20, 5), (1, 1))
 EVERY: Final = 20
 """Keys between two looks at everything."""
 LIFE: Final = 300
@@ -206,7 +205,7 @@ class Life:
             self.wrong("the program does not come back from its file's text")
         self.monkey.meddle(session.file)
         if self.monkey.chance.random() < 0.1:
-            await self.pilot.resize_terminal(*self.monkey.chance.choice(SIZES))
+            await self.pilot.resize_terminal(*self.monkey.size())
 
     async def settle(self) -> None:
         """Until nothing is worked out that the form shows."""
@@ -287,7 +286,7 @@ class Cage:
             app = self._begun(service, shop, died)
             trail: list[str] = []
             try:
-                async with app.run_test(size=self.monkey.chance.choice(SIZES)) as pilot:
+                async with app.run_test(size=self.monkey.size()) as pilot:
                     life = Life(app, pilot, service, self.monkey, self.tally, trail)
                     await life.settle()
                     await life.go_on(keys)
@@ -309,7 +308,7 @@ class Cage:
 
     def _begun(self, service: DocumentService, shop: Path, died: Path | None) -> Observed:
         """The program started: on a file, on none, on an example, on an NC program; on work that was left behind."""
-        start = self.monkey.chance.choice(("file", "none", "example", "locked", "proof", "proof"))
+        start = self.monkey.start()
         file = (
             shop / ("part.nc" if start == "proof" else "pocket.toml") if start in ("file", "locked", "proof") else None
         )
@@ -333,6 +332,16 @@ class Cage:
 
 
 def run(keys: int, seed: int) -> Tally:
+    """So many random keys."""
+    return lived(keys, lambda cage, coverage: Monkey(random.Random(seed), cage, coverage))
+
+
+def typed(*keys: str) -> Tally:
+    """These keys, typed at a program."""
+    return lived(len(keys), lambda cage, coverage: Typist(random.Random(1), cage, coverage, [*keys]))
+
+
+def lived(keys: int, presses: Callable[[Path, Coverage], Monkey]) -> Tally:
     """So many keys; all files in a folder of its own, which is gone afterwards."""
     tally = Tally()
     with tempfile.TemporaryDirectory() as name:
@@ -340,7 +349,7 @@ def run(keys: int, seed: int) -> Tally:
         shutil.copytree(files.examples(), cage / "examples")
         own = {"XDG_CONFIG_HOME": f"{cage}/config", "XDG_STATE_HOME": f"{cage}/own", "HOME": name}
         with patch.dict(os.environ, own):
-            place = Cage(cage, Monkey(random.Random(seed), cage, tally.coverage), tally)
+            place = Cage(cage, presses(cage, tally.coverage), tally)
             died = None
             while tally.keys < keys:
                 died = asyncio.run(place.live(tally.lives, min(LIFE, keys - tally.keys), died))

@@ -43,6 +43,9 @@ WORD: Final = re.compile(r"[A-Z]{2,}")
 """What stays of a softkey's label; numbers and letters between them are values."""
 MEDDLED: Final = 0.02
 """How often somebody else has written the file."""
+SIZES: Final = ((80, 24), (80, 24), (132, 43), (110, 30), (60, 20), (20, 5), (1, 1))
+STARTS: Final = ("file", "none", "example", "locked", "proof", "proof")
+"""What a life begins with: a program, HOME, an example, a program somebody else has open, an NC program."""
 LEAVING: Final = ("HomeScreen", "ProofScreen")
 """Screens whose F8 may leave the program or the text: lives would be short."""
 
@@ -122,6 +125,14 @@ class Monkey:
             case _:
                 return [self.chance.choice(self._plain(kind)) for _ in range(self.chance.randint(1, 3))]
 
+    def start(self) -> str:
+        """What the next life begins with."""
+        return self.chance.choice(STARTS)
+
+    def size(self) -> tuple[int, int]:
+        """Columns and rows of the terminal."""
+        return self.chance.choice(SIZES)
+
     def _plain(self, kind: str) -> tuple[str, ...]:
         choices = {"move": (*MOVES, "enter"), "rare": RARE, "everywhere": EVERYWHERE}
         return choices.get(kind) or (f"ctrl+{'z' if kind == 'undo' else 'y'}",)
@@ -158,6 +169,25 @@ class Monkey:
         if isinstance(screen, EntryScreen):
             named += [Path(line.value.strip() or ".") for line in screen.query(Input)]
         return all(self.cage in (one, *one.parents) for one in map(_resolved, named))
+
+
+@dataclass
+class Typist(Monkey):
+    """Types these keys one after the other, in a program on a terminal of 80x24."""
+
+    script: list[str] = field(default_factory=list)
+
+    def keys(self, app: CutcompApp) -> list[str]:  # noqa: ARG002 - what is shown changes nothing
+        """The next key."""
+        return [self.script.pop(0)]
+
+    def start(self) -> str:
+        """The life begins with a program."""
+        return "file"
+
+    def size(self) -> tuple[int, int]:
+        """An ordinary terminal."""
+        return 80, 24
 
 
 def _resolved(name: Path) -> Path:
