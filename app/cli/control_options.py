@@ -9,7 +9,6 @@ from app.documents.files import read_file, why
 from app.documents.nc_text import MAX_NC_BYTES
 from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.controls.program_text import quoted
-from core.controls.registry import UnknownControl, resolve
 from core.program.tools import table_faults
 from core.units import Unit
 
@@ -40,6 +39,9 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
 
 def control_of(text: str) -> str:
     """The full name of a control; Unusable where there is none of that name."""
+    # every control: `cutcomp import` of a drawing needs none
+    from core.controls.registry import UnknownControl, resolve
+
     found = resolve(text)
     if isinstance(found, UnknownControl):
         raise Unusable(f"--control {quoted(text)}: {found.text}")

@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from app.cli.control_options import Unusable as UnusableOptions
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
+from app.cli.drawing_list import Asked, list_drawing
 from app.cli.shell import CLEAN, UNUSABLE, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
-from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, Progress, contours_of
-from core.importing.drawing import Drawing, DrawingError, DrawingUnit
-from core.importing.dxf import read_dxf
-from core.importing.listing import rows_of, sentences, table, unit_question
-from core.importing.nc import read_nc
+from core.importing.contours import ContourList
+from core.importing.drawing import DrawingError, DrawingUnit
+from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPath, NcContour, NcError, NcProgram, nc_blocks
 from core.importing.segments import NotTaken, comment, taken
 from core.program.file.read import StoreError
@@ -39,18 +38,6 @@ UNITS: Final = {
 
 class Unusable(Exception):
     """The arguments or the file cannot be used; the text says why and what to do."""
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What a worker needs of the arguments."""
-
-    name: str
-    damaged: bool
-    unit: DrawingUnit | None
-    tolerance: float | None
-    fit: float | None
-    layers: tuple[str, ...]
 
 
 def import_contours(arguments: list[str]) -> int:
@@ -122,40 +109,13 @@ def _import(options: argparse.Namespace) -> None:
         options.fit,
         tuple(options.layer),
     )
-    listed = Worker(_listed, drawing_bytes(options.file), asked).result()
+    listed = Worker(list_drawing, drawing_bytes(options.file), asked).result()
     unit = listed.unit
     if options.list or not listed.contours:
         _print_list(listed, unit)
         return
     contours = tuple(_changed(contour, options, unit) for contour in _chosen(listed, options.chain, unit))
     _write(options, listed, contours)
-
-
-def _listed(data: bytes, asked: Asked, *, progress: Progress) -> ContourList:
-    """In the worker: the drawing and its contours."""
-    drawing = read_dxf(data, asked.name, damaged=asked.damaged, progress=progress)
-    unit = asked.unit or drawing.unit
-    if unit is None:
-        raise DrawingError("UNITS", f"{unit_question(drawing)}: add --units in or --units mm.")
-    if asked.unit and drawing.unit and asked.unit is not drawing.unit:
-        note = f"The file says {drawing.unit}: it is read as {asked.unit}, as --units says."
-        drawing = replace(drawing, notes=(*drawing.notes, note))
-    return contours_of(drawing, _options(asked, drawing, unit), progress)
-
-
-def _options(asked: Asked, drawing: Drawing, unit: DrawingUnit) -> ImportOptions:
-    """The options of the arguments, each checked."""
-    program = unit.program_unit
-    most = from_mm(MAX_TOLERANCE[program], program)
-    for name, value in (("--tolerance", asked.tolerance), ("--fit", asked.fit)):
-        if value is not None and not 0.0 <= value <= most:
-            raise DrawingError("OPTION", f"{name} {value:g}: it must be from 0 to {most:g} {program}.")
-    for layer in asked.layers:
-        if layer not in drawing.layers:
-            raise DrawingError("OPTION", f"--layer {layer}: the drawing has {', '.join(drawing.layers) or 'none'}.")
-    tolerance = TOLERANCE[program] if asked.tolerance is None else to_mm(asked.tolerance, program)
-    fit = to_mm(asked.fit, program) if asked.fit else FIT[program]
-    return ImportOptions(unit, tolerance, fit, frozenset(asked.layers) or None)
 
 
 def _print_list(listed: ContourList, unit: Unit) -> None:
@@ -241,6 +201,9 @@ def import_nc(options: argparse.Namespace) -> None:
     if options.units and options.units not in units:
         raise Unusable("--units: an NC program is in inches or in millimeters.")
     unit = units.get(options.units or "")
+    # every control, which a drawing needs none of
+    from core.importing.nc import read_nc
+
     data, control = bytes_of(options.file), control_of(options.control)
     read = read_nc(data, control, tools_of(options), unit=unit, center=_center(options))
     if options.list:

@@ -27,7 +27,7 @@ from core.importing.curves import pieces_of_ellipse, pieces_of_spline
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import box_of, containers, crossings
+from core.importing.nesting import containers, crossings, lower_left
 from core.units import Kind, Unit, from_mm, show
 
 TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
@@ -213,7 +213,7 @@ def _fresh(contour: Contour) -> Contour:
 
 def _nested(contours: Sequence[Contour]) -> list[Contour]:
     """In the order of the list, with nesting, direction and start; open ones last, the longest first."""
-    closed = sorted((contour for contour in contours if contour.closed), key=_by_size)
+    closed = _by_size([contour for contour in contours if contour.closed])
     inside = containers([contour.pieces for contour in closed])
     met = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
     direct = [min(outer, key=lambda row: closed[row].area, default=None) for outer in inside]
@@ -248,9 +248,13 @@ def _kind(depth: int) -> ContourKind:
     return ContourKind.ISLAND if depth else ContourKind.OUTSIDE
 
 
-def _by_size(contour: Contour) -> tuple[float, ...]:
-    left, bottom, *_ = box_of(contour.pieces)
-    return -round(contour.area, KEY_DECIMALS), *rounded((left, bottom)), *rounded(contour.start)
+def _by_size(contours: Sequence[Contour]) -> list[Contour]:
+    """The largest first; those of one size by their places."""
+    keys = [
+        (-round(contour.area, KEY_DECIMALS), rounded(corner), rounded(contour.start))
+        for contour, corner in zip(contours, lower_left([contour.pieces for contour in contours]), strict=True)
+    ]
+    return [contours[row] for row in sorted(range(len(contours)), key=keys.__getitem__)]
 
 
 def _by_length(contour: Contour) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import atan2, ceil, hypot, pi, tau
-from typing import Final, Protocol
+from typing import Final, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +24,8 @@ from core.importing.drawing import BSpline, EllipseArc
 Points = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 
-BALANCING_ROUNDS: Final = 3
-"""Times a smaller tolerance is tried for as few biarcs, so that the last one is not shorter than the others."""
-
-SAMPLES: Final = 24
-"""Places of a biarc at which its distance from the curve is measured."""
+SHARES: Final = np.linspace(0.0, 1.0, 25)
+"""Places of a biarc at which its distance from the curve is measured, as shares of its parameters."""
 
 MARGIN: Final = 0.98
 """Share of FIT that the sampled distance may reach: between two samples it is a little larger."""
@@ -86,27 +83,36 @@ class _EllipseCurve:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _SplineCurve:
-    """Bezier spans of one degree: `control` (spans, degree + 1, 2) of x + iy times its weight, and the weight.
+    """Bezier spans of one degree: (degree + 1, spans) control points x + iy, each times its weight, and the weights.
 
-    The parameter counts spans.
+    The parameter counts spans.  `weights` is None where all are alike.
     """
 
     control: Points
+    weights: Floats | None
 
     def at(self, parameters: Floats) -> tuple[Points, Points]:
         """By repeated interpolation (de Casteljau); the last two points but one give the derivative."""
-        span = np.minimum(np.maximum(parameters.astype(int), 0), len(self.control) - 1)
-        share = (parameters - span)[:, None, None]
-        rows = self.control[span]
-        degree = rows.shape[1] - 1
-        while rows.shape[1] > 2:
-            rows = rows[:, :-1] + (rows[:, 1:] - rows[:, :-1]) * share
-        ahead = rows[:, 1] - rows[:, 0]
-        value = rows[:, 0] + ahead * share[:, 0]
-        point, weight = value[:, 0], value[:, 1]
+        span = np.clip(parameters.astype(int), 0, self.control.shape[1] - 1)
+        share = parameters - span
+        point, tangent = _interpolated(self.control[:, span], share)
+        if self.weights is None:
+            return point, tangent
+        weight, change = _interpolated(self.weights[:, span], share)
         # the derivative of a quotient
-        tangents = degree * (ahead[:, 0] * weight - point * ahead[:, 1]) / (weight * weight)
-        return point / weight, tangents
+        return point / weight, (tangent * weight - point * change) / (weight * weight)
+
+
+Row = TypeVar("Row", Points, Floats)
+
+
+def _interpolated(rows: Row, share: Floats) -> tuple[Row, Row]:
+    """Values and derivatives of the polynomials with Bezier coefficients `rows`, (degree + 1, n), at (n,) shares."""
+    degree = len(rows) - 1
+    while len(rows) > 2:
+        rows = rows[:-1] + (rows[1:] - rows[:-1]) * share
+    ahead = rows[1] - rows[0]
+    return rows[0] + ahead * share, degree * ahead
 
 
 def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
@@ -133,10 +139,10 @@ def _ellipse_about_origin(first: complex, second: complex, begin: float, end: fl
     stops, quarter, row = stations[:1], list[float](), 0
     for number, (here, there) in enumerate(pairwise(stations)):
         if abs(there - here - pi / 2) > ROUND:
-            stops += _balanced_stops(curve, here, there, fit * MARGIN)[1:]
+            stops += _balanced_stops(curve, here, there, fit)[1:]
             continue
         if not quarter:
-            quarter, row = [stop - here for stop in _balanced_stops(curve, here, there, fit * MARGIN)], number
+            quarter, row = [stop - here for stop in _balanced_stops(curve, here, there, fit)], number
         turned = quarter if (number - row) % 2 == 0 else [pi / 2 - stop for stop in reversed(quarter)]
         stops += [*(here + stop for stop in turned[1:-1]), there]
     pieces = _biarcs(curve, stops, fit)
@@ -186,24 +192,28 @@ def _ellipse_stations(shape: EllipseArc) -> list[float]:
 
 def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
     """A B-spline as arcs and lines."""
-    curve = _SplineCurve(_bezier_spans(shape))
+    curve = _bezier_curve(shape)
     pieces: list[Piece] = []
     for first, last in _smooth_runs(curve):
         stations = _extremes(curve, first, last)
-        divided = _fitted(curve, stations, fit)
-        whole = _fitted(curve, [first, last], fit) if len(stations) > 2 else divided
-        pieces += divided if len(divided) <= len(whole) else whole
+        divided = [_stops(curve, here, there, fit * MARGIN) for here, there in pairwise(stations) if there > here]
+        whole = [_stops(curve, first, last, fit * MARGIN)] if len(divided) > 1 else divided
+        chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
+        balanced = [_balanced(curve, run, fit * MARGIN) for run in chosen]
+        stops = [first, *(stop for run in balanced for stop in run[1:])]
+        pieces += _biarcs(curve, stops, fit)
     return pieces
 
 
-def _bezier_spans(shape: BSpline) -> Points:
-    """(spans, degree + 1, 2) control points of every span that has a length, by blossoming."""
+def _bezier_curve(shape: BSpline) -> _SplineCurve:
+    """The Bezier spans of every stretch between knots that has a length, by blossoming."""
     degree, knots = shape.degree, shape.knots
-    plain = np.column_stack((shape.points, np.ones(len(shape.points))))
-    rows: Points = (plain * shape.weights[:, None]).astype(np.complex128)
     size = float(knots[-1] - knots[0])
     spans = [k for k in range(degree, len(shape.points)) if knots[k + 1] - knots[k] > 1e-12 * size]
-    return np.array([[_blossom(rows, knots, degree, k, j) for j in range(degree + 1)] for k in spans])
+    weights = shape.weights / shape.weights[0]
+    rows = np.column_stack((shape.points * weights, weights)).astype(np.complex128)
+    made = np.array([[_blossom(rows, knots, degree, k, j) for k in spans] for j in range(degree + 1)])
+    return _SplineCurve(made[..., 0], None if np.all(weights == 1.0) else made[..., 1].real)
 
 
 def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points:
@@ -221,9 +231,9 @@ def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points
 
 def _smooth_runs(curve: _SplineCurve) -> list[tuple[float, float]]:
     """The stretches between the corners, as spans; spans without length belong to none."""
-    count = len(curve.control)
-    flat = curve.control[:, :, 0] / curve.control[:, :, 1]
-    spread = np.maximum(np.ptp(flat.real, axis=1), np.ptp(flat.imag, axis=1))
+    count = curve.control.shape[1]
+    flat = curve.control if curve.weights is None else curve.control / curve.weights
+    spread = np.maximum(np.ptp(flat.real, axis=0), np.ptp(flat.imag, axis=0))
     runs: list[tuple[float, float]] = []
     for span in range(count):
         if spread[span] <= STRAIGHT * 1e-3:
@@ -254,15 +264,6 @@ def _extremes(curve: Curve, first: float, last: float) -> list[float]:
     noise = 1e-6 * float(np.abs(bend).max()) if len(bend) else 0.0
     rows = np.flatnonzero((change[:-1] * change[1:] < 0.0) & (np.abs(change[:-1]) > noise)) + 1
     return [first, *(float(at[row]) for row in rows), last]
-
-
-def _fitted(curve: Curve, stations: list[float], fit: float) -> list[Piece]:
-    """Biarcs from each station to the next, each as long as it may be."""
-    stops = stations[:1]
-    for begin, end in pairwise(stations):
-        if end > begin:
-            stops += _balanced_stops(curve, begin, end, fit * MARGIN)[1:]
-    return _biarcs(curve, stops, fit)
 
 
 def _biarcs(curve: Curve, stops: list[float], fit: float) -> list[Piece]:
@@ -319,18 +320,20 @@ def _shortest(pieces: list[Piece]) -> float:
 
 
 def _balanced_stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
-    """Where biarcs end; all but the last reach as far as they may, then they share what is left."""
-    stops = _stops(curve, begin, end, fit)
-    count = len(stops) - 1
-    if count > 1:
-        low, high = 0.0, fit
-        for _ in range(BALANCING_ROUNDS):
-            middle = (low + high) / 2.0
-            other = _stops(curve, begin, end, middle)
-            if len(other) - 1 <= count:
-                high, stops = middle, other
-            else:
-                low = middle
+    return _balanced(curve, _stops(curve, begin, end, fit * MARGIN), fit * MARGIN)
+
+
+def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:
+    """As many stops, but the last biarc is about as long as the others: all hold a smaller tolerance."""
+    if len(stops) == 2:
+        return stops
+    # the error of a biarc grows with the cube of its length
+    last = (_biarc_between(curve, stops[-2], stops[-1])[1] / fit) ** (1 / 3)
+    share = (len(stops) - 2 + last) / (len(stops) - 1)
+    for smaller in (share, (share + 1.0) / 2.0):
+        other = _stops(curve, stops[0], stops[-1], fit * smaller**3)
+        if len(other) <= len(stops):
+            return other
     return stops
 
 
@@ -366,31 +369,29 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
 
 def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
     """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
-    at = np.linspace(first, last, SAMPLES + 1)
-    points, tangents = curve.at(at)
-    size = np.abs(tangents)
+    points, tangents = curve.at(first + (last - first) * SHARES)
     start, end = complex(points[0]), complex(points[-1])
-    if size.min() <= 0.0:
+    turned = tangents[1:] * tangents[:-1].conj()
+    if not turned.all():
         return [_line(start, end)], float(np.abs(points - start).max())
-    unit = tangents / size
-    turned = np.abs(np.angle(unit[1:] * unit[:-1].conj()))
-    if turned.sum() > MAX_BEND and last - first > 1e-9:
+    if np.abs(np.arctan2(turned.imag, turned.real)).sum() > MAX_BEND and last - first > 1e-9:
         return [], float("inf")
     if _off_chord(points) <= STRAIGHT:
         return [_line(start, end)], 0.0
-    t1, t2 = complex(unit[0]), complex(unit[-1])
-    pieces = biarc(start, end, t1, t2)
+    t1, t2 = complex(tangents[0]), complex(tangents[-1])
+    pieces = biarc(start, end, t1 / abs(t1), t2 / abs(t2))
     return pieces, _deviation(points, pieces)
 
 
 def _off_chord(points: Points) -> float:
-    chord = points[-1] - points[0]
+    """How far points that go from the first to the last leave the line between these two."""
+    chord = complex(points[-1] - points[0])
     size = abs(chord)
     if size == 0.0:
         return float(np.abs(points - points[0]).max())
     local = (points - points[0]) * (chord.conjugate() / size)
-    beyond = np.maximum(np.maximum(-local.real, local.real - size), 0.0)
-    return float(np.maximum(np.abs(local.imag), beyond).max())
+    ahead = local.real
+    return float(max(np.abs(local.imag).max(), -ahead.min(), ahead.max() - size))
 
 
 def biarc(start: complex, end: complex, first: complex, last: complex) -> list[Piece]:
@@ -434,26 +435,23 @@ def _point(value: complex) -> Point:
 
 
 def _deviation(points: Points, pieces: list[Piece]) -> float:
-    """How far points are from the nearer one of one or two pieces that run along them."""
-    off = np.full(len(points), np.inf)
-    for piece in pieces:
-        off = np.minimum(off, _distances(points, piece))
+    """How far points are from one or two tangent pieces that run along them; each belongs to the piece beside it."""
+    off = _off_carrier(points, pieces[0])
+    if len(pieces) == 2:
+        joint, along = complex(*pieces[0].end), complex(*pieces[0].direction_at(pieces[0].end))
+        beyond = ((points - joint) * along.conjugate()).real > 0.0
+        off = np.where(beyond, _off_carrier(points, pieces[1]), off)
     return float(off.max())
 
 
-def _distances(points: Points, piece: Piece) -> Floats:
-    start, end = complex(*piece.start), complex(*piece.end)
-    ends = np.minimum(np.abs(points - start), np.abs(points - end))
-    if isinstance(piece, Line):
-        chord = end - start
-        size = abs(chord)
-        if size == 0.0:
-            return ends
-        local = (points - start) * (chord.conjugate() / size)
-        return np.where((local.real >= 0.0) & (local.real <= size), np.abs(local.imag), ends)
-    arm = points - complex(*piece.center)
-    ahead = np.mod(np.angle(arm * (start - complex(*piece.center)).conjugate()) * piece.turn, tau)
-    return np.where(ahead <= abs(piece.sweep), np.abs(np.abs(arm) - piece.radius), ends)
+def _off_carrier(points: Points, piece: Piece) -> Floats:
+    """The distances of points from the circle or the line on which a piece lies."""
+    if isinstance(piece, Arc):
+        return np.abs(np.abs(points - complex(*piece.center)) - piece.radius)
+    start = complex(*piece.start)
+    chord = complex(*piece.end) - start
+    size = abs(chord)
+    return np.abs(points - start) if size == 0.0 else np.abs(((points - start) * (chord.conjugate() / size)).imag)
 
 
 def _merged(pieces: list[Piece]) -> list[Piece]:

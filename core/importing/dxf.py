@@ -77,6 +77,8 @@ def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progres
         reader.notes[f"The file is damaged ({scan.repaired}): what could be repaired is taken."] += 1
     elif not scan.whole:
         reader.notes[f"The file breaks off at line {scan.last_line}: what comes after it is missing."] += 1
+    for entity in scan.lost:
+        reader.notes[f"The {entity.kind} {entity.where} {entity.fault}: it is not read."] += 1
     for section in scan.unknown_sections:
         reader.notes[f"The section {words_of(section)!r} is unknown and is not read."] += 1
     try:

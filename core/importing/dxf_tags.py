@@ -100,11 +100,13 @@ class Scan:
     repaired: str = ""
     """Why the file could only be read by repairing it."""
     unknown_sections: list[str] = field(default_factory=list)
+    lost: list[ScannedEntity] = field(default_factory=list)
+    """Entities that no reader can see: their kind is missing."""
 
     @property
     def first_fault(self) -> ScannedEntity | None:
         """The first entity whose group codes cannot be right."""
-        every = (entity for entities in (*self.blocks.values(), self.entities) for entity in entities)
+        every = (entity for entities in (self.lost, *self.blocks.values(), self.entities) for entity in entities)
         return next((entity for entity in every if entity.fault), None)
 
 
@@ -226,8 +228,11 @@ class _Scanner:
             return
         if marker.value == "SECTION":
             self.section = next((tag.value for tag in body if tag.code == 2), "")
+            named = [tag for tag in body if tag.code != COMMENT]
             if self.section == "HEADER":
                 self._header(body)
+            elif self.section in ("ENTITIES", "BLOCKS") and len(named) > 1:
+                self.scan.lost.append(ScannedEntity("entity", named[1].line, 1, fault="has no kind (group code 0)"))
             elif self.section not in _SECTIONS:
                 self.scan.unknown_sections.append(self.section)
         elif marker.value == "BLOCK" and self.section == "BLOCKS":

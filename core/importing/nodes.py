@@ -13,6 +13,9 @@ from dataclasses import dataclass
 from math import dist
 from typing import Final
 
+import numpy as np
+import shapely
+
 from core.geometry.piece import Piece, Point
 
 SAME_POINT: Final = 1e-4
@@ -94,12 +97,17 @@ def exact_nodes(pieces: Sequence[Piece], tolerance: float) -> Nodes:
 
 
 def _same_points(ends: Sequence[Point], slack: float) -> _Groups:
-    groups, grid = _Groups(len(ends)), PointGrid(max(slack, 1e-7))
-    for number, point in enumerate(ends):
-        for other in grid.near(point):
-            if dist(point, ends[other]) <= max(slack, 1e-7):
-                groups.join(number, other)
-        grid.add(point, number)
+    groups = _Groups(len(ends))
+    if not ends:
+        return groups
+    # ends that are equal to the last digit first: a star of lines would have millions of pairs
+    places, firsts, same = np.unique(np.array(ends), axis=0, return_index=True, return_inverse=True)
+    for number, first in enumerate(firsts[same.ravel()].tolist()):
+        groups.join(number, first)
+    points = shapely.points(places)
+    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=max(slack, 1e-7))
+    for one, other in firsts[pairs[:, pairs[0] < pairs[1]]].T.tolist():
+        groups.join(one, other)
     return groups
 
 
@@ -117,10 +125,12 @@ def _numbered(ends: Sequence[Point], groups: _Groups) -> Nodes:
 
 def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, tolerance: float) -> None:
     """Join loose ends with the nearest nodes within the tolerance, nearest pairs first."""
+    loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
+    if not loose:
+        return
     grid = PointGrid(tolerance)
     for node, place in enumerate(nodes.places):
         grid.add(place, node)
-    loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
     pairs = []
     for node in loose:
         place = nodes.places[node]

@@ -8,7 +8,7 @@ import pytest
 
 from core.importing.drawing import DrawingError
 from core.importing.dxf import read_dxf
-from tests.core.importing.drawings import dxf, made, square
+from tests.core.importing.drawings import dxf, line, made, square
 from tests.core.importing.mutants import (
     TIME_LIMIT,
     full_document,
@@ -51,6 +51,17 @@ def test_a_damaged_file_is_taken_as_far_as_it_is_whole() -> None:
     taken = read_dxf(data[: len(data) - 40], "cut.dxf", damaged=True)
     assert taken.entities == 3
     assert "breaks off" in taken.notes[0]
+
+
+def test_an_entity_that_has_lost_its_kind_is_never_lost_in_silence() -> None:
+    data = dxf(*square(0, 0, 10), line((20, 0), (30, 0)))
+    for faulty in (data.replace(b"ENTITIES\n0\nLINE\n", b"ENTITIES\n6\nLINE\n", 1), data.replace(b"0\nLINE\n", b"", 1)):
+        with pytest.raises(DrawingError, match=r"The entity at line \d+ has no kind \(group code 0\)") as error:
+            read_dxf(faulty, "test.dxf")
+        assert error.value.code == "DXF_DAMAGED"
+        taken = read_dxf(faulty, "test.dxf", damaged=True)
+        assert taken.entities == 4
+        assert any("it is not read" in note for note in taken.notes)
 
 
 def test_trash_after_the_end_is_no_damage() -> None:
