@@ -7,12 +7,18 @@ import shutil
 from pathlib import Path
 
 import pytest
+from textual.geometry import Region
 
+from app.app import CutcompApp
+from app.documents.files import load
 from app.documents.lock import take
 from app.documents.programs import example
+from app.session.session import Session
 from app.terminal.capabilities import ascii_only, monochrome
 from app.terminal.driver import characters
+from app.widgets.field import LineInput
 from tests.app.documents.typist import ELSEWHERE
+from tests.app.widget_pilot import SURROUNDINGS
 from tests.terminal import cutcomp, running
 
 PROGRAM = cutcomp()
@@ -48,6 +54,39 @@ def test_braille_that_is_asked_for_is_drawn_on_a_vt100_too() -> None:
         terminal.until("GOUGE none", longest=30.0)
         terminal.read(quiet=0.3)
         assert re.search("[\u2801-\u28ff]", terminal.text)
+
+
+def told_apart(field: LineInput) -> tuple[int, int]:
+    """How many cells of the field with the cursor are reversed on a terminal without colors, how many underlined."""
+    (strip,) = field.render_lines(Region(0, 0, field.size.width, 1))
+    cells = [(len(text), style.reverse, style.underline) for text, style, _ in strip if style is not None]
+    return sum(one for one, reverse, _ in cells if reverse), sum(one for one, _, line in cells if line)
+
+
+async def test_without_colors_a_field_is_reversed_and_the_place_in_it_underlined() -> None:
+    app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
+    async with app.run_test(size=(80, 24)) as pilot:
+        seen = set()
+        for _ in range(9):
+            await pilot.pause()
+            field = app.focused
+            if isinstance(field, LineInput):
+                seen.add(field.name)
+                assert told_apart(field) == (field.size.width - 1, 1)
+            await pilot.press("tab")
+        assert {"segment", "tool", "x_start"} <= seen
+        await pilot.press("4", "2", "left")
+        assert isinstance(app.focused, LineInput)
+        assert told_apart(app.focused) == (app.focused.size.width - 1, 1)
+
+
+async def test_without_colors_what_a_dialog_stands_on_stays_in_sight() -> None:
+    app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
+    async with app.run_test(size=(80, 24)) as pilot:
+        await pilot.press("tab", "7", "enter", "ctrl+q")
+        await pilot.pause()
+        assert app.screen.query("#question")
+        assert "CONTOUR" in app.export_screenshot()
 
 
 @pytest.mark.parametrize("size", [(20, 5), (1, 1), (59, 24), (80, 19)])

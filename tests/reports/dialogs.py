@@ -8,6 +8,7 @@ on an xterm of UTF-8, and its bytes are looked through as in the matrix; somethi
 from __future__ import annotations
 
 import argparse
+import re
 import shutil
 import sys
 import time
@@ -34,6 +35,10 @@ NC: Final = "square.nc"
 SIZES: Final = ((80, 24), (60, 20))
 QUIET: Final = 0.4
 PATIENCE: Final = 40.0
+TOP: Final = re.compile(r"[╭+][─-] .*[─-][╮+]")
+END: Final = re.compile(r"[╰+][─-]+[╯+]")
+WORKING: Final = re.compile(r"[a-z] \.\.\.|working +\d|calculating")
+"""What says that something is still being worked out; dots alone are the path of an ASCII drawing."""
 GO_BACK: Final = ("GO BACK, nothing changes",)
 TABLE: Final = "T1 P1 D0.5 ;end mill\nT7 P7 D0.25\n"
 
@@ -252,7 +257,7 @@ def inside(line: str) -> str:
 def settle(terminal: Terminal) -> None:
     """Wait until nothing comes any more and nothing is still being calculated, but not for ever."""
     begun = time.monotonic()
-    while (terminal.read(quiet=QUIET).count or " ..." in terminal.text) and time.monotonic() - begun < PATIENCE:
+    while (terminal.read(quiet=QUIET).count or WORKING.search(terminal.text)) and time.monotonic() - begun < PATIENCE:
         pass
 
 
@@ -293,13 +298,12 @@ def one_kind(kind: Kind) -> list[str]:
 
 def box(lines: tuple[str, ...]) -> list[str]:
     """The lines of the dialog itself; what stands behind it may still be worked out."""
-    tops = [row for row, line in enumerate(lines) if "╭" in line or "+- " in line]
-    ends = [row for row, line in enumerate(lines) if "╰" in line]
+    tops = [(row, found) for row, line in enumerate(lines) if (found := TOP.search(line))]
+    ends = [row for row, line in enumerate(lines) if END.search(line)]
     if not tops or not ends:
         return list(lines[:-1])
-    left = lines[tops[0]].index("╭")
-    right = lines[tops[0]].index("╮") if "╮" in lines[tops[0]] else len(lines[tops[0]])
-    return [line[left : right + 1] for line in lines[tops[0] : ends[-1] + 1]]
+    row, top = tops[0]
+    return [line[top.start() : top.end()] for line in lines[row : ends[-1] + 1]]
 
 
 def main() -> int:

@@ -95,6 +95,13 @@ class Seat:
     tally: Tally
     last: Picture | None = None
 
+    def walk(self, steps: Sequence[Step]) -> Iterator[Step]:
+        """The first screen, then every step, each compared."""
+        self.compare("the start")
+        for step in steps:
+            self.step(step)
+            yield step
+
     def step(self, step: Step) -> None:
         """A key typed or another size, and the screen compared with the next picture."""
         if isinstance(step, tuple):
@@ -196,7 +203,7 @@ def recording(size: tuple[int, int], mode: str, steps: tuple[Step, ...]) -> Reco
 def seated(
     kind: Kind, size: tuple[int, int], steps: tuple[Step, ...], sequences: tuple[str, ...], tally: Tally, mode: str
 ) -> Iterator[Seat]:
-    """A seat with the first screen; what it was sent is looked through in the end."""
+    """A seat whose program has just been started; what it was sent is looked through in the end."""
     option = ["--characters", mode] if mode != kind.modes[0] or kind.asked else []
     expected = iter(pictures(size, mode, steps))
     own = {**kind.environment, "PYTHONPATH": str(ROOT)}
@@ -211,7 +218,6 @@ def seated(
             terminal.stream.select_other_charset("@")
         seat = Seat(kind, terminal, expected, size, sequences, tally)
         tally.runs += 1
-        seat.compare("the start")
         yield seat
         if trouble := stray(bytes(terminal.seen), kind.characters) or colors_wrong(terminal, kind.shown):
             seat.wrong(trouble)
@@ -226,10 +232,8 @@ def drawn(kind: Kind, mode: str, sizes: tuple[tuple[int, int], ...], tally: Tall
     """One way of drawing that this terminal is here for, on every size."""
     steps = resizing(sizes)
     with seated(kind, SIZES[0], steps, (), tally, mode) as seat:
-        for step in steps:
-            seat.step(step)
-            if step == "f8":
-                tally.combinations[f"{seat.size[0]}x{seat.size[1]} {mode}"] += 1
+        shown = (f"{seat.size[0]}x{seat.size[1]} {mode}" for step in seat.walk(steps) if step == "f8")
+        tally.combinations.update(shown)
 
 
 def one_kind(kind: Kind, number: int, sizes: tuple[tuple[int, int], ...] = SIZES) -> Tally:
@@ -237,8 +241,7 @@ def one_kind(kind: Kind, number: int, sizes: tuple[tuple[int, int], ...] = SIZES
     tally = Tally()
     sequences = FUNCTION_KEYS.get(kind.term, XTERM) if number % 2 == 0 else ()
     with seated(kind, sizes[number % len(sizes)], SCRIPT, sequences, tally, kind.modes[0]) as seat:
-        for key in SCRIPT:
-            seat.step(key)
+        list(seat.walk(SCRIPT))
     for mode in kind.only_here:
         drawn(kind, mode, sizes, tally)
     return tally
@@ -248,8 +251,7 @@ def one_mode(name: str) -> Tally:
     """The script by the function keys of one of PuTTY's modes."""
     tally = Tally()
     with seated(Kind("putty", Colors.MANY, "UTF-8"), SIZES[0], SCRIPT, PUTTY[name], tally, MODES[0]) as seat:
-        for key in SCRIPT:
-            seat.step(key)
+        list(seat.walk(SCRIPT))
     tally.wrong = [f"PuTTY's mode {name}: {one}" for one in tally.wrong]
     return tally
 

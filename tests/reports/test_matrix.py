@@ -1,4 +1,4 @@
-"""A few terminals of the matrix, far apart from each other; `python -m tests.reports.matrix` runs them all."""
+"""One terminal of the matrix; `python -m tests.reports.matrix` runs them all."""
 
 from __future__ import annotations
 
@@ -7,27 +7,32 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.reports import matrix, recorded
-from tests.reports.matrix import SCRIPT, Lost, Tally, one_kind, seated, stands_out, stray
+from tests.reports import matrix
+from tests.reports.matrix import SCRIPT, Tally, one_kind, seated, stands_out, stray
+from tests.reports.recorded import Picture
 from tests.reports.terminals import FORMS, LOCALES, MODES, PUTTY, SIZES, TERMS, Colors, Kind, kinds, sampled, sent
 
-SHORT = recorded.keys_of("tab", "tab", "f4", "f8", "f7", "f8")
-FEW = (
-    (Kind("xterm", Colors.TRUE, "UTF-8"), (SIZES[0],)),
-    (Kind("vt100", Colors.FEW, "C"), (SIZES[0],)),
-    (Kind("linux", Colors.NONE, "Latin-1"), (SIZES[0],)),
-)
+SIZE = SIZES[0]
+SHORT = matrix.resizing([SIZE])
 
 
-@pytest.mark.parametrize(("kind", "sizes"), FEW, ids=lambda one: str(one) if isinstance(one, Kind) else "")
-def test_a_terminal_shows_what_it_must(
-    kind: Kind, sizes: tuple[tuple[int, int], ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_terminal_shows_what_it_must(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(matrix, "SCRIPT", SHORT)
-    tally = one_kind(kind, len(kind.modes) % 2, sizes)
-    assert tally.wrong == []
-    assert sum(tally.combinations.values()) == len(kind.only_here) * len(sizes)
-    assert tally.screens > len(SHORT)
+    tally = one_kind(Kind("vt100", Colors.FEW, "C"), 0, (SIZE,))
+    assert (tally.wrong, tally.runs, tally.screens) == ([], 2, 2 * len(SHORT) + 2)
+    assert tally.combinations == {"80x24 ascii": 1}
+
+
+def test_a_wrong_screen_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    nothing = Picture(("",) * 24, frozenset())
+    monkeypatch.setitem(matrix.RECORDINGS, (SIZE, "ascii", SHORT), [nothing])
+    tally = Tally()
+    with seated(Kind("vt100", Colors.FEW, "C"), SIZE, SHORT, (), tally, "ascii") as seat:
+        seat.terminal.until("MILL CONTOUR", longest=30.0)
+        monkeypatch.setattr(matrix, "PATIENCE", 0.1)
+        assert not list(seat.walk(SHORT))
+    assert "after the start: line 0" in tally.wrong[-1]
+    assert tally.screens == 0
 
 
 def test_every_combination_is_in_the_matrix_once() -> None:
@@ -78,12 +83,3 @@ def test_a_cursor_of_color_alone_is_not_seen_without_colors() -> None:
     assert stands_out(colored, Colors.TRUE)
     assert not stands_out(colored, Colors.NONE)
     assert stands_out(SimpleNamespace(reverse=True, underscore=False, bg="default"), Colors.NONE)
-
-
-def test_a_wrong_screen_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    tally = Tally()
-    with seated(Kind("xterm", Colors.FEW, "UTF-8"), SIZES[0], ("tab",), (), tally, "braille") as seat:
-        monkeypatch.setattr(matrix, "PATIENCE", 0.2)
-        with pytest.raises(Lost):
-            seat.compare("nothing was typed")
-    assert "line" in tally.wrong[-1]
