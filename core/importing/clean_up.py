@@ -22,6 +22,9 @@ from core.importing.nodes import Nodes, PointGrid, exact_nodes, nodes_of
 MOST_SLACK: Final = 0.01
 """Millimeters within which pieces may be equal or lie on one line, whatever TOLERANCE is above it."""
 
+NO_LENGTH: Final = 1e-7
+"""Millimeters below which a piece is a point."""
+
 ANGLE_CELL: Final = 0.002
 """Radians: lines whose directions differ by more are not on one line."""
 
@@ -95,7 +98,9 @@ def _key(item: LayeredPiece) -> tuple[float, ...]:
 
 def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPiece]:
     """Without the pieces that lead nowhere: a run of short ones stays where it is longer than the tolerance."""
-    small = [row for row, item in enumerate(items) if item.piece.length < max(tolerance, 1e-7)]
+    # one without length has no direction either, wherever it lies
+    items = [item for item in items if item.piece.length >= NO_LENGTH]
+    small = [row for row, item in enumerate(items) if item.piece.length < tolerance]
     if not small:
         return items
     runs = _runs([items[row].piece for row in small], tolerance)
@@ -104,7 +109,7 @@ def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPi
         ends = [point for member in run for point in _extent(items[small[member]].piece)]
         width = max(x for x, _ in ends) - min(x for x, _ in ends)
         height = max(y for _, y in ends) - min(y for _, y in ends)
-        if max(width, height) < max(tolerance, 1e-7):
+        if max(width, height) < tolerance:
             dropped |= {small[member] for member in run}
     return [item for row, item in enumerate(items) if row not in dropped]
 

@@ -145,7 +145,8 @@ def _encoding(data: bytes) -> str:
     return encoding
 
 
-_HANDLE: Final = re.compile(r"\(#\w+\)")
+_HANDLE: Final = re.compile(r"\(#\w+\)|^\w+Error: ")
+"""What says nothing to an operator: the handle of an entity, the package's name of an error."""
 
 
 def words_of(error: Exception | str) -> str:

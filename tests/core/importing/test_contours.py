@@ -174,6 +174,15 @@ def test_a_curve_of_pieces_shorter_than_the_tolerance_stays() -> None:
     assert listed(circle_of_lines(3000), tolerance=2.0).contours[0].drawn == 3000
 
 
+def test_a_point_within_a_curve_of_short_pieces_is_dropped() -> None:
+    # as in a drawing of letters: lines shorter than the tolerance, and one without any length between them
+    corners = [(0.0, 0.0), (0.004, 0.0), (0.008, 0.001), (0.012, 0.004), (5.0, 0.0), (0.0, 5.0), (0.0, 0.0)]
+    lines = [line(start, end) for start, end in itertools.pairwise(corners)]
+    result = listed(dxf(*lines, line(corners[2], corners[2])))
+    assert (len(result.contours), result.tiny) == (1, 1)
+    assert result.contours[0].closed
+
+
 def test_the_start_is_the_middle_of_the_longest_line() -> None:
     entities = [line((0, 0), (30, 0)), line((30, 0), (30, 10)), line((30, 10), (0, 10)), line((0, 10), (0, 0))]
     contour = listed(dxf(*entities)).contours[0]

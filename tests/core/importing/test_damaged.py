@@ -64,6 +64,14 @@ def test_an_entity_that_has_lost_its_kind_is_never_lost_in_silence() -> None:
         assert any("it is not read" in note for note in taken.notes)
 
 
+def test_a_section_within_a_section_is_named_without_the_packages_words() -> None:
+    data = dxf(*square(0, 0, 10))
+    with pytest.raises(DrawingError) as error:
+        read_dxf(b"0\nSECTION\n2\nHEADER\n" + data, "twice.dxf")
+    assert error.value.text == "This file is damaged: missing ENDSEC tag."
+    assert error.value.readable == 4
+
+
 def test_trash_after_the_end_is_no_damage() -> None:
     assert read_dxf(dxf(*square(0, 0, 10)) + b"\x00\xff trash\n12\n", "trash.dxf").entities == 4
 
