@@ -216,7 +216,8 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     closed = _by_size([contour for contour in contours if contour.closed])
     inside = containers([contour.pieces for contour in closed])
     met = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
-    direct = [min(outer, key=lambda row: closed[row].area, default=None) for outer in inside]
+    areas = [contour.area for contour in closed]
+    direct = [min(outer, key=areas.__getitem__, default=None) for outer in inside]
     children: dict[int | None, list[int]] = {}
     for row, parent in enumerate(direct):
         children.setdefault(parent, []).append(row)

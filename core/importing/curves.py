@@ -57,6 +57,9 @@ MOVED_STOPS: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
 LONGER: Final = 1.5
 """Times by which the shortest arc must be longer, so that a stop is moved."""
 
+LONG_ENOUGH: Final = 0.6
+"""Share of the others' length from which on the last biarc is left as it is."""
+
 ENOUGH: Final = 0.9
 """Share of FIT from which on a biarc counts as the longest."""
 
@@ -93,7 +96,7 @@ class _SplineCurve:
 
     def at(self, parameters: Floats) -> tuple[Points, Points]:
         """By repeated interpolation (de Casteljau); the last two points but one give the derivative."""
-        span = np.clip(parameters.astype(int), 0, self.control.shape[1] - 1)
+        span = np.minimum(parameters.astype(np.intp), self.control.shape[1] - 1)
         share = parameters - span
         point, tangent = _interpolated(self.control[:, span], share)
         if self.weights is None:
@@ -101,6 +104,10 @@ class _SplineCurve:
         weight, change = _interpolated(self.weights[:, span], share)
         # the derivative of a quotient
         return point / weight, (tangent * weight - point * change) / (weight * weight)
+
+    def part(self, first: int, last: int) -> _SplineCurve:
+        """Spans first ... last - 1: at its end it has the direction in which it arrives, whatever comes next."""
+        return _SplineCurve(self.control[:, first:last], None if self.weights is None else self.weights[:, first:last])
 
 
 Row = TypeVar("Row", Points, Floats)
@@ -193,16 +200,18 @@ def _ellipse_stations(shape: EllipseArc) -> list[float]:
 def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
     """A B-spline as arcs and lines."""
     curve = _bezier_curve(shape)
-    pieces: list[Piece] = []
-    for first, last in _smooth_runs(curve):
-        stations = _extremes(curve, first, last)
-        divided = [_stops(curve, here, there, fit * MARGIN) for here, there in pairwise(stations) if there > here]
-        whole = [_stops(curve, first, last, fit * MARGIN)] if len(divided) > 1 else divided
-        chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
-        balanced = [_balanced(curve, run, fit * MARGIN) for run in chosen]
-        stops = [first, *(stop for run in balanced for stop in run[1:])]
-        pieces += _biarcs(curve, stops, fit)
-    return pieces
+    return [piece for first, last in _smooth_runs(curve) for piece in _fitted(curve.part(first, last), fit)]
+
+
+def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
+    """A smooth curve as arcs and lines: divided where its curvature is extreme, or as a whole, whichever is fewer."""
+    end = float(curve.control.shape[1])
+    stations = _extremes(curve, 0.0, end)
+    divided = [_stops(curve, here, there, fit * MARGIN) for here, there in pairwise(stations) if there > here]
+    whole = [_stops(curve, 0.0, end, fit * MARGIN)] if len(divided) > 1 else divided
+    chosen = min((divided, whole), key=lambda runs: sum(len(run) - 1 for run in runs))
+    balanced = [_balanced(curve, run, fit * MARGIN) for run in chosen]
+    return _biarcs(curve, [0.0, *(stop for run in balanced for stop in run[1:])], fit)
 
 
 def _bezier_curve(shape: BSpline) -> _SplineCurve:
@@ -229,19 +238,19 @@ def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points
     return first
 
 
-def _smooth_runs(curve: _SplineCurve) -> list[tuple[float, float]]:
+def _smooth_runs(curve: _SplineCurve) -> list[tuple[int, int]]:
     """The stretches between the corners, as spans; spans without length belong to none."""
     count = curve.control.shape[1]
     flat = curve.control if curve.weights is None else curve.control / curve.weights
     spread = np.maximum(np.ptp(flat.real, axis=0), np.ptp(flat.imag, axis=0))
-    runs: list[tuple[float, float]] = []
+    runs: list[tuple[int, int]] = []
     for span in range(count):
         if spread[span] <= STRAIGHT * 1e-3:
             continue
         if runs and runs[-1][1] == span and _is_smooth(curve, span):
-            runs[-1] = (runs[-1][0], float(span + 1))
+            runs[-1] = (runs[-1][0], span + 1)
         else:
-            runs.append((float(span), float(span + 1)))
+            runs.append((span, span + 1))
     return runs
 
 
@@ -330,6 +339,8 @@ def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:
     # the error of a biarc grows with the cube of its length
     last = (_biarc_between(curve, stops[-2], stops[-1])[1] / fit) ** (1 / 3)
     share = (len(stops) - 2 + last) / (len(stops) - 1)
+    if last >= LONG_ENOUGH:
+        return stops
     for smaller in (share, (share + 1.0) / 2.0):
         other = _stops(curve, stops[0], stops[-1], fit * smaller**3)
         if len(other) <= len(stops):

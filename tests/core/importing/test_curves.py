@@ -133,6 +133,17 @@ def test_a_spline_keeps_its_corners() -> None:
     assert pieces == [Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0))]
 
 
+def test_a_curve_that_ends_at_a_corner_has_no_more_arcs_than_alone() -> None:
+    # two arches that meet in a corner; each end has the direction in which the curve arrives there
+    arch = [0j, 2 + 8j, 12 + 9j, 20 + 0j]
+    knots = np.array([0.0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2])
+    both = BSpline(3, np.array([*arch, *(20 + point for point in arch[1:])]), np.ones(7), knots)
+    alone = len(pieces_of_spline(spline(arch), 0.005))
+    pieces = pieces_of_spline(both, 0.005)
+    assert len(pieces) == 2 * alone
+    assert apart(pieces, de_boor(both, 20001), 0.005) <= 0.005 * 1.001
+
+
 def test_a_spline_of_degree_one_is_its_lines() -> None:
     pieces = pieces_of_spline(spline([0j, 10 + 0j, 10 + 5j, 3 + 9j], 1), 0.005)
     assert [piece.end for piece in pieces] == [(10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]
