@@ -34,6 +34,9 @@ from core.pipeline.checking import Answer, Asked, answer, answer_all, lines, rea
 JSON_VERSION: Final = 1
 """Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
 
+FILES_AT_ONCE: Final = 4
+"""Files that a process is given at a time: more would keep the first answers back."""
+
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
@@ -123,7 +126,7 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         with _uninterrupted():
-            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=max(1, len(paths) // (8 * workers)))
+            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=FILES_AT_ONCE)
         try:
             yield from answers
         except BrokenProcessPool:

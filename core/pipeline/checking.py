@@ -21,6 +21,7 @@ from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, jud
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
+from core.pipeline.fitting_tool import largest_tool
 from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = (
@@ -69,7 +70,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Answer:
-    """A program on a control, told; `why` is what it stops for."""
+    """A program on a control, told; `why` is what it stops for, `fits` the largest tool where one is too big."""
 
     control: str
     unit: Unit
@@ -84,6 +85,7 @@ class Answer:
     gouge: tuple[float, int | None] | None = None
     parting: Parting | None = None
     parting_of: str = ""
+    fits: Finding | None = None
 
     @property
     def name(self) -> str:
@@ -138,8 +140,16 @@ def answer(text: bytes, asked: Asked) -> Answer:
     """One control's answer."""
     done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
-    results = judge_run(done)
-    return _with_option(_answer(done, results, _foreign(done.control, text), "", shop=asked.shop))
+    row = _answer(done, judge_run(done), _foreign(done.control, text), "", shop=asked.shop)
+    return _with_option(_with_largest_tool(row, done, text, asked))
+
+
+def _with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
+    """The answer; where a smaller tool would be clean, with the largest such."""
+    if row.state not in (State.ALARM, State.GOUGES):
+        return row
+    fits = largest_tool(text, done, asked.tools, asked.library, asked.unit)
+    return row if fits is None else replace(row, fits=fits, findings=(*row.findings, fits))
 
 
 def _with_option(row: Answer) -> Answer:
@@ -161,13 +171,13 @@ def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answ
 
 def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
     """Every control's answer, and where its path leaves that of the first one that runs the program."""
-    return tuple(_compared(row, asked) for row in compare(text, asked.tools, asked.unit, asked.library))
+    return tuple(_compared(row, asked, text) for row in compare(text, asked.tools, asked.unit, asked.library))
 
 
-def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
+def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
     if isinstance(row, OtherLanguage):
-        text = f"It is written in another language, and is not compared by its contour: {row.why}."
-        told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
+        said = f"It is written in another language, and is not compared by its contour: {row.why}."
+        told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
         return Answer(
             row.control,
             Unit.MM,
@@ -180,11 +190,12 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
         )
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
-        compared_row = _with_option(_answer(row.run, row.results, (), parts, shop=asked.shop))
+        compared_row = _answer(row.run, row.results, (), parts, shop=asked.shop)
+        compared_row = _with_option(_with_largest_tool(compared_row, row.run, text, asked))
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
-    text = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
-    told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
+    said = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
+    told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
     parts = f"by the contour{'; ' if parts else ''}{parts}"
     found = _answer(row.run, row.results, told, parts, shop=asked.shop)
     return replace(found, parting=row.parts, parting_of=row.of)
@@ -339,8 +350,11 @@ def counted(number: int, what: str) -> str:
 
 
 def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
-    """What the controls stop for, a sentence once for a rule and line."""
+    """What the controls stop for, a sentence once for a rule and line; then the largest tools that fit."""
     yield from dict.fromkeys(f"Line {one.stopped_at} ({one.why.code}): {one.why_said}" for one in answers if one.why)
+    for one in answers:
+        if one.fits is not None:
+            yield f"{one.name}: {sentence(one.fits, one.unit)}"
 
 
 def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tuple[str, ...]]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
 from core.controls.control_tools import CutterTool, ToolTable
-from core.pipeline.checking import Asked, answer
+from core.pipeline.checking import Asked, answer, answer_all, reasons
+from core.units import Unit, from_mm
 
 
 def asked(control: str, *tools: CutterTool) -> Asked:
@@ -21,3 +24,33 @@ def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
     row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nG40 X30.\nM30\n", asked("fanuc:a", CutterTool(3, 10.0)))
     assert (row.stopped_at, row.why) == (None, None)
+
+
+SLOT = (
+    b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\n"
+    b"X2.\nY0.\nX-.5\nG40 X-1. Y-1.\nM30\n"
+)
+"""A plate with a slot that is 0.4 wide and open above."""
+
+SLANTING = b"G21 G17 G90 G1 F100.\nX-20. Y0.\nG41 D1 X0.\nX50.\nM8\nM9\nY40.\nX20.\nG40 X0.\nM30\n"
+"""Two lines without movement at a corner, across which some controls do not look: a gouge with any tool."""
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a", "allen-bradley:a"])
+def test_the_largest_tool_that_fits_is_named_where_one_is_too_big(control: str) -> None:
+    row = answer(SLOT, asked(control, CutterTool(1, 0.5), CutterTool(2, 0.25)))
+    (found,) = (finding for finding in row.findings if finding.code == "TOOL_FITS")
+    assert found.text == "Tool 1 is too big; largest that fits: {0}."
+    assert from_mm(found.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
+    assert answer(SLOT, asked(control, CutterTool(1, 0.3999))).fits is None
+
+
+def test_no_tool_is_named_where_a_smaller_one_would_gouge_too() -> None:
+    row = answer(SLANTING, asked("fanuc:a", CutterTool(1, 10.0)))
+    assert row.gouge is not None
+    assert row.fits is None
+
+
+def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
+    told = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
+    assert "fanuc:a: Tool 1 is too big; largest that fits: 0.4000." in told

@@ -1,0 +1,69 @@
+"""The largest tool that fits: a control runs an NC program with ever other sizes of the tool that is too big."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Final
+
+from core.controls.control_run import ControlRun
+from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.judged_runs import deepest_gouge, judge_run
+from core.controls.registry import UnknownControl, run
+from core.finding import Finding, Severity
+from core.units import Kind, Unit, decimals_shown, from_mm, to_mm
+
+MAX_MOVES: Final = 2_000
+"""Moves of a program that is run again and again."""
+
+MAX_TOOLS: Final = 8
+"""Tools of a program that are tried."""
+
+SMALLEST_SHARE: Final = 20
+"""A tool of a smaller part of the diameter than this is no remedy; what any tool does wrong becomes small with it."""
+
+_NUMBER: Final = re.compile(rb"(?:[TD]|CALL|DEF)\s*(\d+)", re.IGNORECASE)
+"""Where a program names a tool or an offset."""
+
+
+def largest_tool(
+    text: bytes, done: ControlRun, tools: ToolTable, library: ProgramLibrary, unit: Unit | None
+) -> Finding | None:
+    """The tool that is too big for a program that alarms or gouges, and the largest diameter with which it is clean.
+
+    `done` is the run with the tools as they are.  None where no smaller tool helps: the fault is another one.
+    """
+    if len(done.moves) > MAX_MOVES or not _is_faulty(done):
+        return None
+
+    step = 10.0 ** -decimals_shown(Kind.LENGTH, done.unit)
+
+    def fits(tool: CutterTool, size: int) -> bool:
+        diameter = step * size if tool.diameter > 0.0 else -step * size
+        trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
+        ran = run(text, done.control, trial, unit, library)
+        return not isinstance(ran, UnknownControl) and not _is_faulty(ran)
+
+    for tool in _named(text, tools):
+        fails = int(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step + 1e-6)
+        clean = fails // SMALLEST_SHARE
+        if not clean or not fits(tool, clean):
+            continue
+        while fails - clean > 1:
+            size = (clean + fails) // 2
+            clean, fails = (size, fails) if fits(tool, size) else (clean, size)
+        said = f"Tool {tool.number} is too big; largest that fits: {{0}}."
+        return Finding("TOOL_FITS", Severity.INFO, said, lengths=(to_mm(step * clean, done.unit),))
+    return None
+
+
+def _is_faulty(done: ControlRun) -> bool:
+    return done.stopped_at is not None or deepest_gouge(judge_run(done))[0] > 0.0
+
+
+def _named(text: bytes, tools: ToolTable) -> tuple[CutterTool, ...]:
+    """The tools of the table that the text names."""
+    numbers = dict.fromkeys(int(number) for number in _NUMBER.findall(text) if len(number) < 9)
+    named = (tools.get(number) for number in numbers)
+    return tuple(tool for tool in named if tool is not None)[:MAX_TOOLS]
