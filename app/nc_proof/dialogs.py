@@ -14,6 +14,7 @@ from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Compared, Question, compare
+from app.widgets.option_rows import OptionRows
 
 
 class ChooseControl(ModalScreen[str]):
@@ -30,7 +31,7 @@ class ChooseControl(ModalScreen[str]):
         from core.controls.registry import choices
 
         with Vertical(id="controls-box", classes="wide-box"):
-            yield OptionList(
+            yield OptionRows(
                 *(
                     Option(Content.assemble(f"{choice.name:<20}", (choice.about, "$c-label")), id=choice.control)
                     for choice in choices()
@@ -68,7 +69,7 @@ class CompareControls(ModalScreen[str]):
         """The list, empty until the controls have answered."""
         with Vertical(id="compare-box", classes="wide-box"):
             yield Static("Every control is running the program ...", id="compare-wait")
-            yield OptionList(id="compared", compact=True)
+            yield OptionRows(id="compared", compact=True)
 
     def on_mount(self) -> None:
         """Ask all controls."""

@@ -26,6 +26,7 @@ from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
+from app.widgets.option_rows import OptionRows
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolTable
@@ -113,7 +114,7 @@ class ProofScreen(BaseScreen):
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")
-        yield OptionList(id="proof-findings", classes="panel", compact=True)
+        yield OptionRows(id="proof-findings", classes="panel", compact=True)
 
     def on_mount(self) -> None:
         """The text, the cursor where it was, and the first run."""
@@ -186,6 +187,8 @@ class ProofScreen(BaseScreen):
         if self.document.file.holder is not None:
             self.say("Somebody else has this file open. SAVE AS (Ctrl+K) makes a copy of your own.", Tone.WARNING)
             return
+        if self.has_class("-large"):
+            self.action_large()
         listing.focus()
         listing.read_only = not listing.read_only
         if listing.read_only:
@@ -398,8 +401,14 @@ class ProofScreen(BaseScreen):
         self._draw()
 
     def action_large(self) -> None:
-        """The drawing on the whole width, or beside the listing."""
-        self.toggle_class("-large")
+        """The drawing on the whole width, or beside the listing, which takes no keys while it is out of sight."""
+        listing, large = self.query_exactly_one(Listing), not self.has_class("-large")
+        if not listing.read_only:
+            self.action_edit()
+        self.set_class(large, "-large")
+        listing.can_focus = self.query_exactly_one("#proof-findings").can_focus = not large
+        if not large:
+            listing.focus()
 
     # ---- control and tools
 

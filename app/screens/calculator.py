@@ -12,6 +12,7 @@ from textual.containers import Horizontal, Vertical
 from textual.screen import ModalScreen
 from textual.widgets import Input, Label, OptionList, Static
 
+from app.widgets.option_rows import OptionRows
 from core.program.calculator import Case, Quantity, Refusal, calculate, field_text, outputs_for
 from core.program.fields import Field
 from core.units import Unit
@@ -42,7 +43,7 @@ class Calculator(ModalScreen[str]):
                 with Horizontal(classes="field"):
                     yield Label(quantity.label, classes="label")
                     yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
-            yield OptionList(id="answers", compact=True)
+            yield OptionRows(id="answers", compact=True)
             yield Static(id="number-trouble", markup=False)
 
     def on_mount(self) -> None:

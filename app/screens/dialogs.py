@@ -18,6 +18,7 @@ from textual.widgets import Input, Label, OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.widgets.field import LineInput
+from app.widgets.option_rows import OptionRows
 from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16
@@ -58,7 +59,7 @@ class Question(ModalScreen[str]):
         """A framed box: the loss, then one answer a line."""
         with Vertical(id="question", classes="-wide" if self.details else ""):
             yield Static("\n".join((*self.lines, *self.details)), id="loss", markup=False)
-            yield OptionList(
+            yield OptionRows(
                 *(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers", compact=True
             )
 
@@ -258,7 +259,7 @@ class ChooseLine(ModalScreen[str]):
     def compose(self) -> ComposeResult:
         """A framed list."""
         with Vertical(id="question"):
-            yield OptionList(*(Option(words, id=result) for result, words in self.rows), id="answers", compact=True)
+            yield OptionRows(*(Option(words, id=result) for result, words in self.rows), id="answers", compact=True)
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
@@ -293,7 +294,7 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
         """A framed list."""
         with Vertical(id="question"):
             yield Static("Space marks, Enter takes what is marked.", id="loss", markup=False)
-            yield OptionList(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers", compact=True)
+            yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers", compact=True)
 
     def on_mount(self) -> None:
         """The cursor on the first row."""

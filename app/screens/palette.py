@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Final
 from textual import on
 from textual.binding import Binding, BindingType
 from textual.command import CommandPalette, DiscoveryHit, Hit, Hits, Provider
-from textual.widgets import Input
+from textual.widgets import Input, OptionList
 
 from app.screens.base import BaseScreen
 
@@ -93,6 +93,13 @@ class Palette(CommandPalette):
     """The command palette; a digit from 1 to 8 as the first key presses the softkey of the screen below."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+k,f8", "app.back", "Close", show=False)]
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """While the list has no room there are no pages in it: Textual's own step fails then."""
+        paging = action == "command_list" and str(parameters[0]).startswith("page_")
+        if paging and not self.query_one(OptionList).scrollable_content_region:
+            return False
+        return super().check_action(action, parameters)
 
     def on_mount(self) -> None:
         """Listen to the first key of the line, whose cursor does not blink."""

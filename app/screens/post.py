@@ -23,6 +23,7 @@ from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
 from app.session.work import Work
+from app.widgets.option_rows import OptionRows
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
@@ -73,7 +74,7 @@ class PostScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
-        yield OptionList(
+        yield OptionRows(
             *(Option(Content.assemble(f"{name:<24}", (words, "$c-label")), id=name) for name, words in choices()),
             id="post-controls",
             compact=True,

@@ -15,6 +15,7 @@ from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 from app.session.block_findings import Entry, Kind
+from app.widgets.option_rows import OptionRows
 from app.widgets.verdict import MARKS, Marks
 
 ROLES = {
@@ -44,7 +45,7 @@ def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:
     return f"{mark(entry.kind, marks)} {at + 1}/{len(entries)} {entry.title.removesuffix(' thick')}  {where}".rstrip()
 
 
-class FindingsList(OptionList):
+class FindingsList(OptionRows):
     """The list; the one in hand is highlighted, n and p step, round."""
 
     BINDINGS: ClassVar[list[BindingType]] = [

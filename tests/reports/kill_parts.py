@@ -13,10 +13,11 @@ from app.documents.document import ContourDocument, FileState
 from app.documents.journal import Journal
 from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
+from app.file_actions import session_of
 from app.screens.contour import NEW_SEGMENTS
 from app.screens.contour_cells import fields_at, value_at
 from app.session.session import Session
-from core.program.edit import FormPlace, Refused, delete_segment, insert_segment, is_empty, type_field
+from core.program.edit import Edited, FormPlace, Refused, delete_segment, insert_segment, is_empty, type_field
 from core.program.fields import read_typed
 from core.program.history import History, differences
 from core.program.model import Number, Program
@@ -127,9 +128,8 @@ class ContourPart(Part):
     READY = "MILL CONTOUR"
 
     def begin(self, journal: Journal | None) -> None:
-        history = History(self._program()) if journal is None else journal.work
-        assert isinstance(history, History)
-        self.session = Session.of_history(history, history.program, FormPlace(1, 0), "segment", self.file, "")
+        document = ContourDocument.of(self._program(), FileState(self.file))
+        self.session = session_of(document if journal is None else document.restored(journal))
         self.states, self.acknowledged = [], 0
         self._add()
 
@@ -182,54 +182,61 @@ class ContourPart(Part):
         """A text into a field of START or of the last segment."""
         last = len(self.session.block.segments)
         on_start = last == 0 or chance.random() < 0.5
-        self.session = self.session.at(FormPlace(1, 0 if on_start else last))
-        fields = fields_at(self.session)[:7]
+        session = self._at(0 if on_start else last)
+        fields = fields_at(session)[:7]
         index = chance.choice([at for at, each in enumerate(fields) if each.kind not in (Kind.CHOICE, Kind.TEXT)])
-        name, place = fields[index].name, self.session.place
-        typed = read_typed(text, fields[index], self.session.program.unit)
-        edited = type_field(self.session.program, place, name, typed)
-        same = isinstance(typed, Number) and typed == value_at(self.session, name)
+        name = fields[index].name
+        typed = read_typed(text, fields[index], session.program.unit)
+        edited = type_field(session.program, session.place, name, typed)
+        same = isinstance(typed, Number) and typed == value_at(session, name)
         if isinstance(edited, Refused) or same:
             return []
-        self._take(edited, f"{fields[index].label} of {'START' if on_start else f'segment {last}'}, block 1")
+        self._take(session)
+        self._edit(edited, f"{fields[index].label} of {'START' if on_start else f'segment {last}'}, block 1")
         return ["ctrl+home" if on_start else "ctrl+end", *["tab"] * (index + 1), *text, "tab"]
 
-    def _take(self, edited: Program, label: str) -> None:
-        session = self.session.with_program(edited, label)
-        if session is not self.session:
-            self.session = session
+    def _at(self, segment: int) -> Session:
+        """The cursor on another segment; a new one in which nothing was typed is gone then."""
+        session = self.session
+        if session.place.segment != segment:
+            session = session.without_empty()
+        return session.at(FormPlace(1, segment))
+
+    def _take(self, session: Session) -> None:
+        """A state more where the program is another one."""
+        before, self.session = self.session, session
+        if session.history is not before.history:
             self._add()
+
+    def _edit(self, edited: Edited, label: str) -> None:
+        if not isinstance(edited, Refused):
+            self._take(self.session.with_program(edited, label))
 
     def _segment(self, letter: str) -> list[str]:
         """A new segment after the last one, or another kind of one in which nothing is typed."""
         last = len(self.session.block.segments)
-        self.session = self.session.at(FormPlace(1, last))
-        segment, place, program = self.session.segment, self.session.place, self.session.program
+        self._take(self._at(last))
+        segment, place, program, new = self.session.segment, self.session.place, self.session.program, NEW_SEGMENTS
         if segment is None or not is_empty(segment):
-            outcome = insert_segment(program, FormPlace(1, last + 1), NEW_SEGMENTS[letter]())
+            self._edit(insert_segment(program, FormPlace(1, last + 1), new[letter]()), f"new segment {last + 1}")
+            self._take(self._at(last + 1))
         else:
             without = delete_segment(program, place)
-            new = NEW_SEGMENTS[letter]()
-            outcome = without if isinstance(without, Refused) else insert_segment(without, place, new)
-        if not isinstance(outcome, Refused):
-            self._take(outcome, "a segment")
+            assert not isinstance(without, Refused)
+            self._edit(insert_segment(without, place, new[letter]()), "another kind of segment")
         return ["ctrl+end", letter]
 
     def _delete(self) -> list[str]:
         last = len(self.session.block.segments)
         if not last:
             return []
-        outcome = delete_segment(self.session.program, FormPlace(1, last))
-        if not isinstance(outcome, Refused):
-            self._take(outcome, "delete")
+        self._take(self._at(last))
+        self._edit(delete_segment(self.session.program, FormPlace(1, last)), "delete")
         return ["ctrl+end", "f1"]
 
     def _turn(self, *, undo: bool, times: int) -> list[str]:
         for _ in range(times):
-            session = self.session.undone() if undo else self.session.redone()
-            if session.history is not self.session.history:
-                self.session = session
-                self._add()
+            self._take(self.session.undone() if undo else self.session.redone())
         return ["ctrl+z" if undo else "ctrl+y"] * times
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 
 import pytest
 from textual.widgets import Label, OptionList, Static
+from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
 from app.documents.service import DocumentService, Opened
@@ -34,7 +35,9 @@ class Proof(Operator):
                 if worker.group in ("proof", "compare", "derive", "table", "drawing")
             ]
             if working:
-                await self.app.workers.wait_for_complete(working)
+                # a drawing that another one replaces is given up
+                with suppress(WorkerCancelled):
+                    await self.app.workers.wait_for_complete(working)
             await self.pilot.pause()
 
     @property
@@ -85,6 +88,31 @@ async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_
         assert "1=0.25" in str(one.proof.query_one("#proof-control", Label).content)
         await one.press(">")
         assert "gouges by 0.1255" in one.outcome
+
+
+async def test_pages_of_findings_that_have_no_room_are_no_step(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.pilot.resize_terminal(20, 5)
+        await one.press("tab")
+        await with_tool(one)
+        await one.press("pagedown", "pageup")
+        assert "gouges by 0.1250" in one.outcome
+
+
+async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
+    """A dialog that closes gives the keys back to nobody there; EDIT brings the listing back."""
+    async with at_proof(tmp_path) as one:
+        listing = one.proof.query_one(Listing)
+        await one.press("enter", "f7")
+        assert listing.read_only
+        await with_tool(one)
+        await one.press("tab", "x", "down")
+        assert (one.app.focused, one.line) == (None, 1)
+        await one.press("f7")
+        assert one.app.focused is listing
+        await one.press("f7", "f1", "'N1 ")
+        assert listing.document.get_line(0).startswith("N1 G20")
+        assert listing.region
 
 
 async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
