@@ -1,4 +1,4 @@
-"""The programs a control calls by their numbers: files of the folder a program is in, as in the control's memory."""
+"""The programs a control calls, by number or label: files of the folder a program is in, as in its memory."""
 
 from __future__ import annotations
 
@@ -29,12 +29,14 @@ class FolderLibrary:
 
     folder: Path | None
 
-    def __call__(self, number: int) -> tuple[str, bytes] | None:
-        """The name and text of a program, None where there is no file of it that can be read."""
+    def __call__(self, program: int | str) -> tuple[str, bytes] | None:
+        """The name and text of a program, None where there is no file of it that can be read.
+
+        A text is the label by which LinuxCNC calls a subprogram.
+        """
         if self.folder is None:
             return None
-        named = (self.folder / form.format(number) for form in PROGRAM_FILE_NAMES)
-        path = next((path for path in named if path.is_file()), None) or self._beginning_with(number)
+        path = self._labeled(program) if isinstance(program, str) else self._numbered(program)
         if path is None:
             return None
         try:
@@ -42,6 +44,19 @@ class FolderLibrary:
         except (OSError, ValueError):
             return None
         return "".join(sign if sign.isprintable() else "?" for sign in path.name), text
+
+    def _labeled(self, label: str) -> Path | None:
+        """The file that has the label's name; one in another folder is none of them."""
+        assert self.folder is not None
+        path = self.folder / f"{label}.ngc"
+        with suppress(OSError, ValueError):
+            return path if path.parent == self.folder and path.is_file() else None
+        return None
+
+    def _numbered(self, number: int) -> Path | None:
+        assert self.folder is not None
+        named = (self.folder / form.format(number) for form in PROGRAM_FILE_NAMES)
+        return next((path for path in named if path.is_file()), None) or self._beginning_with(number)
 
     def _beginning_with(self, number: int) -> Path | None:
         """The file whose first program has this number, whatever the file is called."""

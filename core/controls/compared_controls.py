@@ -12,7 +12,7 @@ from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool

@@ -17,8 +17,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.execute import NO_LIBRARY, execute
-from core.controls.iso.flow import MakeControl
-from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.iso.flow import MakeControl, ProgramLibrary
 from core.controls.klartext import control as klartext
 from core.controls.klartext.path_functions import KLARTEXT_RADII
 from core.controls.klartext.reader import is_klartext_text

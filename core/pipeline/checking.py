@@ -15,7 +15,7 @@ from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run, judged_findings
 from core.controls.moves import Move, Moves

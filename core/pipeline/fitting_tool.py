@@ -8,7 +8,7 @@ from typing import Final
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import deepest_gouge, judge_run
 from core.controls.registry import UnknownControl, run
 from core.finding import Finding, Severity

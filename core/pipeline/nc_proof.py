@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.execute import NO_LIBRARY
-from core.controls.iso.macro_flow import ProgramLibrary
+from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run

@@ -333,3 +333,44 @@ def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None
     assert b"X5." in found[1]
     assert FolderLibrary(tmp_path)(1004) is None
     assert FolderLibrary(None)(1002) is None
+
+
+POCKET = "o<pocket> sub\n  G1 X#1 Y#2\n  o100 if [#1 GT 5]\n  X[#1+1]\n  o100 endif\no<pocket> endsub\nM2\n"
+
+
+def test_linuxcnc_calls_the_file_of_a_named_subprogram(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "pocket.ngc").write_text(POCKET)
+    main = tmp_path / "main.ngc"
+    # as the real interpreter runs it: to (10, 20), (11, 20), (1, 2), (50, 2); the file's own M2 is not reached
+    main.write_text("G21 G90 F100\no<Pocket> call [10] [20]\no<pocket> call [1] [2]\nX50\n")
+    assert check([str(main), "--control", "linuxcnc", "--json"]) == 0
+    (result,) = json.loads(capsys.readouterr().out)["results"]
+    moves = [(move["line"], move["x"], move["y"]) for move in result["moves"][1:]]
+    assert moves == [(2, 10.0, 20.0), (2, 11.0, 20.0), (2, 1.0, 2.0), (4, 50.0, 2.0)]
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        ("o<lost> call", "There is no subprogram O<lost> in this file, and no file lost.ngc in its folder."),
+        ("o7 call", "There is no subprogram O7 in this file, and no file 7.ngc in its folder."),
+        ("o<plain> call", "plain.ngc is called here and has no subprogram O<plain>."),
+        ("o<bad> call", "bad.ngc line 2: "),
+        ("o<../outside> call", "There is no subprogram O<../outside> in this file"),
+    ],
+)
+def test_a_missing_file_of_a_subprogram_is_named_with_line_and_column(
+    call: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (tmp_path / "outside.ngc").write_text("o<../outside> sub\no<../outside> endsub\n")
+    (folder / "plain.ngc").write_text("G0 X1\n")
+    (folder / "bad.ngc").write_text("o<bad> sub\nG1 X1 X2\no<bad> endsub\n")
+    (folder / "main.ngc").write_text(f"G21 F9\n{call}\nM2\n")
+    assert check([str(folder / "main.ngc"), "--control", "linuxcnc", "--json"]) == 1
+    (result,) = json.loads(capsys.readouterr().out)["results"]
+    (finding,) = (finding for finding in result["findings"] if finding["severity"] == "error")
+    assert finding["text"].startswith(said)
+    assert finding["line"] == result["stopped_at"] == 2
+    assert finding["column"] == (1 if "bad" in call else call.index("call") + 1)

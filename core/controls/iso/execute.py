@@ -10,10 +10,10 @@ import numpy as np
 from core.controls.control_run import AlarmError, ControlRun, Log, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import Flow, MakeControl
+from core.controls.iso.flow import Flow, MakeControl, ProgramLibrary
 from core.controls.iso.machine import Machine
 from core.controls.iso.macro import ParameterStore
-from core.controls.iso.macro_flow import MacroFlow, ProgramLibrary
+from core.controls.iso.macro_flow import MacroFlow
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.moves import Moves
 from core.controls.program_text import lines_of
@@ -23,7 +23,7 @@ LINES_BETWEEN: Final = 200
 """Lines between two words on how far the run is."""
 
 
-def no_library(_: int) -> None:
+def no_library(_: int | str) -> None:
     """A library without programs."""
 
 
@@ -48,7 +48,7 @@ def execute(
         flow: Flow = MacroFlow(lines, dialect, log, with_macros, library)
     else:
         machine = Machine(dialect, control, tools, log)
-        flow = Flow(lines, dialect, log, machine)
+        flow = Flow(lines, dialect, log, machine, library)
     stopped_at = None
     try:
         _run(flow, machine, progress)
@@ -59,7 +59,7 @@ def execute(
     flow.finish()
     unit = machine.first_unit or machine.unit
     made = ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
-    return _by_main_lines(made, flow) if isinstance(flow, MacroFlow) else made
+    return _by_main_lines(made, flow)
 
 
 def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
@@ -82,9 +82,10 @@ def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
     machine.control.close()
 
 
-def _by_main_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
+def _by_main_lines(made: ControlRun, flow: Flow) -> ControlRun:
     """The run with the lines of called files told as the lines that call them, and its variables."""
-    made = replace(made, variables=dict(flow.variables.common))
+    if isinstance(flow, MacroFlow):
+        made = replace(made, variables=dict(flow.variables.common))
     if not flow.called_from:
         return made
     findings = []
@@ -103,9 +104,9 @@ def _by_main_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
     )
 
 
-def _moves_by_main_lines(moves: Moves, flow: MacroFlow) -> Moves:
+def _moves_by_main_lines(moves: Moves, flow: Flow) -> Moves:
     return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))
 
 
-def _stretch_by_main_lines(stretch: Stretch, flow: MacroFlow) -> Stretch:
+def _stretch_by_main_lines(stretch: Stretch, flow: Flow) -> Stretch:
     return replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow))

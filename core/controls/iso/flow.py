@@ -26,7 +26,7 @@ from core.controls.iso.macro import (
     tell_unset,
 )
 from core.controls.iso.reader import Block, is_plain, read_line, whole
-from core.controls.program_text import quoted
+from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
@@ -44,6 +44,10 @@ _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))(
 _COMMENT: Final = re.compile(r"\([^)]*+(?:\)|$)|;.*")
 """An unclosed one matches too, so that no line is searched again from each of its brackets."""
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
+
+
+ProgramLibrary = Callable[[int | str], tuple[str, bytes] | None]
+"""Finds a program outside of the file, by its number or by the label of LinuxCNC's O-word: its name and text."""
 
 
 class OWord(NamedTuple):
@@ -99,9 +103,9 @@ class Call:
     macro: bool = False
 
 
-def o_words_of(lines: Sequence[str]) -> dict[int, OWord]:
-    """The O-words of a program by their line's index."""
-    read = ((index, _read(index, line)) for index, line in enumerate(lines) if "o" in line or "O" in line)
+def o_words_of(lines: Sequence[str], first: int = 0) -> dict[int, OWord]:
+    """The O-words of a program by their line's index; `first` is that of the first of these lines."""
+    read = ((index, _read(index, line)) for index, line in enumerate(lines, first) if "o" in line or "O" in line)
     return {index: word for index, word in read if word is not None}
 
 
@@ -127,18 +131,26 @@ class OWords:
     """Follows the O-words of a program; `run` gives the index of the next line.
 
     `calls` are the program and the subprograms that run, the innermost last, those that M98 called among them.
+    `load` looks for the file of a subprogram that is not in this one, and adds its words.
     """
 
-    def __init__(self, words: dict[int, OWord], values: MacroParameters, log: Log, calls: list[Call]) -> None:
-        self.words = words
+    def __init__(
+        self,
+        words: dict[int, OWord],
+        values: MacroParameters,
+        log: Log,
+        calls: list[Call],
+        load: Callable[[str, int], str],
+    ) -> None:
+        self.words = dict[int, OWord]()
         self.values = values
         self.log = log
         self.calls = calls
+        self.load = load
         self.begun: dict[tuple[str | None, str], int] = {}
-        self.subs = [row for row, word in words.items() if word.word == "SUB"]
+        self.subs = list[int]()
         self.by_label: dict[str, list[OWord]] = {}
-        for word in words.values():
-            self.by_label.setdefault(word.label, []).append(word)
+        self.add(words)
         self._steps: dict[str, Callable[[OWord], int]] = {
             "SUB": self._sub,
             "CALL": self._call,
@@ -156,6 +168,13 @@ class OWords:
             "BREAK": self._break,
             "CONTINUE": self._continue,
         }
+
+    def add(self, words: Mapping[int, OWord]) -> None:
+        """The words of lines that come after those known before."""
+        self.words.update(words)
+        self.subs += [row for row, word in words.items() if word.word == "SUB"]
+        for word in words.values():
+            self.by_label.setdefault(word.label, []).append(word)
 
     def run(self, word: OWord) -> int:
         """Runs an O-word."""
@@ -230,15 +249,23 @@ class OWords:
 
     def _call(self, word: OWord) -> int:
         label = word.label or self._worked_label(word)
-        begun = next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
+        name = quoted(f"O{label}" if label.isdigit() else f"O<{label.lower()}>")
+        begun = self._begin_of(label)
+        if begun is None and (file := self.load(label, word.row + 1)):
+            begun = self._begin_of(label)
+            if begun is None:
+                self._stop(word, f"{file} is called here and has no subprogram {name}.")
         if begun is None:
-            name = f"O{label}" if label.isdigit() else f"O<{label.lower()}>"
-            self._stop(word, f"There is no subprogram {quoted(name)} in this file. cutcomp reads no other files.")
+            missing = quoted(f"{label.lower()}.ngc")
+            self._stop(word, f"There is no subprogram {name} in this file, and no file {missing} in its folder.")
         if sum(call.number is None for call in self.calls) > MAX_NESTED:
             self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
         self.values.enter(self._values(word, MAX_ARGUMENTS))
         self.calls.append(Call(word.row + 1, Scope(label)))
         return begun.row + 1
+
+    def _begin_of(self, label: str) -> OWord | None:
+        return next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
 
     def _worked_label(self, word: OWord) -> str:
         reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
@@ -358,10 +385,19 @@ def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, in
 
 
 class Flow:
-    """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any."""
+    """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any.
 
-    def __init__(self, lines: list[str], dialect: Dialect, log: Log, machine: Machine) -> None:
+    Lines of files that are called come after its own `main_lines`; `called_from` has for each such file the line that
+    called it first, its name, and how many lines it has.
+    """
+
+    def __init__(
+        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
+    ) -> None:  # fmt: skip
         self.lines = lines
+        self.main_lines = len(lines)
+        self.called_from: list[tuple[int, str, int]] = []
+        self.library = library
         self.dialect = dialect
         self.log = log
         self.at = 0
@@ -374,8 +410,37 @@ class Flow:
         self.percents = 0
         self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is ParameterStore.NGC else {}
-        self.o_words = OWords(words, self.values, log, self.calls) if words and self.values else None
+        self.o_words = OWords(words, self.values, log, self.calls, self._load) if words and self.values else None
         self.labels = _labels_of(lines, words)
+
+    def _load(self, label: str, line: int) -> str:
+        """Adds the lines of the file in which an O-word finds its subprogram; its name, "" where there is none."""
+        program = self.library(label.lower())
+        if program is None:
+            return ""
+        name, content = program
+        lines = lines_of(content)
+        first = self.add_called(name, len(lines), line) - 1
+        self.lines += lines
+        self.ran += bytearray(len(lines))
+        if self.o_words is not None:
+            self.o_words.add(o_words_of(lines, first))
+        return name
+
+    def add_called(self, name: str, count: int, line: int) -> int:
+        """Notes a file that a line calls; the number of its first line."""
+        first = self.main_lines + sum(lines for _, _, lines in self.called_from) + 1
+        self.called_from.append((self.origin_of(line)[0], name, count))
+        return first
+
+    def origin_of(self, number: int) -> tuple[int, str]:
+        """The line of the file a line counts for, and where a line of another file stands: `O3001.nc line 5`."""
+        left = number - self.main_lines
+        for line, name, count in self.called_from:
+            if 0 < left <= count:
+                return line, f"{name} line {left}"
+            left -= count
+        return number, ""
 
     def follow_o_word(self, index: int) -> bool:
         """Follows the O-word of a line, if it has one."""
@@ -402,7 +467,7 @@ class Flow:
         """Whether the program ends with a line that was run."""
         if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
             self.percents += 1
-        return self.percents > 1
+        return self.percents > 1 or (len(self.calls) == 1 and self.at >= self.main_lines)
 
     def follow_call(self, block: Block) -> bool:
         """Follows a block's M98 or M99; False where the program ends with it."""

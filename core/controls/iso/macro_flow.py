@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import Call, Flow, Scope
+from core.controls.iso.flow import Call, Flow, ProgramLibrary, Scope
 from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
@@ -35,9 +35,6 @@ MAX_CALLS: Final = 4
 MAX_LOOPS: Final = 3
 
 MAX_TIMES: Final = 9999
-
-ProgramLibrary = Callable[[int], tuple[str, bytes] | None]
-"""Finds a program by its number outside of the file: its name and text."""
 
 _KEYWORD: Final = re.compile(
     r"(?:/[0-9]?)?(?:N[0-9]++)?(?:/[0-9]?)?(IF(?=\[)|WH(?:ILE)?(?=\[)|"
@@ -87,15 +84,13 @@ class MacroFlow(Flow):
     def __init__(
         self, lines: list[str], dialect: Dialect, log: Log, machine: MacroMachine, library: ProgramLibrary
     ) -> None:  # fmt: skip
-        super().__init__([], dialect, log, machine)
+        super().__init__([], dialect, log, machine, library)
         self.machine = machine
-        self.library = library
         self.variables = Variables(machine.value_of, machine.set_variable)
         self.numbers: list[int] = []
         self.starts: list[int] = []
         self.begins: list[int] = []
         self.main_lines = len(lines)
-        self.called_from: list[tuple[int, str, int]] = []
         self.statements: dict[int, Statement] = {}
         self.ends: dict[int, int] = {}
         self.numbered: dict[int, list[int]] = {}
@@ -540,24 +535,12 @@ class MacroFlow(Flow):
             self.log.stop("PS0076", text, block.line, block.column("P"))
         name, content = program
         lines = _between_percents(lines_of(content))
-        first = self.main_lines + sum(count for _, _, count in self.called_from) + 1
-        line, _ = self.origin_of(self.numbers[row])
-        self.called_from.append((line, name, len(lines)))
-        begin = self._first_row(self._append(lines, first))
+        begin = self._first_row(self._append(lines, self.add_called(name, len(lines), self.numbers[row])))
         if begin not in self.begins:
             self.begins.append(begin)
             self.begins.sort()
         self.labels[number] = begin
         return begin
-
-    def origin_of(self, number: int) -> tuple[int, str]:
-        """The line of the file a line counts for, and where a line of another file stands: `O3001.nc line 5`."""
-        left = number - self.main_lines
-        for line, name, count in self.called_from:
-            if 0 < left <= count:
-                return line, f"{name} line {left}"
-            left -= count
-        return number, ""
 
     def _return_from(self, block: Block) -> bool:
         """M99, with P to a block of the program that called."""
