@@ -290,6 +290,9 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     @on(ProgramDerived)
     def _program_derived(self, message: ProgramDerived) -> None:
+        if not self.is_running:
+            # the screens are gone
+            return
         if self._deriving is not None:
             self.end_work(self._deriving[1])
         self._deriving, wanted, self._wanted, result = None, self._wanted, None, message.derived
@@ -340,6 +343,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     @on(TableMade)
     def _table_made(self, message: TableMade) -> None:
+        if not self.is_running:
+            return
         if not message.advised and self._making_table is not None:
             self.end_work(self._making_table[1])
             self._making_table = None

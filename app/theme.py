@@ -46,6 +46,13 @@ def themes() -> tuple[Theme, ...]:
     return tuple(_theme(name, column) for column, name in enumerate((DARK, LIGHT, SIXTEEN)))
 
 
+def _scrollbars(colors: Mapping[str, str]) -> dict[str, str]:
+    """Scrollbars of all widgets: a frame's color on the page."""
+    bars = {name: colors["frame"] for name in ("scrollbar", "scrollbar-hover", "scrollbar-active")}
+    pages = ("background", "background-hover", "background-active", "corner-color")
+    return bars | {f"scrollbar-{name}": colors["bg"] for name in pages}
+
+
 def _theme(name: str, column: int) -> Theme:
     colors = {role: each[column] for role, each in _ROLES.items()}
     ansi = name == SIXTEEN
@@ -64,5 +71,5 @@ def _theme(name: str, column: int) -> Theme:
         background=colors["bg"],
         surface=colors["bar"],
         panel=colors["bar"],
-        variables={**base, **{f"c-{role}": color for role, color in colors.items()}},
+        variables={**base, **_scrollbars(colors), **{f"c-{role}": color for role, color in colors.items()}},
     )

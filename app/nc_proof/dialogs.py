@@ -33,7 +33,7 @@ class ChooseControl(ModalScreen[str]):
         with Vertical(id="controls-box", classes="wide-box"):
             yield OptionRows(
                 *(
-                    Option(Content.assemble(f"{choice.name:<20}", (choice.about, "$c-label")), id=choice.control)
+                    Option(Content.assemble(f"{choice.name:<19}", (choice.about, "$c-label")), id=choice.control)
                     for choice in choices()
                 ),
                 id="controls",

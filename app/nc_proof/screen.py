@@ -24,6 +24,7 @@ from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
+from app.session.words import counted
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows
@@ -110,7 +111,9 @@ class ProofScreen(BaseScreen):
                 yield Label("NC PROOF", classes="head-label")
                 yield Label(id="proof-control", classes="head-kind")
                 yield Label(id="proof-file", classes="head-note")
-            yield Static(id="proof-outcome", classes="head")
+            with Horizontal(classes="head"):
+                yield Static(id="proof-outcome")
+                yield Label(id="proof-tools", classes="head-note")
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")
@@ -282,8 +285,8 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
-        control = f"{shown_control(self.question.control)}   tools {tools or 'none given'}"
-        self.query_exactly_one("#proof-control", Label).update(control)
+        self.query_exactly_one("#proof-control", Label).update(shown_control(self.question.control))
+        self.query_exactly_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
         name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
@@ -292,14 +295,16 @@ class ProofScreen(BaseScreen):
 
     def _outcome(self) -> Content:
         if self.stopped:
-            return Content.styled(" stopped: not run to its end, not judged", "$c-warn")
+            return Content.styled("stopped: not run to its end, not judged", "$c-warn")
         if self.result is None:
-            return Content(" running ...")
+            return Content("running ...")
         answer = self.result.answer
         role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated else "$c-good"
-        text = f" {answer.outcome}; {answer.count} moves, {answer.stretches} contours"
+        contours = "no contour" if not answer.stretches else counted(answer.stretches, "contour")
+        moves = counted(answer.count, "move")
+        text = f"{answer.outcome}; {moves}" if answer.stretches == 1 else f"{answer.outcome}; {moves}, {contours}"
         if not self.result.judged:
-            role, text = "$c-warn", " being judged ..."
+            role, text = "$c-warn", "being judged ..."
         return Content.styled(f"{text}{'' if self.result.question is self.question else ' ...'}", role)
 
     # ---- findings
@@ -432,8 +437,8 @@ class ProofScreen(BaseScreen):
     async def action_tool(self) -> None:
         """Give a tool or an offset another diameter."""
         lines = [
-            f"Number and diameter in {self.unit}, such as {self.tool}=.5 or 2=12.7mm,",
-            f"or tool {self.tool}'s alone.",
+            f"Tool and diameter in {self.unit}: {self.tool}=.5 or 2=12.7mm.",
+            f"A diameter alone is that of tool {self.tool}.",
         ]
         text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines))
         if not text.strip():

@@ -159,7 +159,8 @@ class ContourScreen(FormScreen):
         """Title lines, the form, the verdict, the drawings."""
         session = self.host.session
         with Vertical(id="work"):
-            with Vertical(id="form", classes="panel"):
+            with Vertical(id="form", classes="panel") as form:
+                form.border_title = "MILL CONTOUR"
                 with Horizontal(id="block", classes="head"):
                     yield Label("BLOCK", classes="head-label")
                     yield Label(id="block-number", classes="head-value")
@@ -359,9 +360,10 @@ class ContourScreen(FormScreen):
 
     @on(DataTable.RowHighlighted)
     def _segment_highlighted(self, event: DataTable.RowHighlighted) -> None:
-        """The row of the list and SEGMENT of the form are one cursor."""
+        """The row of the list and SEGMENT of the form are one cursor; rows it has left by now are passed over."""
         event.stop()
-        if event.data_table.has_focus and event.cursor_row != self.current_session.place.segment:
+        late = event.cursor_row != event.data_table.cursor_row
+        if event.data_table.has_focus and not late and event.cursor_row != self.current_session.place.segment:
             place = FormPlace(self.current_session.place.block, event.cursor_row)
             self.host.move(place, None)
 

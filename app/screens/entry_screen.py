@@ -32,7 +32,7 @@ class EntryScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """Title, entry, the rest."""
-        with Vertical(id="entry-form", classes="panel"):
+        with Vertical(id="entry-form", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label(self.TITLE, classes="head-title")
                 yield from self.compose_head()

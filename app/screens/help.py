@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import ClassVar, Final
 
+from textual import events, on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, VerticalScroll
@@ -60,6 +62,8 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("? or Ctrl+G", "this help (Ctrl+G in the middle of a text)"),
 )
 """Every key that is the same on all screens."""
+NAME_WIDTH: Final = 22
+"""Cells of the names of words and keys."""
 
 
 class HelpScreen(BaseScreen):
@@ -81,14 +85,23 @@ class HelpScreen(BaseScreen):
         with Horizontal(classes="head"):
             yield Label("HELP", classes="head-title")
         with VerticalScroll(id="help-text"):
-            yield Static(self._text())
+            yield Static(id="help-lines")
 
-    def _text(self) -> Content:
+    @on(events.Resize)
+    def _fill(self) -> None:
+        """The text, broken at the width that there is."""
+        self.call_after_refresh(self._show)
+
+    def _show(self) -> None:
+        lines = self.query_exactly_one("#help-lines", Static)
+        lines.update(self._text(max(lines.size.width, 2 * NAME_WIDTH)))
+
+    def _text(self, width: int) -> Content:
         about = [*self._lines]
         if self._field is not None:
             about = [*field_help(self._field, self.host.session.program.unit), *about]
         head = [Content.styled(line, "bold" if number == 0 else "") for number, line in enumerate(about)]
-        return Content("\n").join([*head, Content(""), *_table(WORDS), Content(""), *_table(KEYS)])
+        return Content("\n").join([*head, Content(""), *_table(WORDS, width), Content(""), *_table(KEYS, width)])
 
     def action_page_down(self) -> None:
         """The next page of the text."""
@@ -99,8 +112,12 @@ class HelpScreen(BaseScreen):
         return Sentence("Up, down and Space read on. Enter or Esc goes back.")
 
 
-def _table(rows: Sequence[tuple[str, str]]) -> list[Content]:
-    return [Content.assemble((f" {name:<21}", "bold"), (text, "$c-label")) for name, text in rows]
+def _table(rows: Sequence[tuple[str, str]], width: int) -> list[Content]:
+    """Names and what they mean, the further lines of a meaning under its first one."""
+    indent = " " * NAME_WIDTH
+    texts = [fill(text, width, initial_indent=indent, subsequent_indent=indent).lstrip() for _, text in rows]
+    names = [f" {name:<{NAME_WIDTH - 1}}" for name, _ in rows]
+    return [Content.assemble((name, "bold"), (text, "$c-label")) for name, text in zip(names, texts, strict=True)]
 
 
 def field_help(field: Field, unit: Unit) -> tuple[str, ...]:

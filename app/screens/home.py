@@ -23,7 +23,7 @@ from app.documents.survey import Facts, Listed, day_of, example_programs, facts_
 from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
-from app.session.words import length
+from app.session.words import counted, length
 from app.widgets.drawing import Drawing
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
@@ -68,7 +68,7 @@ class HomeScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """The folder, its programs, the drawing of the one with the cursor."""
-        with Vertical(id="files", classes="panel"):
+        with Vertical(id="files", classes="panel -bare"):
             yield Static(id="folder", classes="head")
             yield DataTable(id="programs", cursor_type="row")
         yield Drawing(id="preview")
@@ -101,7 +101,7 @@ class HomeScreen(BaseScreen):
             self.listed = tuple(example_programs())
         self.folder = folder
         count = sum(each.program and not each.example for each in self.listed)
-        words = f"{count} program{'s' if count != 1 else ''}"
+        words = counted(count, "program")
         self.query_exactly_one("#folder", Static).update(
             Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {words}")
         )

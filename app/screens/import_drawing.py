@@ -171,7 +171,7 @@ class ImportScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """Title, list, what is to be said of the row with the cursor, the drawing."""
-        with Vertical(id="import", classes="panel"):
+        with Vertical(id="import", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label("IMPORT", classes="head-label")
                 yield Label(id="import-file", classes="head-kind", markup=False)

@@ -47,7 +47,7 @@ class LookaheadScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """A title, the table, the drawing of the chosen value."""
-        with Vertical(id="lookahead", classes="panel"):
+        with Vertical(id="lookahead", classes="panel -bare"):
             yield Static(id="lookahead-title", classes="head")
             yield DataTable(id="values", cursor_type="row")
         yield Drawing(id="value-path")

@@ -49,7 +49,7 @@ class SettingsForm(FormScreen):
 
     def compose_body(self) -> ComposeResult:
         """A title and the form."""
-        with Vertical(id="settings", classes="panel"):
+        with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label(self.NAME, classes="head-title")
             yield Form(self._cells(self.host.session), id="settings-form", classes="fields")

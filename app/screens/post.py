@@ -75,7 +75,7 @@ class PostScreen(EntryScreen):
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
         yield OptionRows(
-            *(Option(Content.assemble(f"{name:<24}", (words, "$c-label")), id=name) for name, words in choices()),
+            *(Option(Content.assemble(f"{name:<19}", (words, "$c-label")), id=name) for name, words in choices()),
             id="post-controls",
             compact=True,
         )
@@ -152,8 +152,9 @@ class PostScreen(EntryScreen):
         lines, preview = self._findings(), ""
         if self.made is not None:
             preview = "\n".join(self.made.text.splitlines()[:PREVIEW_LINES])
-        self.query_exactly_one("#post-findings", Static).update(Content("\n").join(lines))
+        self.query_exactly_one("#post-preview", Static).display = bool(preview)
         self.query_exactly_one("#post-preview", Static).update(Content(preview))
+        self.query_exactly_one("#post-findings", Static).update(Content("\n").join(lines))
         self.refresh_frame()
 
     def _findings(self) -> list[Content]:
@@ -161,12 +162,12 @@ class PostScreen(EntryScreen):
         marks, session = MARKS[self.host.characters], self.current_session
         if self.made is None:
             text = "Stopped. Enter makes the NC text." if self.stopped else "The NC text is being made."
-            return [Content.styled(f" {text}", "$c-label")]
-        against = [Content.styled(f" {marks.gouge} {text}", "$c-err") for text in self.made.against]
-        notes = [Content.styled(f" {marks.warning} {text}", "$c-warn") for text in self.made.notes]
-        ready = [] if against else [Content.styled(f" {marks.good} Ready to post.", "$c-good")]
-        left = [Content.styled(f" {marks.warning} {line}", "$c-uncut") for line in objections(session.derived)]
-        unsaved = [Content.styled(" The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
+            return [Content.styled(text, "$c-label")]
+        against = [Content.styled(f"{marks.gouge} {text}", "$c-err") for text in self.made.against]
+        notes = [Content.styled(f"{marks.warning} {text}", "$c-warn") for text in self.made.notes]
+        ready = [] if against else [Content.styled(f"{marks.good} Ready to post.", "$c-good")]
+        left = [Content.styled(f"{marks.warning} {line}", "$c-uncut") for line in objections(session.derived)]
+        unsaved = [Content.styled("The program is not saved: Ctrl+S saves it.", "$c-label")] if session.unsaved else []
         return [*against, *ready, *left, *notes, *unsaved]
 
     def guide_text(self) -> str:

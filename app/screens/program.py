@@ -66,7 +66,7 @@ class ProgramScreen(BaseScreen):
 
     def compose_body(self) -> ComposeResult:
         """A title, the table of blocks, the drawing."""
-        with Vertical(id="program", classes="panel"):
+        with Vertical(id="program", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label("PROGRAM", classes="head-label")
                 yield Label(id="block-count", classes="head-kind")

@@ -7,6 +7,8 @@ from typing import ClassVar
 
 from textual import work
 from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
@@ -28,6 +30,10 @@ class SheetScreen(EntryScreen):
 
     TITLE: ClassVar[str] = "SETUP SHEET"
     LABEL: ClassVar[str] = "FILE"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("pagedown", "scroll(1)", "Next page", show=False),
+        Binding("pageup", "scroll(-1)", "Page before", show=False),
+    ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("WRITE", "enter", "WRITE"),
         Softkey("PAGE WITH DRAWING", "ending('.html')", "PAGE"),
@@ -37,8 +43,14 @@ class SheetScreen(EntryScreen):
     )
 
     def compose_rest(self) -> ComposeResult:
-        """The sheet."""
-        yield Static(id="sheet-text", markup=False)
+        """The sheet, which scrolls."""
+        with VerticalScroll(id="sheet", can_focus=False):
+            yield Static(id="sheet-text", markup=False)
+
+    def action_scroll(self, by: int) -> None:
+        """A page of the sheet down or up."""
+        sheet = self.query_exactly_one("#sheet", VerticalScroll)
+        (sheet.scroll_page_down if by > 0 else sheet.scroll_page_up)(animate=False)
 
     def show_session(self, session: Session) -> None:
         """The sheet of the program as it is now."""
@@ -46,7 +58,7 @@ class SheetScreen(EntryScreen):
 
     @work(thread=True, exclusive=True, group="sheet", description="sheet")
     def _make(self, program: Program) -> None:
-        text = setup_sheet(program, Path("sheet.txt"), self.host.now())
+        text = setup_sheet(program, Path(self._text or "part").with_suffix(".txt"), self.host.now())
         self.app.call_from_thread(self._show, text)
 
     def _show(self, text: str) -> None:
@@ -73,4 +85,4 @@ class SheetScreen(EntryScreen):
 
     def prompt_text(self) -> Sentence:
         """What to type."""
-        return Sentence("Name of the sheet, Enter writes it: .html is a page with the drawing, .txt is text.")
+        return Sentence("Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on.")

@@ -41,7 +41,7 @@ class ToolRow(Horizontal):
         """A widget a field."""
         for cell in self.cells:
             widget = (
-                ChoiceField(cell.name, cell.choices, cell.text)
+                ChoiceField(cell.name, cell.choices, cell.text, prompt=" ")
                 if cell.choices
                 else NumberField(cell.name, cell.text, cell.full)
             )
@@ -91,7 +91,7 @@ class ToolsScreen(FormScreen):
 
     def compose_body(self) -> ComposeResult:
         """A title, the headings, the rows, and where the tool is used."""
-        with Vertical(id="tools", classes="panel"):
+        with Vertical(id="tools", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label("TOOL SETUP", classes="head-title")
             with Horizontal(id="tool-headings"):

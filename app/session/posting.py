@@ -39,7 +39,7 @@ def choices() -> tuple[tuple[str, str], ...]:
     from core.controls.registry import choices as controls
 
     own = ((choice.control, choice.about) for choice in controls())
-    return ((CENTER_PATH, "the tool's center path, without G41 or G42: any control"), *own)
+    return ((CENTER_PATH, "without G41 or G42: for any control"), *own)
 
 
 def nc_text(

@@ -17,6 +17,11 @@ def place(point: tuple[float, float], unit: Unit) -> str:
     return f"X {length(point[0], unit)} Y {length(point[1], unit)}"
 
 
+def counted(count: int, word: str) -> str:
+    """`1 move`, `2 moves`."""
+    return f"{count} {word}{'' if count == 1 else 's'}"
+
+
 def segment_name(number: float) -> str:
     """`segment 3`, or `corner 3-4` for the corner arc after segment 3, which has the number 3.5."""
     return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"

@@ -1,12 +1,38 @@
-"""OptionRows: Textual's option list for terminals of every size."""
+"""OptionRows: Textual's option list for terminals of every size and with any colors."""
 
 from __future__ import annotations
 
+from rich.segment import Segment
+from rich.style import Style
+from textual.strip import Strip
 from textual.widgets import OptionList
+
+REVERSED = Style(reverse=True, underline=False)
 
 
 class OptionRows(OptionList):
-    """The list; while it has no room, a page up or down is no step: Textual's own fails then."""
+    """The list; its line with the cursor has the cursor's ink alone, or is reversed where there are no colors.
+
+    Textual gives options no reverse: where the style sheet means it, it says underline.  While the list has no room, a
+    page up or down is no step: Textual's own fails then.
+    """
+
+    def render_line(self, y: int) -> Strip:
+        """A line, that of the cursor in the cursor's looks."""
+        strip = super().render_line(y)
+        cursor = self.get_component_rich_style("option-list--option-highlighted")
+        if not self.has_focus:
+            return strip
+        if cursor.underline:
+            return Strip(
+                Segment(text, style + REVERSED if style and style.underline else style, control)
+                for text, style, control in strip
+            )
+        ink = Style(color=cursor.color)
+        return Strip(
+            Segment(text, style + ink if style and style.bgcolor == cursor.bgcolor else style, control)
+            for text, style, control in strip
+        )
 
     def action_page_up(self) -> None:
         """A page up, where there is one."""

@@ -250,7 +250,11 @@ def _in_the_way(case: Case, marks: Marks) -> Content:
         return Content("")
     first = case.block.errors[0]
     role = "$c-warn" if first.code in NOT_YET else "$c-err"
-    return Content.styled(shortened(f"{marks.gouge} {sentence(first, case.unit)}", CHIPS_WIDTH), f"bold {role}")
+    text = f"{marks.gouge} {sentence(first, case.unit)}"
+    if len(text) > CHIPS_WIDTH and ":" in text[:CHIPS_WIDTH]:
+        # the prompt and F10 say what follows
+        text = f"{text.partition(':')[0]}."
+    return Content.styled(shortened(text, CHIPS_WIDTH), f"bold {role}")
 
 
 def _gouge_chip(judgment: Judgment, unit: Unit, marks: Marks) -> tuple[str, str]:

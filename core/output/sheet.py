@@ -100,7 +100,7 @@ def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
     if ready:
         yield "TIME", times_text(together(block_times(job, job.rapid_rate) for job in ready))
         rate, assumed = _feed(ready[0].rapid_rate, unit), ready[0].rapid_assumed
-        yield "RAPID RATE", f"{rate} a minute{', assumed: it is not typed' if assumed else ''}"
+        yield "RAPID RATE", f"{rate} a minute{', assumed, not typed' if assumed else ''}"
 
 
 def _feed(value: float | None, unit: Unit) -> str:

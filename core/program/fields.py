@@ -246,7 +246,7 @@ SOLUTION: Final = Field(
     "choice",
     "SOLUTION",
     Kind.CHOICE,
-    "More than one solution fits: pick the one on the drawing.",
+    "Space shows the next solution; the others are dotted in the drawing.",
 )
 """Which solution a LINE, an ARC or a run of them takes; a screen shows it only where there is a choice."""
 

@@ -17,6 +17,7 @@ from app.session.session import Session
 from app.terminal.capabilities import ascii_only, monochrome
 from app.terminal.driver import characters
 from app.widgets.field import LineInput
+from app.widgets.option_rows import OptionRows
 from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS
 from tests.terminal import cutcomp, running
@@ -150,3 +151,14 @@ def test_a_vt100_has_no_utf_8_and_an_xterm_without_colors_has() -> None:
     assert characters({"LANG": "de_DE.ISO-8859-1", "TERM": "vt220"}) == ("iso8859-1", ("ascii",))
     assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}, "ascii") == ("ascii", ("ascii",))
     assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}, "block")[0] == "utf-8"
+
+
+async def test_without_colors_the_answer_with_the_cursor_is_reversed() -> None:
+    app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
+    async with app.run_test(size=(80, 24)) as pilot:
+        await pilot.press("tab", "7", "enter", "ctrl+q")
+        await pilot.pause()
+        answers = app.screen.query_exactly_one("#answers", OptionRows)
+        rows = answers.render_lines(Region(0, 0, answers.size.width, answers.size.height))
+        told = [any(style is not None and style.reverse for _, style, _ in row) for row in rows]
+        assert told == [row == answers.highlighted for row in range(len(rows))]

@@ -85,7 +85,7 @@ async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_
         assert "alarms at line 3" in one.outcome
         await with_tool(one)
         assert "gouges by 0.1250" in one.outcome
-        assert "1=0.25" in str(one.proof.query_one("#proof-control", Label).content)
+        assert "1=0.25" in str(one.proof.query_one("#proof-tools", Label).content)
         await one.press(">")
         assert "gouges by 0.1255" in one.outcome
 

@@ -36,7 +36,7 @@ def test_the_head_and_the_tools():
         "UNITS": "INCH",
         "WORK OFFSET": "G54",
         "SAFE Z": "1.0000",
-        "RAPID RATE": "200.0 a minute, assumed: it is not typed",
+        "RAPID RATE": "200.0 a minute, assumed, not typed",
     }
     assert one.errors == ()
     assert one.tools.table[1:] == (("1", "END MILL", "0.5000", "H1", "1"),)
@@ -173,7 +173,7 @@ def test_a_whole_sheet_as_text():
         "WORK OFFSET        G54",
         "SAFE Z             1.0000, 2.0000",
         "TIME               cut 2:07, rapid 0:06, total 2:13",
-        "RAPID RATE         200.0 a minute, assumed: it is not typed",
+        "RAPID RATE         200.0 a minute, assumed, not typed",
         "",
         "READY to post.",
         "",
@@ -246,7 +246,7 @@ def test_a_whole_sheet_as_a_page():
         "<tr><th>WORK OFFSET</th><td>G54</td></tr>",
         "<tr><th>SAFE Z</th><td>1.0000, 2.0000</td></tr>",
         "<tr><th>TIME</th><td>cut 2:07, rapid 0:06, total 2:13</td></tr>",
-        "<tr><th>RAPID RATE</th><td>200.0 a minute, assumed: it is not typed</td></tr>",
+        "<tr><th>RAPID RATE</th><td>200.0 a minute, assumed, not typed</td></tr>",
         "</table>",
         '<p class="good">READY to post.</p>',
         "<section><h2>TOOLS</h2>",

@@ -1,0 +1,91 @@
+"""Pictures of screens: an app walks from one to the next, and each is compared with the one that was looked at.
+
+After a change that is wanted: `pytest tests/app/screens/test_*snapshots.py --snapshot-update`, then look at each
+picture that has changed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from datetime import UTC, datetime
+from typing import Final
+
+from syrupy.assertion import SnapshotAssertion
+from textual.pilot import Pilot
+
+from app.app import CutcompApp
+from app.documents.files import load
+from app.documents.programs import example
+from app.session.session import Session
+from core.program.edit import FormPlace
+from core.program.model import Program
+from tests.app.widget_pilot import SURROUNDINGS
+
+SIZES: Final = {"60x20": (60, 20), "80x24": (80, 24), "132x43": (132, 43)}
+NOON: Final = datetime(2026, 1, 2, 12, tzinfo=UTC)
+CALCULATING: Final = frozenset(
+    ("compare", "derive", "drawing", "import", "post", "preview", "proof", "sheet", "survey", "table", "times")
+)
+"""The groups of workers that calculate; others wait for an answer."""
+FONT: Final = re.compile(r"@font-face \{.*?\}", re.DOTALL)
+"""Where a browser may load the font from, which no picture needs."""
+
+
+def app_on(start: str | Program, look: str = "") -> CutcompApp:
+    """The app with an example or a program, in the light theme, with sixteen colors, with none, or in ASCII."""
+    session = Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
+    return CutcompApp(
+        session,
+        surroundings=SURROUNDINGS,
+        few_colors=look in ("no-color", "sixteen"),
+        light=look == "light",
+        character_sets=("ascii",) if look == "ascii" else ("braille", "block", "ascii"),
+    )
+
+
+async def settled(pilot: Pilot[int]) -> None:
+    """Wait for everything that follows in threads."""
+    still = 0
+    while still < 3:
+        await pilot.pause()
+        busy = any(worker.group in CALCULATING and not worker.is_finished for worker in pilot.app.workers)
+        still = 0 if busy else still + 1
+
+
+async def pressed(pilot: Pilot[int], keys: str) -> None:
+    """Press keys; SEGMENT:FIELD goes there, a quote begins a word that is typed."""
+    for key in keys.split():
+        segment, colon, field = key.partition(":")
+        if colon:
+            assert isinstance(pilot.app, CutcompApp)
+            pilot.app.move(FormPlace(1, int(segment)), field)
+            await pilot.pause()
+        else:
+            await pilot.press(*(key[1:] if key.startswith("'") else (key,)))
+    await settled(pilot)
+
+
+async def differing(
+    app: CutcompApp,
+    size: str,
+    stages: Mapping[str, str],
+    snapshot: SnapshotAssertion,
+    opened: Callable[[CutcompApp], None] | None = None,
+) -> list[str]:
+    """Walk through the stages, pictures and the keys that lead to each from the one before; the pictures that differ.
+
+    `opened` is done before the first stage.
+    """
+    wrong = []
+    async with app.run_test(size=SIZES[size]) as pilot:
+        await settled(pilot)
+        if opened is not None:
+            opened(app)
+            await settled(pilot)
+        for name, keys in stages.items():
+            await pressed(pilot, keys)
+            picture = FONT.sub("", app.export_screenshot(title="cutcomp", simplify=True))
+            if snapshot(name=name) != picture:
+                wrong.append(name)
+    return wrong

@@ -1,0 +1,33 @@
+"""What comes while something else is going on: a result while the program ends, rows that the cursor has left."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import app.app as owner
+from app.session.derivation import derived
+from tests.app.widget_pilot import operator
+
+
+async def test_a_result_that_comes_while_the_program_ends_is_passed_over(monkeypatch):
+    async with operator("notch") as one:
+
+        def late(*arguments: Any) -> Any:
+            while one.app.is_running:
+                time.sleep(0.001)
+            return derived(*arguments)
+
+        monkeypatch.setattr(owner, "derived", late)
+        await one.pilot.press("tab", "tab", "tab", "tab", "5")
+
+
+async def test_the_list_of_segments_opens_on_the_segment_of_the_form_and_stays_there():
+    async with operator("pocket") as one:
+        await one.press(*["pagedown"] * 4)
+        places = []
+        one.screen.watch(one.app, "session", lambda session: places.append(session.place.segment))
+        await one.press("f9")
+        assert set(places) == {4}
+        await one.press("down")
+        assert one.session.place.segment == 5

@@ -1,0 +1,107 @@
+"""How MILL CONTOUR and the screens around it look, at the sizes and with the colors and signs that terminals have."""
+
+from __future__ import annotations
+
+import pytest
+from pytest_textual_snapshot import SVGImageExtension
+from syrupy.assertion import SnapshotAssertion
+
+from app.app import CutcompApp
+from tests.app.screens.snapshots import NOON, app_on, differing
+from tests.app.screens.test_run_form import golden
+from tests.core.program.run_files import program_of
+from tests.core.program.test_calculated_runs import case_of, ccw, line
+
+FORM = {
+    "start": "",
+    "lookahead_field": "0:lookahead",
+    "half_typed": "1",
+    "unreadable": "escape 0:x_start '1..5 enter",
+    "line": "ctrl+z 7:x_end",
+    "arc": "8:direction",
+    "blend_arc": "4:radius",
+    "segments": "f9",
+    "findings": "f9 f10",
+    "new_segment": "f10 ctrl+end pagedown",
+    "help": "7:x_end ?",
+    "palette": "f8 ctrl+k l o",
+}
+WIDE_FORM = {"start": "", "line": "7:x_end", "arc": "8:direction", "help": "?"}
+AROUND = {
+    "lookahead_table": "0:lookahead space home",
+    "draw": "f8 8:segment f7",
+    "tools": "f8 f6",
+    "tool_speed": "tab tab tab '-5 tab",
+    "part_setup": "escape f5",
+    "parameters": "f8 f4",
+    "sheet": "f8 ctrl+k 'setup space s enter",
+    "program": "f8 f8",
+    "leave": "enter 0:x_start 9 ctrl+q",
+}
+WIDE_AROUND = {
+    "lookahead_table": "0:lookahead space home",
+    "draw": "f8 8:segment f7",
+    "tools": "f8 f6",
+    "sheet": "f8 ctrl+k 'setup space s enter",
+    "program": "f8 f8",
+}
+GOUGE = {"gouge": "2:segment", "draw_finding": "f7 n", "post": "f8 f8 f3"}
+NARROW = {
+    "start": "",
+    "line": "7:x_end",
+    "lookahead_table": "0:lookahead space home",
+    "program": "f8 f8",
+    "post": "f3",
+    "leave": "f8 enter 0:x_start 9 ctrl+q",
+}
+LOOKS = {
+    "no-color": {"gouge": "2:segment", "unreadable": "0:x_start '1..5 enter", "leave": "9 ctrl+q"},
+    "ascii": {"gouge": "2:segment", "draw": "f7", "lookahead_table": "f8 0:lookahead space home"},
+    "sixteen": {"gouge": "2:segment", "unreadable": "0:x_start '1..5 enter", "leave": "9 ctrl+q"},
+    "light": {"gouge": "2:segment", "lookahead_table": "0:lookahead space home"},
+}
+WALKS = {
+    "form-80x24": ("pocket", FORM),
+    "form-132x43": ("pocket", WIDE_FORM),
+    "around-80x24": ("pocket", AROUND),
+    "around-132x43": ("pocket", WIDE_AROUND),
+    "gouge-80x24": ("notch", GOUGE),
+    "gouge-132x43": ("notch", GOUGE),
+    "narrow-60x20": ("pocket", NARROW),
+    "millimeters-80x24": ("plate-mm", {"line": "2:segment"}),
+    "two-132x43": ("overrun-square", {"usr": "0:lookahead 4 enter"}),
+    "two-80x24": ("overrun-square", {"start": "", "usr": "0:lookahead 4 enter"}),
+}
+MISSING = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
+CHOICE = {"solution": "2:choice", "calculator": "2:x_end =", "calculator_case": "down enter"}
+
+
+@pytest.fixture(autouse=True)
+def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Noon of one day; nobody looks for what would help, which takes its time."""
+    monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
+    monkeypatch.setattr("app.app.QUIET", 1000.0)
+
+
+@pytest.fixture
+def pictures(snapshot: SnapshotAssertion) -> SnapshotAssertion:
+    return snapshot.use_extension(SVGImageExtension)
+
+
+@pytest.mark.parametrize("name", WALKS)
+async def test_screens(name: str, pictures: SnapshotAssertion) -> None:
+    start, stages = WALKS[name]
+    assert await differing(app_on(start), name.rpartition("-")[2], stages, pictures) == []
+
+
+@pytest.mark.parametrize("look", LOOKS)
+async def test_looks(look: str, pictures: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch) -> None:
+    if look == "no-color":
+        monkeypatch.setenv("NO_COLOR", "1")
+    assert await differing(app_on("notch", look), "80x24", LOOKS[look], pictures) == []
+
+
+@pytest.mark.parametrize("size", ["80x24", "132x43"])
+async def test_runs(size: str, pictures: SnapshotAssertion) -> None:
+    assert await differing(app_on(program_of(MISSING)), size, {"missing": "2:radius"}, pictures) == []
+    assert await differing(app_on(golden("c05")), size, CHOICE, pictures) == []
