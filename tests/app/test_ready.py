@@ -1,0 +1,60 @@
+"""READY on POST and on the setup sheet stands alone only where nothing is deleted: else the segments stand below it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from textual.widgets import Static
+
+from app.documents.files import load
+from app.documents.programs import example
+from core.program.model import Number, PathChoice, Program
+from tests.app.widget_pilot import Operator, operator
+
+READY_ALONE = "READY to post.\n"
+READY_BUT = "READY to post. Know before you run it:"
+
+
+def program(name: str, lookahead: int, path: PathChoice = PathChoice.CONTROL) -> Program:
+    """An example with a look-ahead and a path."""
+    made = load(example(name))
+    blocks = tuple(replace(block, lookahead=Number(float(lookahead))) for block in made.blocks)
+    return replace(made, blocks=blocks, parameters=replace(made.parameters, path=path))
+
+
+async def said(one: Operator, widget: str) -> str:
+    """What a part of the screen says once everything is worked out."""
+    await one.app.workers.wait_for_complete()
+    await one.settle()
+    return str(one.screen.query_exactly_one(widget, Static).content)
+
+
+@pytest.mark.parametrize(
+    ("name", "lookahead", "path", "deleted"),
+    [
+        ("pocket", 8, PathChoice.CONTROL, "9"),
+        ("notch", 3, PathChoice.CONTROL, "2-4"),
+        ("pocket", 8, PathChoice.BEST, ""),
+        ("flange", 2, PathChoice.CONTROL, ""),
+    ],
+)
+async def test_ready_is_said_with_the_segments_that_the_look_ahead_deletes(
+    name: str, lookahead: int, path: PathChoice, deleted: str
+) -> None:
+    async with operator(program(name, lookahead, path)) as one:
+        one.app.action_post()
+        await one.settle()
+        shown = await said(one, "#post-findings")
+        assert "Ready to post." in shown
+        assert [line[2:] for line in shown.splitlines() if "DELETED" in line] == (
+            [f" DELETED block 1 segments {deleted}"] if deleted else []
+        )
+        await one.press("f8")
+        one.app.action_sheet()
+        await one.settle()
+        sheet = await said(one, "#sheet-text")
+        numbers = {"9": "SEGMENT 9", "2-4": "SEGMENTS 2, 3, 4"}
+        top = [line for line in sheet.split("TOOLS")[0].splitlines() if "DELETED" in line]
+        assert top == ([f"  ! Block 1: DELETED BY THE LOOK-AHEAD: {numbers[deleted]}"] if deleted else [])
+        assert READY_BUT in sheet or (READY_ALONE in sheet and not deleted)
