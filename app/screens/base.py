@@ -296,7 +296,8 @@ class BaseScreen(Screen[None]):
     @on(DescendantFocus)
     def _mark_focus(self, event: DescendantFocus) -> None:
         """Mark the row and the panel with the cursor by classes: `:focus-within` would repaint far more."""
-        row = event.widget.parent if isinstance(event.widget.parent, Widget) else None
+        # a list fills its place and has no row: a mark on the desk would style all of it anew
+        row = event.widget.parent if isinstance(event.widget.parent, Horizontal) else None
         panel = next(
             (each for each in event.widget.ancestors if isinstance(each, Widget) and "panel" in each.classes), None
         )

@@ -7,7 +7,7 @@ picture that has changed.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Final
 
@@ -32,11 +32,15 @@ FONT: Final = re.compile(r"@font-face \{.*?\}", re.DOTALL)
 """Where a browser may load the font from, which no picture needs."""
 
 
+def session_on(start: str | Program) -> Session:
+    """An example by its name, or a program."""
+    return Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
+
+
 def app_on(start: str | Program, look: str = "") -> CutcompApp:
     """The app with an example or a program, in the light theme, with sixteen colors, with none, or in ASCII."""
-    session = Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
     return CutcompApp(
-        session,
+        session_on(start),
         surroundings=SURROUNDINGS,
         few_colors=look in ("no-color", "sixteen"),
         light=look == "light",
@@ -47,7 +51,7 @@ def app_on(start: str | Program, look: str = "") -> CutcompApp:
 async def settled(pilot: Pilot[int]) -> None:
     """Wait for everything that follows in threads."""
     still = 0
-    while still < 3:
+    while still < 2:
         await pilot.pause()
         busy = any(worker.group in CALCULATING and not worker.is_finished for worker in pilot.app.workers)
         still = 0 if busy else still + 1
@@ -66,26 +70,34 @@ async def pressed(pilot: Pilot[int], keys: str) -> None:
     await settled(pilot)
 
 
-async def differing(
-    app: CutcompApp,
-    size: str,
-    stages: Mapping[str, str],
-    snapshot: SnapshotAssertion,
-    opened: Callable[[CutcompApp], None] | None = None,
-) -> list[str]:
-    """Walk through the stages, pictures and the keys that lead to each from the one before; the pictures that differ.
+Opened = Callable[[CutcompApp], None]
+"""Brings something before the operator."""
+Part = tuple[Opened | None, Mapping[str, str]]
+"""What is opened, and then pictures with the keys that lead to each from the one before."""
 
-    `opened` is done before the first stage.
-    """
+
+def on(start: str | Program, stages: Mapping[str, str]) -> Part:
+    """A walk on the form of another program."""
+
+    def begin(app: CutcompApp) -> None:
+        app.bring_form()
+        app.begin(session_on(start))
+
+    return begin, stages
+
+
+async def differing(app: CutcompApp, size: str, parts: Sequence[Part], snapshot: SnapshotAssertion) -> list[str]:
+    """Walk from picture to picture; the names of those that differ."""
     wrong = []
     async with app.run_test(size=SIZES[size]) as pilot:
         await settled(pilot)
-        if opened is not None:
-            opened(app)
-            await settled(pilot)
-        for name, keys in stages.items():
-            await pressed(pilot, keys)
-            picture = FONT.sub("", app.export_screenshot(title="cutcomp", simplify=True))
-            if snapshot(name=name) != picture:
-                wrong.append(name)
+        for opened, stages in parts:
+            if opened is not None:
+                opened(app)
+                await settled(pilot)
+            for name, keys in stages.items():
+                await pressed(pilot, keys)
+                picture = FONT.sub("", app.export_screenshot(title="cutcomp", simplify=True))
+                if snapshot(name=name) != picture:
+                    wrong.append(name)
     return wrong

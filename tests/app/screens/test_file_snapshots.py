@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -14,21 +15,44 @@ from syrupy.assertion import SnapshotAssertion
 from app.app import CutcompApp
 from app.documents.document import FileState, NcDocument
 from core.pipeline.checking import Asked
-from tests.app.screens.snapshots import NOON, app_on, differing
+from tests.app.screens.snapshots import NOON, Part, app_on, differing
 from tests.app.screens.test_import_drawing import Here
 from tests.tool_tables import end_mills
 
 DATA = Path(__file__).parents[2] / "data"
 SAVED = datetime(2024, 1, 2, 12, tzinfo=UTC).timestamp()
-PROOFS = {
-    "square-80x24": (
-        "nc/threeblock-square.nc",
-        "threeblock",
-        {"line": "down down", "finding": "tab down", "tool": "escape t"},
-    ),
-    "window-80x24": ("nc/rosettacnc-window.ngc", "rosettacnc:normal", {"typing": "enter down down G 1"}),
-    "part-80x24": ("klartext/part.h", "klartext", {"large": "f7 n"}),
-    "outside-132x43": ("nc/threeblock-outside.nc", "threeblock", {"line": "down", "compare": "v down"}),
+
+
+def folder(app: CutcompApp) -> None:
+    """HOME."""
+    app.show_folder(Path("shop"))
+
+
+def drawing(app: CutcompApp) -> None:
+    """IMPORT DRAWING."""
+    app.show_drawing(DATA / "dxf/d14-layers.dxf")
+
+
+def proof(file: str, control: str, stages: Mapping[str, str]) -> Part:
+    """NC PROOF of a file on a control."""
+    document = NcDocument.read((DATA / file).read_bytes(), FileState(Path(Path(file).name)))
+    asked = Asked(control, end_mills({1: 0.5}), shop=False, unit=None)
+    return partial(CutcompApp.show_nc, document=document, asked=asked), stages
+
+
+HOME_AND_IMPORT: list[Part] = [(folder, {"home": "down down"}), (drawing, {"import": "down"})]
+SQUARE = {"line": "down down", "finding": "tab down", "tool": "escape t"}
+WALKS = {
+    "80x24": [
+        *HOME_AND_IMPORT,
+        proof("nc/threeblock-square.nc", "threeblock", SQUARE),
+        proof("klartext/part.h", "klartext", {"large": "f7 n"}),
+        proof("nc/rosettacnc-window.ngc", "rosettacnc:normal", {"typing": "enter down down G 1"}),
+    ],
+    "132x43": [
+        *HOME_AND_IMPORT,
+        proof("nc/threeblock-outside.nc", "threeblock", {"proof": "down", "compare": "v down"}),
+    ],
 }
 
 
@@ -45,26 +69,8 @@ def pictures(snapshot: SnapshotAssertion) -> SnapshotAssertion:
     return snapshot.use_extension(SVGImageExtension)
 
 
-@pytest.mark.parametrize("size", ["80x24", "132x43"])
-async def test_home(size: str, pictures: SnapshotAssertion, part: Path) -> None:
+@pytest.mark.parametrize("size", WALKS)
+async def test_files(size: str, pictures: SnapshotAssertion, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     os.utime(part, (SAVED, SAVED))
-    os.chdir("..")
-    stages = {"home": "down down"}
-    assert await differing(app_on("pocket"), size, stages, pictures, lambda app: app.show_folder(Path("shop"))) == []
-
-
-@pytest.mark.parametrize("size", ["80x24", "132x43"])
-async def test_import(size: str, pictures: SnapshotAssertion) -> None:
-    def opened(app: CutcompApp) -> None:
-        app.show_drawing(DATA / "dxf/d14-layers.dxf")
-
-    assert await differing(app_on("pocket"), size, {"import": "down"}, pictures, opened) == []
-
-
-@pytest.mark.parametrize("name", PROOFS)
-async def test_proof(name: str, pictures: SnapshotAssertion) -> None:
-    file, control, stages = PROOFS[name]
-    document = NcDocument.read((DATA / file).read_bytes(), FileState(Path(Path(file).name)))
-    asked = Asked(control, end_mills({1: 0.5}), shop=False, unit=None)
-    show = partial(CutcompApp.show_nc, document=document, asked=asked)
-    assert await differing(app_on("pocket"), name.rpartition("-")[2], stages, pictures, show) == []
+    monkeypatch.chdir(part.parent.parent)
+    assert await differing(app_on("pocket"), size, WALKS[size], pictures) == []

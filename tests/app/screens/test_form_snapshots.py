@@ -7,7 +7,7 @@ from pytest_textual_snapshot import SVGImageExtension
 from syrupy.assertion import SnapshotAssertion
 
 from app.app import CutcompApp
-from tests.app.screens.snapshots import NOON, app_on, differing
+from tests.app.screens.snapshots import NOON, Part, app_on, differing, on
 from tests.app.screens.test_run_form import golden
 from tests.core.program.run_files import program_of
 from tests.core.program.test_calculated_runs import case_of, ccw, line
@@ -39,7 +39,7 @@ AROUND = {
     "leave": "enter 0:x_start 9 ctrl+q",
 }
 WIDE_AROUND = {
-    "lookahead_table": "0:lookahead space home",
+    "lookahead_table": "escape 0:lookahead space home",
     "draw": "f8 8:segment f7",
     "tools": "f8 f6",
     "sheet": "f8 ctrl+k 'setup space s enter",
@@ -60,20 +60,20 @@ LOOKS = {
     "sixteen": {"gouge": "2:segment", "unreadable": "0:x_start '1..5 enter", "leave": "9 ctrl+q"},
     "light": {"gouge": "2:segment", "lookahead_table": "0:lookahead space home"},
 }
-WALKS = {
-    "form-80x24": ("pocket", FORM),
-    "form-132x43": ("pocket", WIDE_FORM),
-    "around-80x24": ("pocket", AROUND),
-    "around-132x43": ("pocket", WIDE_AROUND),
-    "gouge-80x24": ("notch", GOUGE),
-    "gouge-132x43": ("notch", GOUGE),
-    "narrow-60x20": ("pocket", NARROW),
-    "millimeters-80x24": ("plate-mm", {"line": "2:segment"}),
-    "two-132x43": ("overrun-square", {"usr": "0:lookahead 4 enter"}),
-    "two-80x24": ("overrun-square", {"start": "", "usr": "0:lookahead 4 enter"}),
-}
 MISSING = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
-CHOICE = {"solution": "2:choice", "calculator": "2:x_end =", "calculator_case": "down enter"}
+USR = on("overrun-square", {"usr": "0:lookahead 4 enter"})
+RUNS = (
+    on(program_of(MISSING), {"missing": "2:radius"}),
+    on(golden("c05"), {"solution": "2:choice", "calculator": "2:x_end =", "calculator_case": "down enter"}),
+)
+WALKS: dict[str, tuple[str, list[Part]]] = {
+    "form-80x24": ("pocket", [(None, FORM)]),
+    "around-80x24": ("pocket", [(None, AROUND)]),
+    "others-80x24": ("notch", [(None, GOUGE), on("plate-mm", {"millimeters": "2:segment"}), USR, *RUNS]),
+    "form-132x43": ("pocket", [(None, WIDE_FORM | WIDE_AROUND)]),
+    "others-132x43": ("notch", [(None, GOUGE), USR, on(golden("c05"), {"solution": "2:choice"})]),
+    "form-60x20": ("pocket", [(None, NARROW)]),
+}
 
 
 @pytest.fixture(autouse=True)
@@ -90,18 +90,12 @@ def pictures(snapshot: SnapshotAssertion) -> SnapshotAssertion:
 
 @pytest.mark.parametrize("name", WALKS)
 async def test_screens(name: str, pictures: SnapshotAssertion) -> None:
-    start, stages = WALKS[name]
-    assert await differing(app_on(start), name.rpartition("-")[2], stages, pictures) == []
+    start, parts = WALKS[name]
+    assert await differing(app_on(start), name.rpartition("-")[2], parts, pictures) == []
 
 
 @pytest.mark.parametrize("look", LOOKS)
 async def test_looks(look: str, pictures: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch) -> None:
     if look == "no-color":
         monkeypatch.setenv("NO_COLOR", "1")
-    assert await differing(app_on("notch", look), "80x24", LOOKS[look], pictures) == []
-
-
-@pytest.mark.parametrize("size", ["80x24", "132x43"])
-async def test_runs(size: str, pictures: SnapshotAssertion) -> None:
-    assert await differing(app_on(program_of(MISSING)), size, {"missing": "2:radius"}, pictures) == []
-    assert await differing(app_on(golden("c05")), size, CHOICE, pictures) == []
+    assert await differing(app_on("notch", look), "80x24", [(None, LOOKS[look])], pictures) == []
