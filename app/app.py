@@ -117,8 +117,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
-        held = None if opened is None else opened.document
-        self.document = held if isinstance(held, ContourDocument) else ContourDocument.of(session.program)
+        self.document = _contour_document(session, service, opened)
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self._wanted: Request | None = None
@@ -227,6 +226,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """The journal first, then the session, then what follows from it."""
         before = self.session
         if session is before:
+            # such as a number typed over with the same one
+            self.try_out(None)
             return
         self.keep(session)
         self.session = session
@@ -265,6 +266,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.shown = self.session
         if self._wanted is not None and self._wanted.trial:
             self._wanted = None
+        if self._deriving is not None and self._deriving[0].trial:
+            self._deriving[1].stopped = True
         if not self.session.derived_block.known and self._wanted is None:
             self._derive(Request(self.session.program))
 
@@ -293,9 +296,11 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         if not self.is_running:
             # the screens are gone
             return
+        stopped = False
         if self._deriving is not None:
+            stopped = self._deriving[1].stopped
             self.end_work(self._deriving[1])
-        self._deriving, wanted, self._wanted, result = None, self._wanted, None, message.derived
+        self._deriving, wanted, self._wanted, result = None, self._wanted, None, None if stopped else message.derived
         if result is not None and result.program is self.session.program:
             self.session = self.session.knowing(result)
             if wanted is None or not wanted.trial:
@@ -660,3 +665,10 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         from app.screens.home import HomeScreen
 
         self.push_screen(HomeScreen(folder))
+
+
+def _contour_document(session: Session, service: DocumentService | None, opened: Opened[Any] | None) -> ContourDocument:
+    """The program to begin with: beside an NC text it is a new one, which the service has to know."""
+    if opened is not None and isinstance(opened.document, ContourDocument):
+        return opened.document
+    return ContourDocument.of(session.program) if service is None else service.new().document

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from app.cli.shell import NOTHING_ASKED, UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.naming import is_drawing, program_named
+from app.documents.programs import empty_program
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
 from core.program.file.read import StoreError
@@ -87,7 +88,7 @@ def made(
     name, character_sets = ("", driver.MODES) if browser else driver.characters(environment, options.characters)
     if settings.characters in character_sets and not options.characters:
         character_sets = (settings.characters, *(each for each in character_sets if each != settings.characters))
-    program = opened.document if isinstance(opened.document, ContourDocument) else service.new().document
+    program = opened.document if isinstance(opened.document, ContourDocument) else ContourDocument.of(empty_program())
     app = CutcompApp(
         session_of(program),
         character_sets=character_sets,

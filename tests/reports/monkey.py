@@ -26,6 +26,7 @@ from typing import Any, ClassVar, Final
 from unittest.mock import patch
 
 from textual import events
+from textual.errors import NoWidget
 from textual.keys import _character_to_key
 from textual.pilot import Pilot
 
@@ -62,6 +63,8 @@ LARGEST: Final = 40
 """Segments of a program; a larger one is given up, so that a key stays fast."""
 NC: Final = "G20 G17 G90\nT1 M6\nG41 D1 G1 X0 Y0 F10\nX2\nY1\nX0\nY0\nG40 X-1\nM30\n"
 TABLE: Final = "T1 P1 D0.5 ;end mill\nT2 P2 D0.25\nT3 P3 Dx ;not a number\n"
+SMALLEST: Final = (60, 20)
+"""Columns and rows from which on a screen has room."""
 PAGE: Final = 4096
 MEGABYTE: Final = 1024 * 1024
 
@@ -243,19 +246,32 @@ def same(work: History | NcText, document: Any) -> bool:
 def form_troubles(app: CutcompApp) -> Iterator[str]:
     """What a form shows otherwise than the session has it, and a cursor that is nowhere."""
     screen = app.screen
-    if isinstance(screen, FormScreen) and (app.focused is None or not app.focused.display):
-        yield "the cursor is nowhere"
+    if isinstance(screen, FormScreen) and screen.names() and not in_sight(app):
+        yield f"the cursor is nowhere, the focus on {app.focused} at {app.size}"
     if not isinstance(screen, ContourScreen):
         return
-    shown = {row.cell.name or row.cell.label: row.cell for row in screen.form().query(FieldRow)}
-    for cell in cells_at(app.session):
-        there = shown.get(cell.name or cell.label)
-        if (
-            there is not None
-            and cell.visible
-            and (there.text, there.state, there.tag) != (cell.text, cell.state, cell.tag)
-        ):
+    if not screen.half_typed and app.shown is not app.session:
+        yield "a number is tried out that nobody types"
+    shown = {row.cell.name or row.cell.label: row for row in screen.form().query(FieldRow)}
+    # while a number is half-typed the others show what it would do
+    for cell in cells_at(app.shown if screen.half_typed else app.session):
+        row = shown.get(cell.name or cell.label)
+        if row is None or not cell.visible or (screen.half_typed and screen.current is row.input):
+            continue
+        there = row.cell
+        if (there.text, there.state, there.tag) != (cell.text, cell.state, cell.tag):
             yield f"{cell.label} shows {there.text!r} {there.tag} instead of {cell.text!r} {cell.tag}"
+
+
+def in_sight(app: CutcompApp) -> bool:
+    """Whether the field with the cursor is seen; on a terminal that is too small nothing need be."""
+    if app.focused is None or not app.focused.display:
+        return False
+    room = app.size.width >= SMALLEST[0] and app.size.height >= SMALLEST[1]
+    try:
+        return not room or bool(app.screen.find_widget(app.focused).visible_region)
+    except NoWidget:
+        return False
 
 
 def furnished(folder: Path) -> Path:

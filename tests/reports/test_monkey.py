@@ -56,6 +56,18 @@ async def test_a_form_that_shows_something_else_is_found() -> None:
         assert any("TOOL shows '99'" in text for text in monkey.form_troubles(at.app))
 
 
+async def test_a_cursor_out_of_sight_is_found() -> None:
+    async with operator("pocket") as at:
+        await at.press("f6")
+        assert list(monkey.form_troubles(at.app)) == []
+        at.screen.query_exactly_one("#tool-rows").display = False
+        await at.settle()
+        assert any("the cursor is nowhere" in text for text in monkey.form_troubles(at.app))
+        while at.session.program.tools:
+            await at.press("f1")
+        assert list(monkey.form_troubles(at.app)) == []
+
+
 async def test_nothing_acts_outside_the_cage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     one = Monkey(Random(1), tmp_path)

@@ -115,6 +115,14 @@ async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
         assert listing.region
 
 
+async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with at_proof(tmp_path) as one:
+        await one.press("f8", "ctrl+s", "'new", "enter")
+        assert [file.suffix for file in tmp_path.glob("new*")] == [".toml"]
+        assert not one.app.document.unsaved
+
+
 async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
     async with at_proof(tmp_path) as one:
         await with_tool(one)

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+from threading import Event
+
+import pytest
 from textual.widgets import DataTable, OptionList
 
+from app.session.derivation import Request, derived
+from app.session.work import Work
+from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
 from core.program.model import Number, Unread
 from tests.app.widget_pilot import operator
@@ -161,3 +167,23 @@ async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
         assert one.at == "z_bottom"
         await one.pilot.pause(0.3)
         assert one.screen.query_exactly_one("#desk").region.contains_region(one.screen.focused.region)
+
+
+@pytest.mark.parametrize("keys", [("7", "escape"), ("4", "tab")], ids=["taken back", "the same"])
+async def test_a_number_that_changes_nothing_is_no_longer_shown_once_it_is_not_typed(keys, monkeypatch):
+    """The derivation of the half-typed number ends after the key that ends the typing."""
+    ends = Event()
+
+    def slow(request: Request, _: Work) -> Derived:
+        ends.wait(20)
+        return derived(request)
+
+    async with operator() as one:
+        await one.press("pagedown", "tab")
+        before = one.value("length")
+        monkeypatch.setattr("app.app.derived", slow)
+        await one.pilot.press(*keys)
+        ends.set()
+        await one.settle()
+        assert one.app.shown is one.session
+        assert one.value("length") == before
