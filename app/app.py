@@ -445,7 +445,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         from app.screens.palette import Palette
 
         if isinstance(self.screen, BaseScreen):
-            self.push_screen(Palette(id="--command-palette"))
+            # without Textual's id: the palette of a moment ago may still be going
+            self.push_screen(Palette())
 
     def action_segment(self, number: int) -> None:
         """MILL CONTOUR with the cursor on a segment."""

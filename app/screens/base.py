@@ -26,7 +26,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.events import DescendantFocus, Resize
 from textual.reactive import Reactive, var
-from textual.screen import Screen
+from textual.screen import ModalScreen, Screen
 from textual.widget import Widget
 from textual.widgets import Input
 
@@ -235,8 +235,14 @@ class BaseScreen(Screen[None]):
         self._follow(self.host.session)
         self.show_work(self.host.longest_work)
 
+    @property
+    def in_view(self) -> bool:
+        """It is in front, or only dialogs stand on it; Textual's `is_current` is true of the next screen below too."""
+        stack = self.app.screen_stack
+        return self in stack and all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
+
     def _follow(self, session: Session) -> None:
-        if self.is_current and session is not self.session:
+        if self.in_view and session is not self.session:
             self.session = session
             self.show_session(session)
             self.query_exactly_one(Status).show(session)

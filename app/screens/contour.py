@@ -249,7 +249,7 @@ class ContourScreen(FormScreen):
 
     def _show_shown(self, shown: Session) -> None:
         """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
-        if not self.is_current:
+        if not self.in_view:
             return
         self._show_tried(shown)
         block, unit, verdict = shown.derived_block, shown.program.unit, self.query_exactly_one(Verdict)
@@ -402,6 +402,10 @@ class ContourScreen(FormScreen):
     def widget(self, name: str) -> NumberField | ChoiceField | None:
         """SEGMENT, or a field of the form."""
         return self.query_exactly_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
+
+    def focus_field(self, name: str) -> None:
+        """Put the cursor on a field; on SEGMENT where there is none of this name, as of a finding on another screen."""
+        super().focus_field(SEGMENT if name and self.widget(name) is None else name)
 
     def value(self, name: str) -> Value | str:
         """What a field holds."""

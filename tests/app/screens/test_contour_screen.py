@@ -7,8 +7,10 @@ from threading import Event
 import pytest
 from textual.widgets import DataTable, OptionList
 
+from app.screens.palette import Palette
 from app.session.derivation import Request, derived
 from app.session.work import Work
+from app.widgets.findings_list import FindingsList
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
 from core.program.model import Number, Unread
@@ -187,3 +189,33 @@ async def test_a_number_that_changes_nothing_is_no_longer_shown_once_it_is_not_t
         await one.settle()
         assert one.app.shown is one.session
         assert one.value("length") == before
+
+
+async def test_a_number_tried_out_on_another_screen_is_none_of_the_form_that_is_covered():
+    """DRAW moves the cursor to a segment of another kind while two screens stand on the form."""
+    async with operator() as one:
+        await one.press("f5", "f7", "pagedown", "pagedown", "f8", "tab", "tab", "'2")
+        assert type(one.app.screen).__name__ == "PartSetupScreen"
+        await one.press("f8")
+        assert (one.session.place.segment, one.at) == (2, "segment")
+        assert one.row("x_center").display
+
+
+async def test_a_finding_on_a_field_of_another_screen_puts_the_cursor_on_segment():
+    async with operator() as one:
+        await one.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
+        entry = next(each for each in one.screen.query_exactly_one(FindingsList).entries if each.field == "work_offset")
+        one.app.go_to(entry)
+        await one.settle()
+        assert (one.session.place.segment, one.at) == (0, "segment")
+
+
+async def test_the_palette_comes_back_at_once():
+    """Before the one of a moment ago is gone."""
+    async with operator() as one:
+        one.app.action_command_palette()
+        await one.pilot.pause()
+        one.app.pop_screen()
+        one.app.action_command_palette()
+        await one.settle()
+        assert isinstance(one.app.screen, Palette)
