@@ -16,9 +16,9 @@ from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.files import refuse_program, write_output
-from app.documents.folders import chosen
+from app.documents.folders import chosen, written_at
 from app.documents.left_overs import file_of_copy
-from app.documents.naming import is_drawing, is_folder, program_named, typed
+from app.documents.naming import is_drawing, is_folder, program_named, typed, with_suffix
 from app.documents.nc_text import NC_SUFFIXES
 from app.documents.patience import DISK, Disk
 from app.documents.questions import (
@@ -425,6 +425,10 @@ class FileActions(App[int]):
             self.notify(result.notice.text, timeout=4)
         return isinstance(result, Saved)
 
+    async def output_named(self, text: str, suffix: str, file: Path | None) -> Path:
+        """The path that a typed name means for what is made of the program of `file`; only in a worker."""
+        return await self.on_disk(lambda: with_suffix(chosen(typed(text), file), suffix))
+
     async def may_write(self, path: Path, file: Path | None) -> bool:
         """Whether what is made of the program of `file` may be written there; only in a worker."""
 
@@ -439,14 +443,18 @@ class FileActions(App[int]):
             return False
         return ask is None or await self.ask(ask) != GO_BACK
 
-    async def write(self, path: Path, text: str) -> bool:
-        """Write what is made of the program; whether it was written.  Only in a worker."""
+    async def write(self, path: Path, text: str) -> str | None:
+        """Write what is made of the program; in words where it stands, None where it does not.  Only in a worker."""
+
+        def written() -> str:
+            write_output(path, text)
+            return written_at(path)
+
         try:
-            await self.on_disk(lambda: write_output(path, text))
+            return await self.on_disk(written)
         except StoreError as error:
             self.say(error.text, Tone.ERROR)
-            return False
-        return True
+            return None
 
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""

@@ -15,7 +15,6 @@ from textual.message import Message
 from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
 
-from app.documents.naming import typed, with_suffix
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import POST_NAME, WHOLE_WAY
@@ -195,7 +194,7 @@ class PostScreen(EntryScreen):
         if self.made is None:
             self.say("The NC text is still being made: press Enter again.", Tone.WARNING)
             return
-        path, override = with_suffix(typed(text), ".nc"), None
+        override = None
         if self.made.against:
             if not self.made.overridable:
                 self.say(f"NOT POSTED: {self.made.against[0]}", Tone.ERROR)
@@ -207,13 +206,11 @@ class PostScreen(EntryScreen):
                 self.say("NOT POSTED.", Tone.WARNING)
                 return
             override = said
-        await self._write(path, override)
+        await self._write(text, override)
 
-    async def _write(self, path: Path, override: str | None) -> None:
-        from app.documents.folders import chosen, written_at
-
+    async def _write(self, text: str, override: str | None) -> None:
         session = self.current_session
-        path = with_suffix(chosen(path, session.file), ".nc")
+        path = await self.host.output_named(text, ".nc", session.file)
         if not await self.host.may_write(path, session.file):
             return
         # made again under the name that was typed; nothing stale is written
@@ -221,9 +218,10 @@ class PostScreen(EntryScreen):
         if made.against and override is None:
             self.say(f"NOT POSTED: {made.against[0]}", Tone.ERROR)
             return
-        if not await self.host.write(path, made.text):
+        written = await self.host.write(path, made.text)
+        if written is None:
             return
         lines = made.text.count("\n")
-        self.notify(f"Posted: {written_at(path)}, {lines} lines.", timeout=5)
+        self.notify(f"Posted: {written}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 from typing import ClassVar
 
@@ -12,8 +13,6 @@ from textual.containers import VerticalScroll
 from textual.content import Content
 from textual.widgets import Static
 
-from app.documents.folders import chosen, written_at
-from app.documents.naming import typed, with_suffix
 from app.screens.entry_screen import EntryScreen
 from app.session.messages import Sentence
 from app.session.posting import setup_sheet
@@ -71,16 +70,19 @@ class SheetScreen(EntryScreen):
 
     def entered(self, text: str) -> None:
         """Write the sheet; asks before a file is replaced."""
-        self._write(with_suffix(chosen(typed(text), self.current_session.file), ".html"))
+        self._write(text)
 
     @work(exclusive=True, group="question")
-    async def _write(self, path: Path) -> None:
+    async def _write(self, text: str) -> None:
         session = self.current_session
+        path = await self.host.output_named(text, ".html", session.file)
         if not await self.host.may_write(path, session.file):
             return
-        if not await self.host.write(path, setup_sheet(session.program, path, self.host.now())):
+        made = await asyncio.to_thread(setup_sheet, session.program, path, self.host.now())
+        written = await self.host.write(path, made)
+        if written is None:
             return
-        self.notify(f"Setup sheet: {written_at(path)}", timeout=4)
+        self.notify(f"Setup sheet: {written}", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:

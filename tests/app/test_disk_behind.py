@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from threading import Event, Lock
+from threading import Event, Lock, current_thread, main_thread
 
 import pytest
 
@@ -115,3 +115,41 @@ async def test_a_program_whose_folder_hangs_can_be_left_after_asking(folder, dis
         await one.press("escape", "ctrl+q", "l")
         assert one.app.return_code == 0
         disk.answers.set()
+
+
+@pytest.fixture
+def asked(folder, monkeypatch) -> list[str]:
+    """What the thread that reads the keys has asked of the folder of the program: it would hang with it."""
+    calls = list[str]()
+
+    def watched(name: str) -> None:
+        ask = getattr(os, name)
+
+        def asked(path, *arguments, **options):
+            if current_thread() is main_thread() and str(path).startswith(str(folder)):
+                calls.append(f"{name} {path}")
+            return ask(path, *arguments, **options)
+
+        monkeypatch.setattr(os, name, asked)
+
+    for name in ("stat", "lstat", "open", "scandir", "listdir"):
+        watched(name)
+    return calls
+
+
+async def test_the_thread_of_the_keys_asks_the_folder_nothing(folder, asked):
+    async with at_work(folder) as one:
+        asked.clear()
+        written = []
+        await one.press("tab", "'1", "enter", "ctrl+s")
+        for action, name in (("app.post", "part.nc"), ("app.sheet", "part.html")):
+            await one.app.run_action(action)
+            await one.settle()
+            await one.app.workers.wait_for_complete()
+            await one.settle()
+            await one.press("enter")
+            await one.app.workers.wait_for_complete()
+            await one.settle()
+            written.append(folder / name)
+        assert asked == []
+    assert all(path.exists() for path in written)

@@ -47,8 +47,8 @@ async def test_ready_is_said_with_the_segments_that_the_look_ahead_deletes(
         await one.settle()
         shown = await said(one, "#post-findings")
         assert "Ready to post." in shown
-        assert [line[2:] for line in shown.splitlines() if "DELETED" in line] == (
-            [f" DELETED block 1 segments {deleted}"] if deleted else []
+        assert [line[line.index("DELETED") :] for line in shown.splitlines() if "DELETED" in line] == (
+            [f"DELETED block 1 segments {deleted}"] if deleted else []
         )
         await one.press("f8")
         one.app.action_sheet()
