@@ -177,6 +177,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.say(edited.text, Tone.ERROR)
             return False
         if self.looking:
+            self.try_out(None)
             self.say(self.looking, Tone.ERROR)
             return False
         self._change(self.session.with_program(edited, label))

@@ -171,11 +171,19 @@ class FormScreen(BaseScreen):
     @on(Select.Changed)
     def _picked(self, event: Select.Changed) -> None:
         event.stop()
-        field = self._field(event.select.name or "")
-        if field is None or not isinstance(event.value, str) or event.value == self.picked_text(field):
+        field, text = self._field(event.select.name or ""), event.value if isinstance(event.value, str) else ""
+        if field is None or text == self.picked_text(field):
+            return
+        if not text and not self.may_be_blank(field) and isinstance(event.select, ChoiceField):
+            # the blank line of the list
+            event.select.show(self.picked_text(field))
             return
         self.quiet()
-        self.pick(field, event.value)
+        self.pick(field, text)
+
+    def may_be_blank(self, field: Field) -> bool:  # noqa: ARG002  # screens where one may ask the field
+        """Whether no choice is one too."""
+        return False
 
     def picked_text(self, field: Field) -> str:
         """The choice that the program holds."""

@@ -41,7 +41,7 @@ class ToolRow(Horizontal):
         """A widget a field."""
         for cell in self.cells:
             widget = (
-                ChoiceField(cell.name, cell.choices, cell.text, prompt=" ")
+                ChoiceField(cell.name, cell.choices, cell.text, prompt=" ", blank=True)
                 if cell.choices
                 else NumberField(cell.name, cell.text, cell.full)
             )
@@ -127,6 +127,10 @@ class ToolsScreen(FormScreen):
         """What a tool has in a field."""
         tools, row = self.current_session.program.tools, _row(name)
         return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
+
+    def may_be_blank(self, field: Field) -> bool:
+        """A tool need have neither a type nor a coolant."""
+        return field.kind in (Kind.TEXT, Kind.CHOICE)
 
     def picked_text(self, field: Field) -> str:
         """The choice that the tool has."""

@@ -12,7 +12,7 @@ import pytest
 from app.app import CutcompApp
 from app.documents import times
 from app.documents.files import load
-from app.documents.lock import myself
+from app.documents.lock import myself, take
 from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
@@ -20,6 +20,7 @@ from app.file_actions import session_of
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
 from core.program.model import Number
+from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 
 
@@ -140,3 +141,14 @@ async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
         assert one.session.program == load(example("pocket"))
         assert "SAVE AS" in one.prompt
     theirs.stop()
+
+
+async def test_a_number_typed_into_what_may_only_be_looked_at_is_no_longer_shown(folder):
+    take(folder / "part.toml", ELSEWHERE)
+    async with at_work(folder) as one:
+        await one.press("l")
+        await one.press("tab", "'2")
+        assert one.app.shown is not one.session
+        await one.press("enter")
+        assert "SAVE AS" in one.prompt
+        assert one.app.shown is one.session
