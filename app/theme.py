@@ -16,8 +16,9 @@ SIXTEEN: Final = "cutcomp-16"
 _ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
     {
         "bg": ("#10161d", "#fbfaf6", "ansi_default"),
-        "bar": ("#1a232e", "#e9edf1", "ansi_default"),
-        "well": ("#1d2833", "#eef1f4", "ansi_default"),
+        # gray enough to be gray where a terminal has 256 colors
+        "bar": ("#1d2227", "#e8eaec", "ansi_default"),
+        "well": ("#23282e", "#eceef0", "ansi_default"),
         "frame": ("#5b6e81", "#7f8c99", "ansi_default"),
         "ink": ("#dce3ea", "#1d2733", "ansi_default"),
         "label": ("#9fb0c0", "#4a5a69", "ansi_default"),

@@ -665,7 +665,10 @@ class ContourScreen(FormScreen):
         """The calculated look-ahead comes back."""
         session = self.current_session
         number = session.place.block
-        self.host.apply(recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}")
+        if not self.host.apply(
+            recalculate_lookahead(session.program, number), f"RECALCULATE LOOKAHEAD, block {number}"
+        ):
+            return
         self.say(f"CUTCOMP LOOKAHEAD is calculated: CAL {session.derived_block.lookahead.calculated}.")
 
 

@@ -126,8 +126,11 @@ class FormScreen(BaseScreen):
                 widget.restore()
             self.say(outcome.text, Tone.ERROR)
             return False
-        self.host.apply(outcome, self.label(field))
+        taken = self.host.apply(outcome, self.label(field))
         widget.restore()
+        if not taken:
+            self.host.try_out(None)
+            return False
         typed = None if field.kind is Kind.TEXT else read_typed(text, field, self.current_session.program.unit)
         if isinstance(typed, Unread):
             self.say(unread_text(typed, field, self.current_session.program.unit), Tone.ERROR)
@@ -190,8 +193,10 @@ class FormScreen(BaseScreen):
         return self.form().rows[field.name].cell.text
 
     def pick(self, field: Field, text: str) -> None:
-        """Take a choice."""
-        self.host.apply(self.edited(field, text), self.label(field))
+        """Take a choice; one that is not taken is not shown."""
+        widget = self.widget(field.name)
+        if not self.host.apply(self.edited(field, text), self.label(field)) and isinstance(widget, ChoiceField):
+            widget.show(self.picked_text(field))
 
     @property
     def half_typed(self) -> bool:

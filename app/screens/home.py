@@ -177,14 +177,17 @@ class HomeScreen(BaseScreen):
         try:
             derived = derive(load(path))
         except StoreError:
-            self.app.call_from_thread(self._show_preview, name, None)
+            self.app.call_from_thread(self._show_preview, path, name, None)
             return
         block, unit = derived.block(1), derived.program.unit
         tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
         heading = f"{name}  {len(block.block.segments)} segments{tool}"
-        self.app.call_from_thread(self._show_preview, heading, Subject(block, unit))
+        self.app.call_from_thread(self._show_preview, path, heading, Subject(block, unit))
 
-    def _show_preview(self, heading: str, subject: object) -> None:
+    def _show_preview(self, path: Path, heading: str, subject: object) -> None:
+        """The drawing of a file, unless the cursor has left it by now."""
+        if not self.is_attached or self.chosen is None or self.chosen.path != path:
+            return
         drawing = self.query_exactly_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject  # type: ignore[assignment]  # Subject is imported late
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, work
-from textual.geometry import Region
+from textual.geometry import Region, Size
 from textual.message import Message
 from textual.reactive import reactive
 from textual.strip import Strip
@@ -121,7 +121,7 @@ class Drawing(Widget):
         if self.subject is None:
             self._show(None)
         else:
-            self._make(self.subject, self.size.width, self.size.height, self.characters)
+            self._make(self.subject, self.size, self.characters)
 
     @property
     def _seen(self) -> bool:
@@ -130,16 +130,16 @@ class Drawing(Widget):
 
     # described, as every worker that takes a program: else Textual writes all of it down, before the next key
     @work(thread=True, exclusive=True, group="drawing", description="picture")
-    def _make(self, subject: Drawable, columns: int, rows: int, characters: str) -> None:
+    def _make(self, subject: Drawable, size: Size, characters: str) -> None:
         # numpy and shapely are not needed by the first paint
         from core.draw.characters import Mode
 
-        picture = subject.drawn(columns, rows, Mode(characters))
-        self.app.call_from_thread(self._finished, (subject, characters), picture)
+        picture = subject.drawn(size.width, size.height, Mode(characters))
+        self.app.call_from_thread(self._finished, (subject, characters, size), picture)
 
     def _finished(self, wanted: tuple[object, ...], picture: Drawn | None) -> None:
         """A picture from the worker, unless another one is wanted by now."""
-        if wanted == self._made[:2] and self.is_attached:
+        if wanted == self._made and self.is_attached:
             self._show(picture)
 
     def _show(self, picture: Drawn | None) -> None:

@@ -62,14 +62,15 @@ class Picture(Horizontal):
 
 
 def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
-    """The number of each finding at its place."""
+    """The number of each finding at its place; of several at one place the gravest is seen, which is drawn last."""
     from core.draw.scene import Mark, Style, Symbol
 
-    return tuple(
+    marks = [
         Mark(entry.at, Style.GOUGE if entry.kind is Kind.GOUGE else Style.UNCUT, Symbol.NUMBER, text=str(number))
         for number, entry in enumerate(entries[:MAX_NUMBERED], 1)
         if entry.at is not None
-    )
+    ]
+    return tuple(reversed(marks))
 
 
 def _loupe(

@@ -216,6 +216,21 @@ async def test_what_may_only_be_looked_at_says_so_in_the_title_until_it_is_a_cop
     theirs.stop()
 
 
+async def test_what_is_typed_where_one_may_only_look_is_not_left_standing(folder):
+    theirs = DocumentService(state=folder / "their-own")
+    theirs.open(folder / "part.toml")
+    async with at_work(folder) as one:
+        await one.press("l", "tab", "tab", "tab", "tab", "'5")
+        assert one.at == "x_start"
+        await one.press("enter")
+        assert (one.at, one.value("x_start")) == ("x_start", "2.0000")
+        assert one.prompt.endswith("SAVE AS (Ctrl+K) makes a copy of your own.")
+        assert one.app.shown is one.session
+        await one.press("up", "up", "right")
+        assert one.value("cutter_comp") == "LEFT"
+    theirs.stop()
+
+
 async def test_a_sentence_of_opening_goes_with_the_next_field_and_with_a_save(folder):
     async with at_work(folder) as one:
         assert one.prompt.startswith("Opened: ")

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from rich.color import Color, ColorSystem
+from textual.theme import Theme
 
 from app.terminal.driver import few_colors
+from app.theme import themes
 
 
 @pytest.mark.parametrize(
@@ -25,3 +28,11 @@ def test_which_terminals_have_sixteen_colors(term: str, colorterm: str, few: boo
     assert few_colors({"TERM": term, "COLORTERM": colorterm, "NO_COLOR": "1"})
     assert few_colors({"TERM": term, "COLORTERM": colorterm, "TEXTUAL_COLOR_SYSTEM": "standard"})
     assert not few_colors({"TERM": term, "COLORTERM": colorterm, "TEXTUAL_COLOR_SYSTEM": "256"})
+
+
+@pytest.mark.parametrize("theme", [theme for theme in themes() if not theme.ansi], ids=lambda theme: theme.name)
+def test_fields_are_gray_on_their_page_where_a_terminal_has_256_colors(theme: Theme) -> None:
+    page, well, bar = (Color.parse(theme.variables[f"c-{role}"]) for role in ("bg", "well", "bar"))
+    shown = [color.downgrade(ColorSystem.EIGHT_BIT).get_truecolor() for color in (page, well, bar)]
+    assert all(color.red == color.green == color.blue for color in shown)
+    assert shown[0] not in shown[1:]

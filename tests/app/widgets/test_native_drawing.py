@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from threading import Event
 
 import pytest
 from textual.app import App, ComposeResult
@@ -8,9 +9,10 @@ from textual.app import App, ComposeResult
 from app.documents.files import load
 from app.documents.programs import example
 from app.widgets.drawing import ROLES, Drawing
+from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.pipeline.derive import derive
-from core.pipeline.plot import Subject
+from core.pipeline.plot import Drawn, Subject
 
 
 @pytest.fixture(scope="module")
@@ -76,6 +78,40 @@ async def test_a_hidden_drawing_is_made_when_it_is_shown(pocket):
         drawing.remove_class("hidden")
         await pilot.pause()
         assert "".join(await settled(app)).strip()
+
+
+class SlowWhenNarrow:
+    """A subject whose picture in few columns takes until `go`."""
+
+    def __init__(self, subject: Subject, columns: int) -> None:
+        self.subject, self.columns, self.go, self.over = subject, columns, Event(), Event()
+
+    def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
+        if columns < self.columns:
+            self.go.wait(20.0)
+            self.over.set()
+        return self.subject.drawn(columns, rows, mode)
+
+
+async def test_a_picture_in_another_size_that_comes_late_is_not_shown(pocket):
+    app = Shown()
+    async with app.run_test() as pilot:
+        drawing = app.query_one(Drawing)
+        slow = SlowWhenNarrow(pocket, 58)
+        drawing.styles.width = 40
+        await pilot.pause()
+        drawing.subject = slow
+        await pilot.pause()
+        drawing.styles.width = 60
+        while drawing.drawn is None:
+            await pilot.pause()
+        shown = drawing.drawn
+        slow.go.set()
+        while not slow.over.is_set():
+            await pilot.pause()
+        for _ in range(20):
+            await pilot.pause(0.01)
+        assert drawing.drawn is shown
 
 
 async def test_other_characters_draw_the_same_subject(pocket):
