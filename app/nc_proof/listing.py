@@ -43,6 +43,10 @@ class Listing(TextArea, inherit_bindings=False):
         )
         self.cursor_blink = False
 
+    def watch_marks(self) -> None:
+        """Lines that Textual keeps as they were painted are painted anew."""
+        self.notify_style_update()
+
     def get_line(self, line_index: int) -> Text:
         """A line in the color of its gravest finding."""
         line = super().get_line(line_index)
