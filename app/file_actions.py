@@ -15,12 +15,12 @@ from textual import work
 from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
-from app.documents.files import refuse_program, write_output
-from app.documents.folders import chosen, written_at
+from app.documents.files import refuse_program, write_data, write_output
+from app.documents.folders import chosen, short_path, written_at
 from app.documents.left_overs import file_of_copy
 from app.documents.naming import is_drawing, is_folder, program_named, typed, with_suffix
 from app.documents.nc_text import NC_SUFFIXES
-from app.documents.patience import DISK, Disk
+from app.documents.patience import DISK, FILE, Disk, within
 from app.documents.questions import (
     DISCARD,
     GO_BACK,
@@ -400,13 +400,36 @@ class FileActions(App[int]):
         self.action_open_path()
 
     def save_as(self, text: str) -> None:
-        """Save under a typed name."""
+        """Save under a typed name; while a folder does not answer, only a copy on another disk."""
+        proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
         if self.disk_is_behind():
-            return
-        if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:]:
-            self._save_nc(self.proofs[-1], typed(text))
+            self._save_copy(self.document if proof is None else proof.document, typed(text))
+        elif proof is not None:
+            self._save_nc(proof, typed(text))
         else:
             self._save(typed(text))
+
+    @work(group="question")
+    async def _save_copy(self, document: AnyDocument, path: Path) -> None:
+        """Write a copy of what the disk does not take yet; it asks nothing, so it replaces no file."""
+
+        def write() -> str:
+            named = chosen(path, document.file.path)
+            named = program_named(named) if document is self.document else with_suffix(named, ".nc")
+            if named.exists():
+                raise StoreError(f"{short_path(named)} is there already: type another name.")
+            write_data(named, document.data())
+            return written_at(named)
+
+        try:
+            written = await asyncio.to_thread(within, FILE, write)
+        except TimeoutError:
+            self.say("That folder does not answer either. Type a name on another disk, such as ~/copy.", Tone.ERROR)
+        except StoreError as error:
+            self.say(error.text, Tone.ERROR)
+        else:
+            self._leave_save_as()
+            self.say(f"A copy is in {written}. {name_of(document)} itself still waits for its folder.", Tone.WARNING)
 
     @work(group="question")
     async def _save_nc(self, proof: ProofScreen, path: Path | None) -> None:

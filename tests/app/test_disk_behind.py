@@ -117,6 +117,31 @@ async def test_a_program_whose_folder_hangs_can_be_left_after_asking(folder, dis
         disk.answers.set()
 
 
+async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder, disk, tmp_path):
+    rescue = tmp_path / "rescue.toml"
+    rescue.write_text("somebody's")
+    async with at_work(folder) as one:
+        disk.dies()
+        await one.press("tab", "'7", "enter")
+        # the other disk answers
+        disk.hanging = False
+        one.app.action_save_as()
+        await one.settle()
+        one.app.save_as(str(rescue))
+        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
+        await one.settle()
+        assert "is there already: type another name" in one.prompt
+        assert rescue.read_text() == "somebody's"
+        one.app.save_as(str(tmp_path / "copy"))
+        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
+        await one.settle()
+        assert "A copy is in" in one.prompt
+        assert load(tmp_path / "copy.toml").blocks[0].tool == Number(7.0)
+        await disk.comes_back(one)
+        assert "The folder answers again" in one.prompt
+        assert one.session.unsaved
+
+
 @pytest.fixture
 def asked(folder, monkeypatch) -> list[str]:
     """What the thread that reads the keys has asked of the folder of the program: it would hang with it."""
