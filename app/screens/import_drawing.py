@@ -451,6 +451,7 @@ class ImportScreen(BaseScreen):
         """Type what a row must hold: a layer, a kind, a length, a size."""
         self.add_class("-filtering")
         self.query_exactly_one("#filter", Input).focus()
+        self.refresh_frame()
 
     @on(Input.Changed, "#filter")
     def _filtered(self, event: Input.Changed) -> None:
@@ -463,6 +464,7 @@ class ImportScreen(BaseScreen):
         event.stop()
         self.table.focus()
         self.set_class(bool(event.value.strip()), "-filtering")
+        self.refresh_frame()
 
     # ---- softkeys
 
@@ -717,7 +719,16 @@ class ImportScreen(BaseScreen):
             return Sentence(self._working)
         if self._failed:
             return Sentence(self._failed, Tone.ERROR)
+        if self.has_class("-filtering"):
+            return self._filter_prompt()
         return Sentence(LARGE if self.has_class("-large") else PROMPT)
+
+    def _filter_prompt(self) -> Sentence:
+        """What the filter holds back, and how all rows come back."""
+        text = self.query_exactly_one("#filter", Input).value.strip()
+        if text and self.listed is not None and not matching(self.listed.contours, text, self.unit):
+            return Sentence(f"No chain has {text!r} in its layer, kind, length or size. Esc shows all.", Tone.WARNING)
+        return Sentence("Type a part of a layer, kind, length or size. Enter goes to the list, Esc shows all.")
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
         """Mark, filter, branch."""

@@ -365,15 +365,19 @@ async def test_equal_circles_fold_into_one_row_that_opens(tmp_path):
 
 async def test_the_filter_holds_back_what_does_not_match(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        await one.press("slash", "'h", "'o", "'l", "'e")
+        await one.press("slash")
+        assert one.prompt.startswith("Type a part of a layer, kind, length or size.")
+        await one.press("'h", "'o", "'l", "'e")
         assert [row[1] for row in one.rows] == ["HOLE"]
         await one.press("'x")
         assert one.rows == []
+        assert one.prompt == "No chain has 'holex' in its layer, kind, length or size. Esc shows all."
         await one.press("enter", "up", "home", "f1", "f6", "escape", "slash", "'h", "'o", "'l", "'e")
         await one.press("enter", "space")
         assert one.importing.marked == {2}
         await one.press("escape")
         assert len(one.rows) == 2
+        assert one.prompt.startswith("Space marks")
 
 
 async def test_the_drawing_alone_zooms_and_goes_from_chain_to_chain(tmp_path):
