@@ -221,7 +221,7 @@ class ImportScreen(BaseScreen):
         try:
             return await self._done(lambda: drawing_lister(data, self.path.name, unit))
         except DrawingError as error:
-            if error.code != "DXF_DAMAGED" or error.readable is None:
+            if error.code != "DXF_DAMAGED" or not error.readable:
                 raise
             answers = [Answer("YES", "what can be read"), Answer("NO", "nothing")]
             word = await self.app.push_screen_wait(Question("DAMAGED", [error.text, "Take it?"], answers, "NO"))
