@@ -160,7 +160,7 @@ DIALOGS: Final = (
     ),
     Dialog("MIRROR BLOCK", POCKET, palette("mirror block"), "MIRROR BLOCK", ("In the line through X, Y at ANGLE",)),
     Dialog("REPEAT", POCKET, palette("repeat segments, shifted"), "REPEAT, SHIFTED", ("FIRST SEGMENT", "LAST SEGMENT")),
-    Dialog("PALETTE", POCKET, ("ctrl+k",), "POST NC", ("LOOKAHEAD TABLE",)),
+    Dialog("PALETTE", POCKET, ("ctrl+k",), "Search for commands", ("PART SETUP", "EXIT to program")),
     Dialog("CONTROL", (NC,), ("c",), "CONTROL", ("linuxcnc",), "FINDINGS"),
     Dialog("COMPARE CONTROLS", (NC,), ("v",), "COMPARE CONTROLS", ("linuxcnc",), "FINDINGS"),
     Dialog("TOOL DIAMETER", (NC,), ("t",), "TOOL DIAMETER", ("Number and diameter in IN, such as",), "FINDINGS"),
