@@ -12,7 +12,7 @@ from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.widgets import Label, Static
 
 from app.screens.form_screen import FormScreen
-from app.screens.values import cell_of
+from app.screens.values import cell_of, unusable
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.field import Cell, ChoiceField, NumberField, State
@@ -21,7 +21,7 @@ from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
 from core.program.model import Coolant, Number, Program, Tool, Typed
 from core.program.solve.solved import Value
-from core.units import Kind
+from core.units import Kind, Unit
 
 AT: Final = "@"
 """Between a field's name and the row of its tool in the name of a widget."""
@@ -207,7 +207,7 @@ class ToolsScreen(FormScreen):
 
     def _show_use(self) -> None:
         tool, program = self.tool, self.current_session.program
-        text = "" if tool is None else _use(program, tool.number)
+        text = "" if tool is None else "\n".join((_use(program, tool.number), *_faults(tool, program.unit)))
         panel = self.query_exactly_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
@@ -287,6 +287,12 @@ def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
 def _next(program: Program) -> Tool:
     taken = {tool.number for tool in program.tools}
     return Tool(next(number for number in range(1, len(taken) + 2) if number not in taken))
+
+
+def _faults(tool: Tool, unit: Unit) -> list[str]:
+    """What cannot be used in the fields of a tool."""
+    told = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
+    return [f" ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in told if text]
 
 
 def _use(program: Program, number: int) -> str:

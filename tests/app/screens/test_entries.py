@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from textual import events
+from textual.widgets import Static
 
 from app.screens.contour import ContourScreen
+from app.widgets.field import NumberField
 from core.program.model import Number
 from tests.app.widget_pilot import operator
 
@@ -27,6 +29,12 @@ async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setu
             await one.press(f"'{text}", "enter")
             assert (one.at, one.app.focused.value) == ("speed@0", text)
             assert text in one.prompt
+            await one.press("tab")
+            speed = next(each for each in one.screen.query(NumberField) if each.name == "speed@0")
+            assert speed.styles.color.hex == one.app.theme_variables["c-err"].upper()
+            use = str(one.screen.query_exactly_one("#tool-use", Static).content)
+            assert f"ERR SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
+            await one.press("shift+tab")
         await one.press("'3000", "enter")
         assert one.session.program.tools[0].speed == Number(3000.0)
 
