@@ -292,7 +292,7 @@ def _next(program: Program) -> Tool:
 def _faults(tool: Tool, unit: Unit) -> list[str]:
     """What cannot be used in the fields of a tool."""
     told = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
-    return [f" ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in told if text]
+    return [f"ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in told if text]
 
 
 def _use(program: Program, number: int) -> str:
@@ -303,8 +303,8 @@ def _use(program: Program, number: int) -> str:
 
     roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
     finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
-    lines = [f" TOOL {number}"]
-    lines.append(f" TOOL of block {', '.join(roughing)}" if roughing else " No block calls it.")
+    lines = [f"TOOL {number}"]
+    lines.append(f"TOOL of block {', '.join(roughing)}" if roughing else "No block calls it.")
     if finishing:
-        lines.append(f" FINISH TOOL of block {', '.join(finishing)}")
+        lines.append(f"FINISH TOOL of block {', '.join(finishing)}")
     return "\n".join(lines)
