@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import unicodedata
+from asyncio import sleep
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
+from textual.events import Key
+from textual.keys import KEY_NAME_REPLACEMENTS, REPLACED_KEYS
+from textual.message_pump import MessagePump
 from textual.pilot import Pilot
 
 from app.app import CutcompApp
@@ -13,12 +18,26 @@ from app.documents.files import load
 from app.documents.programs import example
 from app.screens.base import BaseScreen
 from app.session.session import Session
+from app.terminal.key_order import KeyOrder
 from app.widgets.field import FieldRow
 from app.widgets.prompt import Prompt
 from app.widgets.status import Surroundings
 from core.program.model import Program
 
+QUIET_ROUNDS = 3
+"""So many rounds in which nobody has anything to do end a wait: what is left for after a repaint comes in the next."""
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
+
+
+def key_event(key: str) -> Key:
+    """The event of a key by its name in Textual, or by what it types: "minus" and "-" are the same key."""
+    if len(key) == 1:
+        name = key if key.isalnum() else unicodedata.name(key).lower().replace("-", "_").replace(" ", "_")
+        return Key(KEY_NAME_REPLACEMENTS.get(name, name), key)
+    try:
+        return Key(key, unicodedata.lookup(REPLACED_KEYS.get(key, key).replace("_", " ").replace("hyphen ", "hyphen-")))
+    except KeyError:
+        return Key(key, None)
 
 
 class Operator:
@@ -28,18 +47,28 @@ class Operator:
         self.app, self.pilot = app, pilot
 
     async def press(self, *keys: str) -> None:
-        """Keys one after the other; a text in quotes such as "'1.25" is typed letter by letter."""
+        """Keys one after the other, as the driver hands them on; "'1.25" is typed letter by letter."""
+        order = KeyOrder(self.app)
         for key in keys:
-            await self.pilot.press(*(key[1:] if key.startswith("'") else (key,)))
+            for one in key[1:] if key.startswith("'") else (key,):
+                order.take(key_event(one))
+                while order.on_its_way:
+                    await sleep(0)
         await self.settle()
 
     async def settle(self) -> None:
-        """Wait for everything that is worked out in threads."""
-        for _ in range(4):
+        """Wait for everything that is worked out in threads, and until no widget has a message left."""
+        rounds = 0
+        while rounds < QUIET_ROUNDS:
             working = [worker for worker in self.app.workers if worker.group in ("derive", "table")]
             if working:
                 await self.app.workers.wait_for_complete(working)
-            await self.pilot.pause()
+            await self.pilot.pause(0)
+            rounds = 0 if working or self._messages() else rounds + 1
+
+    def _messages(self) -> bool:
+        pumps: list[MessagePump] = [self.app, *self.app.screen.walk_children(with_self=True)]
+        return any(pump.message_queue_size for pump in pumps)
 
     @property
     def screen(self) -> BaseScreen:
