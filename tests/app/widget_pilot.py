@@ -6,12 +6,14 @@ import unicodedata
 from asyncio import sleep
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from time import monotonic
 from typing import Any
 
 from textual.events import Key
 from textual.keys import KEY_NAME_REPLACEMENTS, REPLACED_KEYS
 from textual.message_pump import MessagePump
 from textual.pilot import Pilot
+from textual.screen import ModalScreen
 
 from app.app import CutcompApp
 from app.documents.files import load
@@ -26,6 +28,8 @@ from core.program.model import Program
 
 QUIET_ROUNDS = 3
 """So many rounds in which nobody has anything to do end a wait: what is left for after a repaint comes in the next."""
+PATIENCE = 0.5
+"""Seconds."""
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
 
 
@@ -49,6 +53,7 @@ class Operator:
     async def press(self, *keys: str) -> None:
         """Keys one after the other, as the driver hands them on; "'1.25" is typed letter by letter."""
         order = KeyOrder(self.app)
+        await self.pilot.pause(0)
         for key in keys:
             for one in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(one))
@@ -57,14 +62,21 @@ class Operator:
         await self.settle()
 
     async def settle(self) -> None:
-        """Wait for everything that is worked out in threads, and until no widget has a message left."""
-        rounds = 0
+        """Wait for everything that is worked out in threads, and until no widget has a message left.
+
+        Workers other than those of the verdict may wait for an answer or for a disk that does not answer: for them
+        only `PATIENCE`, and only where no question stands in front.
+        """
+        rounds, patience = 0, monotonic() + PATIENCE
         while rounds < QUIET_ROUNDS:
             working = [worker for worker in self.app.workers if worker.group in ("derive", "table")]
+            others = len(self.app.workers) > len(working) and not isinstance(self.app.screen, ModalScreen)
             if working:
                 await self.app.workers.wait_for_complete(working)
+            elif others and (others := monotonic() < patience):
+                await sleep(0.001)
             await self.pilot.pause(0)
-            rounds = 0 if working or self._messages() else rounds + 1
+            rounds = 0 if working or others or self._messages() else rounds + 1
 
     def _messages(self) -> bool:
         pumps: list[MessagePump] = [self.app, *self.app.screen.walk_children(with_self=True)]
