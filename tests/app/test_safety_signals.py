@@ -187,6 +187,8 @@ def test_two_operators_with_one_file(part: Path) -> None:
             first.until("TAKEN OVER")
             first.send(b"k")
             first.until("part.mine-")
+            written = time.monotonic() + 10
+            while not (mine := [*part.parent.glob("part.mine-*.toml")]) and time.monotonic() < written:
+                first.read(quiet=0.05)
     assert load(part).blocks[0].tool == Number(9.0)
-    mine = next(part.parent.glob("part.mine-*.toml"))
-    assert load(mine).blocks[0].tool == Number(8.0)
+    assert load(mine[0]).blocks[0].tool == Number(8.0)

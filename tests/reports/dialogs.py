@@ -206,6 +206,10 @@ def _walked(dialog: Dialog, kind: Kind, terminal: Terminal, folder: Path) -> See
     except AssertionError:
         seen.trouble.append(f"it does not come:\n{terminal.text}")
         return seen
+    # a busy machine shows the title before the rest
+    words_by = time.monotonic() + WORDS_BEHIND_TITLE
+    while time.monotonic() < words_by and not all(word in terminal.text for word in dialog.words):
+        terminal.read(quiet=QUIET)
     settle(terminal)
     seen.lines = masked(terminal.screen.display)
     seen.trouble += unreadable(dialog, terminal)
@@ -252,6 +256,10 @@ def inside(line: str) -> str:
         if line.count(side) >= 2:
             return line.split(side)[1]
     return line
+
+
+WORDS_BEHIND_TITLE: Final = 3.0
+"""Seconds."""
 
 
 def settle(terminal: Terminal) -> None:
