@@ -15,7 +15,7 @@ from textual import work
 from textual.app import App
 
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
-from app.documents.files import refuse_program, write_data, write_output
+from app.documents.files import refuse_program, why, write_data, write_output
 from app.documents.folders import chosen, short_path, written_at
 from app.documents.left_overs import file_of_copy
 from app.documents.naming import is_drawing, is_folder, program_named, typed, with_suffix
@@ -403,6 +403,8 @@ class FileActions(App[int]):
         """Save under a typed name; while a folder does not answer, only a copy on another disk."""
         proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
         if self.disk_is_behind():
+            if proof is not None and not proof.take_lines():
+                return
             self._save_copy(self.document if proof is None else proof.document, typed(text))
         elif proof is not None:
             self._save_nc(proof, typed(text))
@@ -415,7 +417,7 @@ class FileActions(App[int]):
 
         def write() -> str:
             named = chosen(path, document.file.path)
-            named = program_named(named) if document is self.document else with_suffix(named, ".nc")
+            named = program_named(named) if isinstance(document, ContourDocument) else with_suffix(named, ".nc")
             if named.exists():
                 raise StoreError(f"{short_path(named)} is there already: type another name.")
             write_data(named, document.data())
@@ -427,6 +429,8 @@ class FileActions(App[int]):
             self.say("That folder does not answer either. Type a name on another disk, such as ~/copy.", Tone.ERROR)
         except StoreError as error:
             self.say(error.text, Tone.ERROR)
+        except (OSError, ValueError) as error:
+            self.say(f"{short_path(path)} is not saved: {why(error)}", Tone.ERROR)
         else:
             self._leave_save_as()
             self.say(f"A copy is in {written}. {name_of(document)} itself still waits for its folder.", Tone.WARNING)

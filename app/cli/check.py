@@ -35,7 +35,7 @@ JSON_VERSION: Final = 1
 """Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
 
 FILES_AT_ONCE: Final = 4
-"""Files that a process is given at a time: more would keep the first answers back."""
+"""Files that a process is given at a time, at most: more would keep the first answers back."""
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
@@ -126,7 +126,8 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         with _uninterrupted():
-            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=FILES_AT_ONCE)
+            at_once = max(1, min(FILES_AT_ONCE, len(paths) // (8 * workers)))
+            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=at_once)
         try:
             yield from answers
         except BrokenProcessPool:

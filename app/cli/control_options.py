@@ -39,7 +39,7 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
 
 def control_of(text: str) -> str:
     """The full name of a control; Unusable where there is none of that name."""
-    # every control: `cutcomp import` of a drawing needs none
+    # this loads every control; a drawing needs none
     from core.controls.registry import UnknownControl, resolve
 
     found = resolve(text)

@@ -201,7 +201,7 @@ def import_nc(options: argparse.Namespace) -> None:
     if options.units and options.units not in units:
         raise Unusable("--units: an NC program is in inches or in millimeters.")
     unit = units.get(options.units or "")
-    # every control, which a drawing needs none of
+    # this loads every control; a drawing needs none
     from core.importing.nc import read_nc
 
     data, control = bytes_of(options.file), control_of(options.control)

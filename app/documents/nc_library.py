@@ -25,14 +25,14 @@ _NUMBER: Final = re.compile(rb"^[ \t]*[O:][ \t]*([0-9]{1,8})(?![0-9.])", re.MULT
 
 @dataclass(frozen=True, slots=True)
 class FolderLibrary:
-    """The programs of a folder by their numbers; None finds nothing, for a text that is in no folder yet."""
+    """The programs of a folder by their numbers or labels; None finds nothing, for a text that is in no folder yet."""
 
     folder: Path | None
 
     def __call__(self, program: int | str) -> tuple[str, bytes] | None:
         """The name and text of a program, None where there is no file of it that can be read.
 
-        A text is the label by which LinuxCNC calls a subprogram.
+        A str is the label by which LinuxCNC calls a subprogram.
         """
         if self.folder is None:
             return None

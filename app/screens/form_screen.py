@@ -129,7 +129,6 @@ class FormScreen(BaseScreen):
         taken = self.host.apply(outcome, self.label(field))
         widget.restore()
         if not taken:
-            self.host.try_out(None)
             return False
         typed = None if field.kind is Kind.TEXT else read_typed(text, field, self.current_session.program.unit)
         if isinstance(typed, Unread):

@@ -36,6 +36,7 @@ from app.session.words import length, place
 from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import Drawing
 from app.widgets.softkeys import Softkey
+from core.controls.program_text import quoted
 from core.draw.characters import Mode
 from core.draw.scene import Layer
 from core.draw.view import View
@@ -727,7 +728,9 @@ class ImportScreen(BaseScreen):
         """What the filter holds back, and how all rows come back."""
         text = self.query_exactly_one("#filter", Input).value.strip()
         if text and self.listed is not None and not matching(self.listed.contours, text, self.unit):
-            return Sentence(f"No chain has {text!r} in its layer, kind, length or size. Esc shows all.", Tone.WARNING)
+            return Sentence(
+                f"No chain has '{quoted(text)}' in its layer, kind, length or size. Esc shows all.", Tone.WARNING
+            )
         return Sentence("Type a part of a layer, kind, length or size. Enter goes to the list, Esc shows all.")
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:

@@ -57,7 +57,7 @@ class SheetScreen(EntryScreen):
 
     @work(thread=True, exclusive=True, group="sheet", description="sheet")
     def _make(self, program: Program) -> None:
-        text = setup_sheet(program, Path(self._text or "part").with_suffix(".txt"), self.host.now())
+        text = setup_sheet(program, Path(Path(self._text).name or "part").with_suffix(".txt"), self.host.now())
         self.app.call_from_thread(self._show, text)
 
     def _show(self, text: str) -> None:
@@ -65,7 +65,7 @@ class SheetScreen(EntryScreen):
 
     def action_ending(self, ending: str) -> None:
         """Give the name another ending."""
-        if self.text:
+        if Path(self.text).name:
             self.text = str(Path(self.text).with_suffix(ending))
 
     def entered(self, text: str) -> None:

@@ -251,8 +251,10 @@ def _in_the_way(case: Case, marks: Marks) -> Content:
     first = case.block.errors[0]
     role = "$c-warn" if first.code in NOT_YET else "$c-err"
     text = f"{marks.gouge} {sentence(first, case.unit)}"
-    if len(text) > CHIPS_WIDTH and ":" in text[:CHIPS_WIDTH]:
-        # the prompt and F10 say what follows
+    # the prompt and F10 say what follows
+    if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
+        text = f"{text.partition('. ')[0]}."
+    elif len(text) > CHIPS_WIDTH and ":" in text[:CHIPS_WIDTH]:
         text = f"{text.partition(':')[0]}."
     return Content.styled(shortened(text, CHIPS_WIDTH), f"bold {role}")
 

@@ -1,9 +1,10 @@
-"""The largest tool that fits: a control runs an NC program with ever other sizes of the tool that is too big."""
+"""The largest tool that fits: the NC program is run with smaller and smaller sizes of the tool that is too big."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import ceil
 from typing import Final
 
 from core.controls.control_run import ControlRun
@@ -15,13 +16,13 @@ from core.finding import Finding, Severity
 from core.units import Kind, Unit, decimals_shown, from_mm, to_mm
 
 MAX_MOVES: Final = 2_000
-"""Moves of a program that is run again and again."""
+"""Moves, and lines, of a program that is run again and again."""
 
 MAX_TOOLS: Final = 8
 """Tools of a program that are tried."""
 
 SMALLEST_SHARE: Final = 20
-"""A tool of a smaller part of the diameter than this is no remedy; what any tool does wrong becomes small with it."""
+"""The smallest size tried is the diameter divided by this: with a tiny tool every fault looks small."""
 
 _NUMBER: Final = re.compile(rb"(?:[TD]|CALL|DEF)\s*(\d+)", re.IGNORECASE)
 """Where a program names a tool or an offset."""
@@ -34,7 +35,7 @@ def largest_tool(
 
     `done` is the run with the tools as they are.  None where no smaller tool helps: the fault is another one.
     """
-    if len(done.moves) > MAX_MOVES or not _is_faulty(done):
+    if len(done.moves) > MAX_MOVES or text.count(b"\n") > MAX_MOVES:
         return None
 
     step = 10.0 ** -decimals_shown(Kind.LENGTH, done.unit)
@@ -43,10 +44,10 @@ def largest_tool(
         diameter = step * size if tool.diameter > 0.0 else -step * size
         trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
         ran = run(text, done.control, trial, unit, library)
-        return not isinstance(ran, UnknownControl) and not _is_faulty(ran)
+        return not isinstance(ran, UnknownControl) and len(ran.moves) <= MAX_MOVES and not _is_faulty(ran)
 
     for tool in _named(text, tools):
-        fails = int(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step + 1e-6)
+        fails = ceil(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step - 1e-6)
         clean = fails // SMALLEST_SHARE
         if not clean or not fits(tool, clean):
             continue

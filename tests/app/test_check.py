@@ -356,6 +356,7 @@ def test_linuxcnc_calls_the_file_of_a_named_subprogram(tmp_path: Path, capsys: p
         ("o7 call", "There is no subprogram O7 in this file, and no file 7.ngc in its folder."),
         ("o<plain> call", "plain.ngc is called here and has no subprogram O<plain>."),
         ("o<bad> call", "bad.ngc line 2: "),
+        ("o<badly> call", "badly.ngc line 4: This label is in use since badly.ngc line 2; "),
         ("o<../outside> call", "There is no subprogram O<../outside> in this file"),
     ],
 )
@@ -367,6 +368,8 @@ def test_a_missing_file_of_a_subprogram_is_named_with_line_and_column(
     (tmp_path / "outside.ngc").write_text("o<../outside> sub\no<../outside> endsub\n")
     (folder / "plain.ngc").write_text("G0 X1\n")
     (folder / "bad.ngc").write_text("o<bad> sub\nG1 X1 X2\no<bad> endsub\n")
+    twice = "o100 if [1]\no100 endif\no100 while [0]\no100 endwhile\n"
+    (folder / "badly.ngc").write_text(f"o<badly> sub\n{twice}o<badly> endsub\n")
     (folder / "main.ngc").write_text(f"G21 F9\n{call}\nM2\n")
     assert check([str(folder / "main.ngc"), "--control", "linuxcnc", "--json"]) == 1
     (result,) = json.loads(capsys.readouterr().out)["results"]

@@ -15,6 +15,7 @@ from app.documents.journal import Kind
 from app.documents.journal_file import journal_path
 from app.documents.left_overs import read
 from app.screens.dialogs import Question
+from app.screens.sheet import SheetScreen
 from core.program.history import History
 from core.program.model import Number
 from tests.app.test_file_actions import at_work, folder
@@ -132,6 +133,10 @@ async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder
         await one.settle()
         assert "is there already: type another name" in one.prompt
         assert rescue.read_text() == "somebody's"
+        one.app.save_as(str(tmp_path / ("n" * 300)))
+        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
+        await one.settle()
+        assert "is not saved" in one.prompt
         one.app.save_as(str(tmp_path / "copy"))
         await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
         await one.settle()
@@ -140,6 +145,32 @@ async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder
         await disk.comes_back(one)
         assert "The folder answers again" in one.prompt
         assert one.session.unsaved
+
+
+async def test_the_copy_of_an_nc_text_has_the_line_that_is_being_typed(folder, disk, tmp_path):
+    (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
+    async with at_work(folder) as one:
+        one.app.open_file(folder / "a.nc")
+        await one.settle()
+        disk.dies()
+        await one.press("enter", "x", "down", "enter", "y")
+        disk.hanging = False
+        assert one.app.disk_is_behind()
+        one.app.action_save_as()
+        await one.settle()
+        one.app.save_as(str(tmp_path / "copy.nc"))
+        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
+        assert b"y" in (tmp_path / "copy.nc").read_bytes()
+        await disk.comes_back(one)
+
+
+async def test_a_name_without_a_file_gets_no_ending_on_the_sheet(folder):
+    async with at_work(folder) as one:
+        one.app.push_screen(SheetScreen("."))
+        await one.settle()
+        await one.press("f2", "f3")
+        assert isinstance(one.screen, SheetScreen)
+        assert one.screen.text == "."
 
 
 @pytest.fixture

@@ -132,6 +132,7 @@ class OWords:
 
     `calls` are the program and the subprograms that run, the innermost last, those that M98 called among them.
     `load` looks for the file of a subprogram that is not in this one, and adds its words.
+    `origin_of` tells the line of a file and where a line of a called file stands.
     """
 
     def __init__(
@@ -141,12 +142,14 @@ class OWords:
         log: Log,
         calls: list[Call],
         load: Callable[[str, int], str],
+        origin_of: Callable[[int], tuple[int, str]],
     ) -> None:
         self.words = dict[int, OWord]()
         self.values = values
         self.log = log
         self.calls = calls
         self.load = load
+        self.origin_of = origin_of
         self.begun: dict[tuple[str | None, str], int] = {}
         self.subs = list[int]()
         self.by_label: dict[str, list[OWord]] = {}
@@ -313,7 +316,8 @@ class OWords:
         """A label that began something once cannot begin anything else in its subprogram."""
         key = (self.scope.label, word.label)
         if self.begun.setdefault(key, word.row) != word.row:
-            text = f"This label is in use since line {self.begun[key] + 1}; give this {word.word.lower()} its own."
+            line, place = self.origin_of(self.begun[key] + 1)
+            text = f"This label is in use since {place or f'line {line}'}; give this {word.word.lower()} its own."
             self._stop(word, text)
 
     def _while(self, word: OWord) -> int:
@@ -410,7 +414,9 @@ class Flow:
         self.percents = 0
         self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is ParameterStore.NGC else {}
-        self.o_words = OWords(words, self.values, log, self.calls, self._load) if words and self.values else None
+        self.o_words: OWords | None = None
+        if words and self.values:
+            self.o_words = OWords(words, self.values, log, self.calls, self._load, self.origin_of)
         self.labels = _labels_of(lines, words)
 
     def _load(self, label: str, line: int) -> str:
