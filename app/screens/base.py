@@ -16,6 +16,7 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
@@ -24,6 +25,7 @@ from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
+from textual.css.query import NoMatches
 from textual.events import DescendantFocus, Resize
 from textual.reactive import Reactive, var
 from textual.screen import ModalScreen, Screen
@@ -271,10 +273,9 @@ class BaseScreen(Screen[None]):
         return False
 
     def show_work(self, work: Work | None) -> None:
-        """How far long work is, on the status line; a screen that is still being made has none."""
-        if not self._composed:
-            return
-        self.query_exactly_one(Status).show_work("" if work is None else work.text)
+        """How far long work is, on the status line; a screen that is being made or taken down has none."""
+        with suppress(NoMatches):
+            self.query_exactly_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:
         """That the terminal is smaller than any screen is made for; all keys act all the same."""

@@ -66,6 +66,8 @@ class PostScreen(EntryScreen):
         self.made: NcText | None = None
         self.stopped = False
         self._work: Work | None = None
+        self._program: Program | None = None
+        """What `made` is, or is going to be, made of."""
 
     def compose_head(self) -> ComposeResult:
         """The unit of the file, for whoever loads it at the machine."""
@@ -91,8 +93,11 @@ class PostScreen(EntryScreen):
         super().on_mount()
 
     def show_session(self, session: Session) -> None:
-        """The program has changed, or more of it is known: make the text anew."""
-        self._make(session.program)
+        """Make the text anew where the program has changed; where only more of it is known, say what is."""
+        if session.program is self._program:
+            self._show()
+        else:
+            self._make(session.program)
 
     @on(OptionList.OptionHighlighted, "#post-controls")
     def _control_chosen(self, event: OptionList.OptionHighlighted) -> None:
@@ -111,7 +116,7 @@ class PostScreen(EntryScreen):
         self.query_exactly_one("#post-controls").focus()
 
     def _make(self, program: Program) -> None:
-        self.made, self.stopped = None, False
+        self.made, self.stopped, self._program = None, False, program
         if self._work is not None:
             self.host.end_work(self._work)
         self._work = self.host.begin_work(self._make_stopped)

@@ -8,7 +8,7 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.program.fields import Form, default_value, field_of, value_refusal
 from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
-from core.program.solve.solved import SolvedBlock
+from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
@@ -70,12 +70,15 @@ def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
 
 
 def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """The segments from the first on whose FEED is blank; reported once the first segment is determined."""
+    """The segments from the first on whose FEED neither the form nor the tool table gives; once the first is known."""
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
     blank = next((index for index, segment in enumerate(block.segments) if segment.feed is not None), count)
     if not blank:
+        return
+    feed_of_start = solved.segments[0].values.get("feed")
+    if isinstance(feed_of_start, Solved) and feed_of_start.origin is Origin.TOOL:
         return
     subject = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)

@@ -106,6 +106,8 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
         await seen(one, "working 40 %")
         await one.press("escape")
         assert slow.stopped
+        # more becomes known of the same program
+        one.screen.show_session(one.session)
         assert "Stopped. Enter makes the NC text." in str(one.screen.query_exactly_one("#post-findings").render())
         slow.go.set()
         await one.press("enter")
@@ -113,6 +115,15 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
         assert isinstance(one.screen, post_module.PostScreen)
         assert one.screen.made is not None
         assert "Free:" in status(one)
+
+
+async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
+    async with operator() as one:
+        slow = Slow(monkeypatch, post_module, "nc_text")
+        one.app.action_post()
+        await one.pilot.pause()
+        await seen(one, "working 40 %")
+    assert slow.stopped
 
 
 async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(monkeypatch):

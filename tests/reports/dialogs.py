@@ -12,7 +12,7 @@ import re
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -206,10 +206,6 @@ def _walked(dialog: Dialog, kind: Kind, terminal: Terminal, folder: Path) -> See
     except AssertionError:
         seen.trouble.append(f"it does not come:\n{terminal.text}")
         return seen
-    # a busy machine shows the title before the rest
-    words_by = time.monotonic() + WORDS_BEHIND_TITLE
-    while time.monotonic() < words_by and not all(word in terminal.text for word in dialog.words):
-        terminal.read(quiet=QUIET)
     settle(terminal)
     seen.lines = masked(terminal.screen.display)
     seen.trouble += unreadable(dialog, terminal)
@@ -241,7 +237,7 @@ def leave(dialog: Dialog, terminal: Terminal, seen: Seen) -> None:
 
 def unreadable(dialog: Dialog, terminal: Terminal) -> Iterator[str]:
     """Words that are not on the screen in full, and a frame that is cut off."""
-    framed = [line.strip() for line in terminal.screen.display]
+    framed = [line.strip() for line in columns_of(dialog, terminal.screen.display)]
     words = " ".join(" ".join(inside(line) for line in framed).split())
     for word in dialog.words:
         if word not in words:
@@ -250,16 +246,23 @@ def unreadable(dialog: Dialog, terminal: Terminal) -> Iterator[str]:
         yield f"the frame has no lower end:\n{terminal.text}"
 
 
+def columns_of(dialog: Dialog, lines: Sequence[str]) -> Sequence[str]:
+    """The lines from the title on, cut off beside the frame: a drawing next to it has signs like the frame's."""
+    for row, line in enumerate(lines):
+        for title in titles(dialog):
+            if title in line and line[: line.index(title)].rstrip("─-").endswith(("╭", "+")):
+                start = len(line[: line.index(title)].rstrip("─-")) - 1
+                ends = [line.find(corner, start + 1) for corner in "╮+"]
+                return [each[start : max(ends) + 1] for each in lines[row:]]
+    return lines
+
+
 def inside(line: str) -> str:
     """What stands between the sides of a frame, else the whole line."""
     for side in "│|":
         if line.count(side) >= 2:
             return line.split(side)[1]
     return line
-
-
-WORDS_BEHIND_TITLE: Final = 3.0
-"""Seconds."""
 
 
 def settle(terminal: Terminal) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from app.terminal.character_set import lookalike
 from tests.reports import dialogs
-from tests.reports.dialogs import DIALOGS, SIZES, box, named, on_an_xterm, one_kind, reached
+from tests.reports.dialogs import DIALOGS, SIZES, box, columns_of, inside, named, on_an_xterm, one_kind, reached
 from tests.reports.recorded import PLAIN
 from tests.reports.terminals import Colors, Kind
 
@@ -28,6 +28,12 @@ def test_a_frame_is_a_dialog_whatever_it_is_drawn_with() -> None:
     framed = ["╭─ QUIT? ─╮", "│ S SAVE  │", "╰─────────╯"]
     assert box(round_one) == framed
     assert box(tuple(map(lookalike, round_one))) == [lookalike(line) for line in framed]
+
+
+def test_a_drawing_beside_a_dialog_takes_no_word_from_it() -> None:
+    behind = ("+- PART -----------", "| | +- QUIT? -+ |  ", "| | |  SAVE   | |  ", "| | +---------+ |  ")
+    framed = columns_of(replace(named("QUIT"), title="QUIT?"), behind)
+    assert [inside(line) for line in framed] == ["+- QUIT? -+", "  SAVE   ", "+---------+"]
 
 
 def test_no_dialog_is_left_out() -> None:

@@ -63,6 +63,14 @@ def test_nothing_is_told_of_a_typed_feed_nor_of_one_that_nothing_determines(part
     assert told(part, "PLUNGE_FED") == []
 
 
+@pytest.mark.parametrize("proposed", [12.0, None])
+def test_a_blank_feed_that_the_tool_table_fills_is_no_plunge_feed(proposed):
+    part = fed(None, None)
+    feed = None if proposed is None else Number(proposed)
+    tools = tuple(replace(tool, feed=feed) for tool in part.tools)
+    assert bool(told(replace(part, tools=tools), "PLUNGE_FED")) == (proposed is None)
+
+
 def test_a_feed_that_cannot_be_read_is_an_error_and_no_blank():
     part = fed(8.0)
     (one,) = part.blocks
