@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from threading import Event
-from time import sleep
+from time import monotonic, sleep
 
 import pytest
 
@@ -123,6 +123,9 @@ async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
         one.app.action_post()
         await one.pilot.pause()
         await seen(one, "working 40 %")
+    given_up = monotonic() + 5
+    while not slow.stopped and monotonic() < given_up:
+        sleep(0.005)
     assert slow.stopped
 
 
