@@ -6,6 +6,7 @@ The document service decides and knows no screen; what it asks is asked here in 
 from __future__ import annotations
 
 import asyncio
+from abc import abstractmethod
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from pathlib import Path
@@ -71,55 +72,55 @@ class FileActions(App[int]):
 
     # ---- what the App itself has
 
+    @abstractmethod
     def begin(self, session: Session) -> None:
         """Work on another program from now on."""
-        raise NotImplementedError
 
+    @abstractmethod
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line."""
-        raise NotImplementedError
 
+    @abstractmethod
     def quiet(self) -> None:
         """The prompts again, on every screen."""
-        raise NotImplementedError
 
+    @abstractmethod
     def take_typed(self) -> bool:
         """Take what is half-typed on the screen in front; False where it is refused."""
-        raise NotImplementedError
 
+    @abstractmethod
     def bring_form(self) -> None:
         """MILL CONTOUR to the front."""
-        raise NotImplementedError
 
+    @abstractmethod
     def bring_proof(self, proof: ProofScreen) -> None:
         """An NC PROOF that is open to the front."""
-        raise NotImplementedError
 
+    @abstractmethod
     def show_folder(self, folder: Path) -> None:
         """HOME with the files of a folder."""
-        raise NotImplementedError
 
+    @abstractmethod
     def show_nc(self, document: NcDocument) -> None:
         """NC PROOF on a text."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def proof(self) -> ProofScreen | None:
         """NC PROOF, where it is in front."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def proofs(self) -> list[ProofScreen]:
         """Every NC PROOF that is open."""
-        raise NotImplementedError
 
+    @abstractmethod
     def show_screen(self, screen: BaseScreen) -> None:
         """A screen over all others."""
-        raise NotImplementedError
 
+    @abstractmethod
     def begin_guide(self) -> None:
         """Lead through a first part from now on."""
-        raise NotImplementedError
 
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
         """IMPORT on a drawing: its contours go to the open program, which takes the drawing's unit if it is `fresh`."""
@@ -543,9 +544,9 @@ class FileActions(App[int]):
         return True
 
     @property
+    @abstractmethod
     def current_session(self) -> Session:
         """The session as it is now."""
-        raise NotImplementedError
 
     # ---- leave
 

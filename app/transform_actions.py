@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Final
 
@@ -26,9 +27,9 @@ class TransformActions(App[int]):
 
     session: Session
 
+    @abstractmethod
     def apply(self, edited: Edited, label: str) -> bool:
         """Take an edit, or say why it is refused."""
-        raise NotImplementedError
 
     async def _numbers(self, title: str, line: str, entries: Sequence[NumberEntry]) -> tuple[float, ...]:
         """The numbers that are typed, in program units and degrees; empty for none.  Only in a worker."""

@@ -122,10 +122,12 @@ def serve(options: argparse.Namespace) -> int:
     say(web.NO_LOGIN)
     say("Where the browser keeps a function key to itself, Esc and then its digit does the same.")
     try:
-        web.serve(options.file, options.host, options.port)
+        from app.cli.web_server import serve as serve_screens
     except ImportError:
         say(web.MISSING)
         return UNUSABLE
+    try:
+        serve_screens(options.file, options.host, options.port)
     except (OSError, UnicodeError) as error:
         # a port that is taken or forbidden, a name that is none
         say(f"{web.address(options.host, options.port)} cannot be served: {error}")

@@ -351,14 +351,14 @@ class DocumentService:
             lock = take_over(path, self.me)
         except (OSError, StoreError) as error:
             return Opened(document, Notice(f"It cannot be taken over: {_reason(error)}", warning=True))
-        if fresh.kind is not document.kind:
+        if not isinstance(fresh, type(document)):
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
         kept.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
         taken = self._put(kept, fresh.with_file(state))
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
-        return replace(opened, notice=notice)  # type: ignore[return-value]  # both are of one kind
+        return Opened(opened.document, notice, opened.offer)
 
     def _restore(self, kept: _Kept, document: AnyDocument, path: Path, journal: Journal) -> Opened[AnyDocument]:
         """The work as it was, with its undo; its journal begins anew with all of it."""

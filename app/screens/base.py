@@ -15,6 +15,7 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
@@ -188,9 +189,9 @@ class BaseScreen(Screen[None]):
         yield Prompt()
         yield Status(self.host.surroundings)
 
+    @abstractmethod
     def compose_body(self) -> ComposeResult:
         """The widgets of the screen itself."""
-        raise NotImplementedError
 
     def show_session(self, session: Session) -> None:
         """Show what has changed in the session."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import ClassVar
 
 from textual import on
@@ -58,9 +59,9 @@ class EntryScreen(BaseScreen):
     def text(self, text: str) -> None:
         self.query_exactly_one("#entry", Input).value = text
 
+    @abstractmethod
     def entered(self, text: str) -> None:
         """Do something with the name."""
-        raise NotImplementedError
 
     @on(Input.Changed, "#entry")
     def _typing(self) -> None:

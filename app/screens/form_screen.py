@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Any, ClassVar, Final
 
 from textual import on, work
@@ -57,19 +58,19 @@ class FormScreen(BaseScreen):
 
     def form(self) -> Form:
         """The form that is shown."""
-        raise NotImplementedError
+        return self.query_exactly_one(Form)
 
+    @abstractmethod
     def fields(self) -> tuple[Field, ...]:
         """The fields that the cursor can go to, in order."""
-        raise NotImplementedError
 
+    @abstractmethod
     def value(self, name: str) -> Value | str:
         """What the program holds in a field."""
-        raise NotImplementedError
 
+    @abstractmethod
     def edited(self, field: Field, text: str) -> Edited:
         """The program with this text typed into a field, or picked in it."""
-        raise NotImplementedError
 
     def label(self, field: Field) -> str:
         """What undo calls an edit of this field."""

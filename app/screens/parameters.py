@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import ClassVar, Final
 
 from textual import work
@@ -59,10 +60,6 @@ class SettingsForm(FormScreen):
         super().on_mount()
         self.focus_field(self.FIELDS[0].name)
 
-    def form(self) -> Form:
-        """The form."""
-        return self.query_exactly_one("#settings-form", Form)
-
     def fields(self) -> tuple[Field, ...]:
         """The fields."""
         return self.FIELDS
@@ -76,9 +73,9 @@ class SettingsForm(FormScreen):
         value = Solved(usual, Origin.USUAL) if held is None and usual is not None else held
         return cell_of(field, value, unit, column)
 
+    @abstractmethod
     def held(self, session: Session, name: str) -> Value | str:
         """What the program holds in a field."""
-        raise NotImplementedError
 
     def value(self, name: str) -> Value | str:
         """What the program holds in a field."""

@@ -20,8 +20,8 @@ pytest.importorskip("textual_serve", reason="the extra web is not installed")
 
 import aiohttp
 
-from app.cli import web, web_children
-from app.cli.web import FULL, SESSIONS
+from app.cli import web_children
+from app.cli.web_server import FULL, SESSIONS, ScreenServer
 from tests.app.serving import WITHOUT_PRCTL, children, free_port, none_left, server, some_children
 
 SECRET = "a-secret-of-the-test"
@@ -38,10 +38,10 @@ async def served(monkeypatch: pytest.MonkeyPatch, words: list[str]) -> AsyncIter
     """The server of this process, whose pages start a program of ours."""
     from aiohttp.test_utils import TestServer
 
-    monkeypatch.setattr(web, "command", lambda _: shlex.join(words))
+    monkeypatch.setattr("app.cli.web_server.command", lambda _: shlex.join(words))
     others = children(os.getpid())
     port = free_port()
-    server = TestServer(await web.site(None, "127.0.0.1", port, SECRET)._make_app(), host="127.0.0.1", port=port)
+    server = TestServer(await ScreenServer(None, "127.0.0.1", port, SECRET).app(), host="127.0.0.1", port=port)
     await server.start_server()
     async with aiohttp.ClientSession() as session:
         try:

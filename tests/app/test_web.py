@@ -40,7 +40,7 @@ def test_an_address_that_cannot_be_served_is_a_sentence(
     def serve(*_: object) -> None:
         raise fault
 
-    monkeypatch.setattr("app.cli.web.serve", serve)
+    monkeypatch.setattr("app.cli.web_server.serve", serve)
     assert main(["serve", "--port", "8123"]) == 2
     assert "http://127.0.0.1:8123 cannot be served: " in capsys.readouterr().err
 

@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from app.cli.web import SESSIONS
+from app.cli.web_server import SESSIONS
 from tests.app.serving import none_left, server, some_children
 from tests.reports.browser import browsing, chromium
 

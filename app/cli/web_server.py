@@ -1,0 +1,165 @@
+"""The server of `cutcomp serve`: the screens in a browser.  The packages it stands on come with the extra `web`."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import secrets
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Final
+
+import textual_serve.server
+from aiohttp import web
+from aiohttp.typedefs import Handler, Middleware
+from textual_serve.server import Server
+
+from app.cli.lifeline import GRACE
+from app.cli.web import adapted, address, command, knows, welcome
+from app.cli.web_children import Service
+
+SESSIONS: Final = 8
+"""Pages at a time; each is a process of its own."""
+FULL: Final = f"{SESSIONS} pages are open, and there is room for no more. Close one, then load this page again."
+FULL_SHOWN: Final = 600.0
+"""Seconds that this sentence stands in a page."""
+LOOK: Final = 0.5
+"""Seconds between two looks whether a page is still there."""
+HEADERS: Final = {
+    "X-Frame-Options": "DENY",
+    "Content-Security-Policy": "default-src 'self' 'unsafe-inline' data:; frame-ancestors 'none'; base-uri 'none'",
+    "Referrer-Policy": "no-referrer",
+}
+"""No page of another's around this one, nothing from elsewhere in it, its address told to nobody."""
+log = logging.getLogger("cutcomp.serve")
+
+
+def serve(file: Path | None, host: str, port: int) -> None:
+    """Serve until Ctrl+C; OSError where the address cannot be served."""
+    # the screens are found wherever the server was started, and nothing of that folder is taken for them
+    root = str(Path(__file__).parents[2])
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
+    secret = secrets.token_urlsafe(24)
+    server = ScreenServer(file, host, port, secret)
+    server.initialize_logging()
+    words = f"Open {address(host, port)}/{secret}/\nPress Ctrl+C to end."
+    web.run_app(
+        server.app(),
+        host=host,
+        port=port,
+        # said once it listens; the log of every request would repeat the secret
+        print=lambda _: print(words, flush=True),
+        access_log=None,
+        shutdown_timeout=GRACE,
+    )
+
+
+class ScreenServer(Server):
+    """The screens on a file, behind a secret."""
+
+    def __init__(self, file: Path | None, host: str, port: int, secret: str) -> None:
+        super().__init__(command(file), host, port, title="cutcomp", public_url=address(host, port))
+        module: Any = textual_serve.server
+        # the package makes its programs of this class
+        module.AppService = Service
+        self.secret = secret
+        self.pages = Pages(super().handle_websocket)
+
+    async def app(self) -> web.Application:
+        """Page, socket, downloads and static files below a path that only the printed address names."""
+        outer = web.Application(middlewares=[self._guarded()])
+        outer.on_response_prepare.append(_add_headers)
+        outer.add_subapp(f"/{self.secret}", await self._make_app())
+        return outer
+
+    def _guarded(self) -> Middleware:
+        @web.middleware
+        async def guard(request: web.Request, handler: Handler) -> web.StreamResponse:
+            if not knows(request.path, self.secret):
+                raise web.HTTPNotFound
+            return await handler(request)
+
+        return guard
+
+    async def on_startup(self, _: web.Application) -> None:
+        """Say nothing: the package's own greeting names an address without the secret."""
+
+    async def on_shutdown(self, _: web.Application) -> None:
+        """End all pages."""
+        await self.pages.end()
+
+    async def handle_index(self, request: web.Request) -> Any:  # noqa: ANN401  # a template's values or its response
+        """The page, unless there is room for no more."""
+        if self.pages.full:
+            raise web.HTTPServiceUnavailable(text=FULL)
+        answer: Any = await super().handle_index(request)
+        answer.text = adapted(answer.text, self.public_url, request.headers.get("Host", ""))
+        return answer
+
+    async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
+        """A page's connection; refused to pages of others."""
+        headers = request.headers
+        if not welcome(headers.get("Host", ""), headers.get("Origin", ""), self.host, self.port):
+            raise web.HTTPForbidden
+        return await self.pages.connect(request)
+
+
+async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
+    response.headers.update(HEADERS)
+
+
+class Pages:
+    """The pages that are open: at most SESSIONS at a time, each logged with its address, none behind its connection."""
+
+    def __init__(self, handle: Callable[[web.Request], Awaitable[web.WebSocketResponse]]) -> None:
+        self._handle = handle
+        self._open = set[asyncio.Future[web.WebSocketResponse]]()
+        self._refused = set[asyncio.Future[web.WebSocketResponse]]()
+
+    @property
+    def full(self) -> bool:
+        """Whether there is room for no more."""
+        return len(self._open) >= SESSIONS
+
+    async def connect(self, request: web.Request) -> web.WebSocketResponse:
+        """A page's connection, from its beginning to its end."""
+        full = self.full
+        log.log(logging.WARNING if full else logging.INFO, "%s: %s", "refused" if full else "connected", request.remote)
+        pages = self._refused if full else self._open
+        page = asyncio.ensure_future(_last_words(request) if full else self._handle(request))
+        pages.add(page)
+        try:
+            while not page.done():
+                await asyncio.wait({page}, timeout=LOOK)
+                if request.transport is None:
+                    # whatever it waits for: nobody is there any more
+                    page.cancel()
+            return await page
+        finally:
+            page.cancel()
+            pages.discard(page)
+            log.info("closed: %s", request.remote)
+
+    async def end(self) -> None:
+        """End all of them, and wait until they have."""
+        for patience in (GRACE + 0.2, 0.3):
+            pages = self._open | self._refused
+            for page in pages:
+                # the second time, what waits for a browser's good-bye
+                page.cancel()
+            if pages:
+                await asyncio.wait(pages, timeout=patience)
+
+
+async def _last_words(request: web.Request) -> web.WebSocketResponse:
+    """Say in the page that there is no room for it; a refused connection would only look broken."""
+    socket = web.WebSocketResponse()
+    await socket.prepare(request)
+    await socket.send_bytes(f"\x1b[2J\x1b[H{FULL}\r\n".encode())
+    with suppress(TimeoutError):
+        # until the page is closed: at the end of its connection it would cover the sentence
+        await asyncio.wait_for(socket.receive(), FULL_SHOWN)
+    await socket.close()
+    return socket
