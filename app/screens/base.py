@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
@@ -26,7 +25,6 @@ from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.css.query import NoMatches
 from textual.events import DescendantFocus, Resize
 from textual.reactive import Reactive, var
 from textual.screen import ModalScreen, Screen
@@ -275,7 +273,7 @@ class BaseScreen(Screen[None]):
 
     def show_work(self, work: Work | None) -> None:
         """How far long work is, on the status line; a screen that is being made or taken down has none."""
-        with suppress(NoMatches):
+        if self._composed and self.is_attached:
             self.query_exactly_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:

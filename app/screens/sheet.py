@@ -61,7 +61,8 @@ class SheetScreen(EntryScreen):
         self.app.call_from_thread(self._show, text)
 
     def _show(self, text: str) -> None:
-        self.query_exactly_one("#sheet-text", Static).update(Content(text))
+        if self.is_attached:
+            self.query_exactly_one("#sheet-text", Static).update(Content(text))
 
     def action_ending(self, ending: str) -> None:
         """Give the name another ending."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import asynccontextmanager
 from threading import Event
 from time import monotonic, sleep
 
@@ -98,12 +99,19 @@ async def test_a_long_table_is_stopped_and_made_when_it_is_asked_for(monkeypatch
         assert one.session.lookahead_table is not None
 
 
-async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
+@asynccontextmanager
+async def posting(monkeypatch):
+    """An operator before POST NC, which makes the text and is at 40 %."""
     async with operator() as one:
         slow = Slow(monkeypatch, post_module, "nc_text")
         one.app.action_post()
         await one.pilot.pause()
         await seen(one, "working 40 %")
+        yield one, slow
+
+
+async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
+    async with posting(monkeypatch) as (one, slow):
         await one.press("escape")
         assert slow.stopped
         # more becomes known of the same program
@@ -118,11 +126,8 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
 
 
 async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
-    async with operator() as one:
-        slow = Slow(monkeypatch, post_module, "nc_text")
-        one.app.action_post()
-        await one.pilot.pause()
-        await seen(one, "working 40 %")
+    async with posting(monkeypatch) as (_, slow):
+        pass
     given_up = monotonic() + 5
     while not slow.stopped and monotonic() < given_up:
         sleep(0.005)

@@ -128,3 +128,6 @@ async def operator(start: str | Program = "pocket", size: tuple[int, int] = (80,
         one = Operator(app, pilot)
         await one.settle()
         yield one
+        if app.is_running:
+            # as QUIT does: what comes from threads behind it is for nobody
+            app.exit()
