@@ -612,6 +612,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:
             self.guided = self._unit_mentioned = self._unit_settled = False
+            self.quiet()
         self.session = self.shown = session
         if not same:
             self._derive(Request(session.program))

@@ -95,6 +95,14 @@ async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
         assert load_settings(folder / "settings.toml")[0].recent[0] == str(folder / "other.toml")
 
 
+async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
+    async with at_work(folder) as one:
+        one.app.say("Example pocket: SAVE gives it a name.")
+        await one.press("ctrl+o", "f2")
+        assert one.session.file is None
+        assert one.prompt == "Tool number. Space lists the tools."
+
+
 async def test_a_file_that_is_in_the_way_is_asked_about(folder):
     (folder / "other.toml").write_bytes(example("notch").read_bytes())
     async with at_work(folder) as one:
