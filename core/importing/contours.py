@@ -27,7 +27,7 @@ from core.importing.curves import pieces_of_ellipse, pieces_of_spline
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import containers, crossings, lower_left
+from core.importing.nesting import boxes_of, containers, crossings
 from core.units import Kind, Unit, from_mm, show
 
 TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
@@ -252,8 +252,8 @@ def _kind(depth: int) -> ContourKind:
 def _by_size(contours: Sequence[Contour]) -> list[Contour]:
     """The largest first; those of one size by their places."""
     keys = [
-        (-round(contour.area, KEY_DECIMALS), rounded(corner), rounded(contour.start))
-        for contour, corner in zip(contours, lower_left([contour.pieces for contour in contours]), strict=True)
+        (-round(contour.area, KEY_DECIMALS), rounded(box[:2]), rounded(contour.start))
+        for contour, box in zip(contours, boxes_of([contour.pieces for contour in contours]), strict=True)
     ]
     return [contours[row] for row in sorted(range(len(contours)), key=keys.__getitem__)]
 

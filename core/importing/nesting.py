@@ -13,9 +13,11 @@ from typing import Final
 import numpy as np
 import shapely
 
-from core.geometry.path import Path, Pieces, boxes
+from core.geometry.path import Pieces, boxes
 from core.geometry.piece import Arc, Piece, Point
 
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and top."""
 CHORD_ERROR: Final = 0.005
 MAX_CHORDS: Final = 720
 """Chords of a full circle at most."""
@@ -39,24 +41,25 @@ def signed_area(pieces: Sequence[Piece]) -> float:
     return float(total)
 
 
-def box_of(pieces: Sequence[Piece]) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top of a chain."""
-    left, bottom, right, top = Path.from_pieces(pieces).boxes
-    return float(left.min()), float(bottom.min()), float(right.max()), float(top.max())
+def box_of(pieces: Sequence[Piece]) -> Box:
+    """The box of a chain."""
+    return boxes_of([pieces])[0]
 
 
-def lower_left(chains: Sequence[Sequence[Piece]]) -> list[Point]:
-    """The left and the bottom of each chain; all at once, since a drawing may have thousands of small ones."""
+def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
+    """The box of each chain; all at once, since a drawing may have thousands of small ones."""
     if not chains:
         return []
     pieces = [piece for chain in chains for piece in chain]
-    start, end = (np.array([complex(*point) for point in points]) for points in zip(*map(_ends, pieces), strict=True))
+    start, end = (np.array([complex(*point) for point in ends]) for ends in zip(*map(_ends, pieces), strict=True))
     arcs = [piece if isinstance(piece, Arc) else None for piece in pieces]
     center = np.array([complex(*arc.center) if arc else 0j for arc in arcs])
     turn = np.array([int(arc.turn) if arc else 0 for arc in arcs], np.int8)
-    left, bottom, *_ = boxes(Pieces(start, end, center, turn))
+    sides = boxes(Pieces(start, end, center, turn))
     firsts = np.cumsum([0, *(len(chain) for chain in chains[:-1])])
-    return list(zip(*(np.minimum.reduceat(side, firsts).tolist() for side in (left, bottom)), strict=True))
+    outer = (np.minimum, np.minimum, np.maximum, np.maximum)
+    found = (most.reduceat(side, firsts).tolist() for most, side in zip(outer, sides, strict=True))
+    return list(zip(*found, strict=True))
 
 
 def _ends(piece: Piece) -> tuple[Point, Point]:

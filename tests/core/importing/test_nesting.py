@@ -1,0 +1,38 @@
+"""Nesting: the boxes of several chains at once."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import pytest
+
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.importing.nesting import boxes_of
+
+STEPS = 3600
+
+
+def points_on(piece: Piece) -> list[Point]:
+    """Points along a piece, a tenth of a degree apart on an arc."""
+    if isinstance(piece, Line):
+        return [piece.start, piece.end]
+    (x, y), (cx, cy) = piece.start, piece.center
+    first = math.atan2(y - cy, x - cx)
+    angles = [first + piece.sweep * step / STEPS for step in range(STEPS + 1)]
+    return [(cx + piece.radius * math.cos(angle), cy + piece.radius * math.sin(angle)) for angle in angles]
+
+
+def test_each_chain_has_its_own_box() -> None:
+    corners = [(100.0, 50.0), (110.0, 50.0), (110.0, 58.0), (100.0, 50.0)]
+    far_triangle: list[Piece] = [Line(start, end) for start, end in pairwise(corners)]
+    full_circle: list[Piece] = [Arc((5.0, 0.0), (5.0, 0.0), (0.0, 0.0), Turn.CCW)]
+    half_circle: list[Piece] = [
+        Arc((-20.0, 3.0), (-30.0, 3.0), (-25.0, 3.0), Turn.CW),
+        Line((-30.0, 3.0), (-20.0, 3.0)),
+    ]
+    chains = [far_triangle, full_circle, half_circle]
+    for chain, box in zip(chains, boxes_of(chains), strict=True):
+        xs, ys = zip(*(point for piece in chain for point in points_on(piece)), strict=True)
+        assert box == pytest.approx((min(xs), min(ys), max(xs), max(ys)), abs=1e-5)
+    assert boxes_of([]) == []
