@@ -123,6 +123,14 @@ def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
     assert set(both.styles[0].tolist()) == {Style.PATH}
 
 
+@pytest.mark.parametrize(("degrees", "character"), [(22, "-"), (23, "/"), (67, "/"), (68, "|")])
+def test_a_line_has_the_character_nearest_to_its_direction_counted_in_cells(degrees, character):
+    angle = degrees * tau / 360
+    across, up = 3 * cos(angle), 6 * sin(angle)
+    picture = rows(only(lines((-across, -up), (across, up))), VIEW, 8, 8, Mode.ASCII)
+    assert set("".join(picture)) == {" ", character}
+
+
 @pytest.mark.parametrize(
     ("mode", "expected"),
     [
