@@ -87,6 +87,14 @@ def test_the_whole_part_is_drawn_with_the_numbers_of_its_segments():
     assert set("12345") <= set("".join(drawn.picture.rows))
 
 
+def test_in_a_drawing_of_44_columns_numbers_of_segments_would_crowd():
+    """Three dots of the tool's radius are enough for numbers: here it has more in both drawings."""
+    subject = Subject(derived(program(block(MID_SIDE_SQUARE, CutterComp.RIGHT))), Unit.IN)
+    narrow, wide = ("".join(subject.drawn(columns, 40, Mode.BRAILLE).picture.rows) for columns in (44, 45))
+    assert not set("12345") & set(narrow)
+    assert set("12345") <= set(wide)
+
+
 def test_a_loupe_shows_a_few_tools_around_its_middle():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
     whole, loupe = (Subject(found, Unit.IN, near=near).drawn(60, 20, Mode.BRAILLE).view for near in (None, (50.8, 0.0)))

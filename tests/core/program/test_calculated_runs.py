@@ -131,6 +131,8 @@ BAD = [
      case_of(line(angle=30), ccw(x_end=75, y_end=-10, x_center=60, y_center=-10 - 9.585, radius=15))),
     ("UNDETERMINED", "Segments 1 and 2 run on one line: their joint may be anywhere. Enter one end.",
      case_of(line(angle=0), line(x_end=100, y_end=0, angle=0))),
+    ("UNDETERMINED", "Segments 1 and 2 run on one circle: their joint may be anywhere. Enter one end.",
+     case_of(ccw(x_center=0, y_center=0), ccw(x_center=0, y_center=0, x_end=-10, y_end=0), start=(10, 0))),
     ("TOO_SHORT", "XY LENGTH 30.000 and 30.000 do not reach: the points are 100.000 apart.",
      case_of(line(length=30), line(x_end=100, y_end=0, length=30))),
     ("TOO_SMALL", "RADIUS 10.000 cannot touch segment 1 and reach the end: it takes at least 15.000.",
