@@ -31,8 +31,10 @@ def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypat
     assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
 
 
-def test_between_two_walls_it_is_where_both_are_as_far(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("begin", [0.0, 0.4])
+def test_between_two_walls_it_is_where_both_are_as_far(begin: float, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "MAX_DIVISIONS", 2)
     walked, other = piece_arrays(lines((0, 0), (4, 0))), piece_arrays(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
-    far = farthest(pairs_of(walked, other, rounding_of(other)), Stretches(np.zeros(1), walked.length))
+    stretch = Stretches(np.array([begin]), walked.length)
+    far = farthest(pairs_of(walked, other, rounding_of(other)), stretch)
     assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)
