@@ -350,6 +350,7 @@ def values(program: str) -> dict[int, float]:
         ("#[99+1]", 2.0),
         ("##101", 2.0),
         ("ABS[-3]+#0", 3.0),
+        ("+".join(["1"] * 50), 50.0),
     ],
 )
 def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: float) -> None:
@@ -364,6 +365,7 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("#1=[1+2", "PS0114"),
         ("#0=1", "PS0116"),
         ("#1=#4999", "PS0115"),
+        (f"#1={'1+' * 45}{'#' * 45}1", "PS0118"),
         ("#1=#<_x>", "BEYOND"),
         ("DO4", "PS0126"),
         ("END1", "PS0124"),
@@ -608,6 +610,12 @@ def test_a_start_up_from_the_machines_point_is_told_or_stops() -> None:
 
 def test_the_offset_of_all_work_offsets_shifts_them() -> None:
     assert ends(ran(f"{HEAD}G10 L2 P0 X10.\nG10 L2 P1 X5.\nX1. Y1.\nM30")) == [(16.0, 1.0)]
+
+
+def test_work_offsets_have_twenty_variables_each() -> None:
+    program = "G21\nG10 L2 P2 X20. Z2.\nG10 L20 P2 X30.\nG10 L20 P48 Z48.\n"
+    found = values(f"{program}#100=#5241\n#101=#5243\n#102=#7021\n#103=#7943\n#104=#7001\n#105=#7041\nM30")
+    assert [found[key] for key in range(100, 106)] == [20.0, 2.0, 30.0, 48.0, 0.0, 0.0]
 
 
 def test_an_axis_that_is_not_followed_is_told_once() -> None:
