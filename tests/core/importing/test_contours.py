@@ -161,6 +161,13 @@ def test_duplicates_and_overlaps_of_arcs() -> None:
     assert made.contours[0].circle == pytest.approx(10.0)
 
 
+@pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])
+def test_a_line_that_lies_on_a_longer_one_to_within_the_tolerance_leaves_its_ends(begin: float, end: float) -> None:
+    made = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
+    (piece,) = made.contours[0].pieces
+    assert (made.overlaps, sorted([piece.start, piece.end])) == (1, [(0.0, 0.0), (10.0, 0.0)])
+
+
 def test_lines_that_share_a_wall_of_two_contours_stay() -> None:
     inner = [line((2, 0), (8, 0)), line((8, 0), (8, 5)), line((8, 5), (2, 5)), line((2, 5), (2, 0))]
     made = listed(dxf(*square(0, 0, 10), *inner))
