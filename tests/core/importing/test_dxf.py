@@ -53,6 +53,12 @@ def test_the_smallest_gap_is_told_with_the_digits_that_show_it(unit: Unit, text:
     assert f"largest gap {text}." in sentences(barely, unit)
 
 
+def test_progress_is_told_every_hundred_entities() -> None:
+    calls: list[tuple[str, int, int]] = []
+    read_dxf(dxf(*(line((k, 0), (k, 5)) for k in range(250))), "test.dxf", progress=lambda *call: calls.append(call))
+    assert calls == [("reading", 0, 1), ("reading", 0, 250), ("reading", 100, 250), ("reading", 200, 250)]
+
+
 def test_a_gap_is_closed_within_the_tolerance_and_told() -> None:
     assert listed(made("d05-gap.dxf")).gap == pytest.approx(0.008)
     still_open = listed(made("d06-gap-open.dxf")).contours[0]

@@ -228,3 +228,25 @@ def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
     one = field_of(Form.START, "x_start")
     assert text_refusal("99999", one, Unit.MM) is None
     assert unread_reason("99999", one, Unit.MM) == TYPE_AGAIN
+
+
+@pytest.mark.parametrize(
+    ("form", "name", "least", "most"),
+    [
+        (Form.START, "tool", 1, 9999),
+        (Form.START, "finish_tool", 0, 9999),
+        (Form.START, "speed", 1, 100000),
+        (Form.START, "lookahead", 1, 20),
+        (Form.LINE, "parallel", 1, 9999),
+        (Form.LINE, "angle", -360, 360),
+        (Form.ARC, "start_angle", -360, 360),
+        (Form.TOOL, "number", 1, 9999),
+        (Form.TOOL, "speed", 1, 100000),
+        (Form.PARAMETERS, "pocket_overlap", 0, 99),
+        (Form.SETUP, "work_offset", 54, 59),
+    ],
+)
+def test_a_number_is_taken_up_to_both_its_limits_and_not_beyond(form, name, least, most):
+    field = field_of(form, name)
+    assert [value_refusal(field, float(value), Unit.IN) for value in (least, most)] == [None, None]
+    assert all(value_refusal(field, float(value), Unit.IN) for value in (least - 1, most + 1))
