@@ -32,6 +32,7 @@ SAME: dict[str, str] = {
     "do and continue": "o1 do\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nG1 X#1\no1 while [#1 LT 4]\nX9",
     "do and break": "o1 do\nG1 X#1\n#1=[#1+1]\no2 if [#1 GT 2]\no1 break\no2 endif\no1 while [1]\nX9",
     "repeat": "o1 repeat [1.6]\nG91 G1 X1\no1 endrepeat\no2 repeat [-1]\nX1\no2 endrepeat\nY1",
+    "repeat once": "o1 repeat [1]\nG91 G1 X1\no1 endrepeat\nY1",
     "repeats inside each other": "o1 repeat [2]\nG91 G1 X1\no2 repeat [2]\nY1\no2 endrepeat\no1 endrepeat",
     "branches": "G1\no1 if [0]\nX1\no1 elseif [0]\nX2\no1 elseif [1]\nX3\no1 else\nX4\no1 endif\nX5",
     "the other branch": "G1\no1 if [0]\nX1\no1 else\nX4\no1 endif\no2 if [1]\nX6\no2 else\nX7\no2 endif",
