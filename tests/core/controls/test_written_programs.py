@@ -10,7 +10,13 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.controls.judged_runs import judge_run, judged_findings
-from core.controls.write.contour_pass import path_begin, path_finish, programmed_elements
+from core.controls.write.contour_pass import (
+    CenterMove,
+    UncompensatedPass,
+    path_begin,
+    path_finish,
+    programmed_elements,
+)
 from core.controls.write.written_program import WrittenProgram
 from core.finding import Finding
 from core.geometry.path import Path
@@ -184,3 +190,47 @@ def test_a_clean_program_of_ours_is_clean_to_the_judge_of_programs(control: str,
     codes = {one.code for one in judged_findings(judge_run(done))}
     assert done.stretches
     assert not codes & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE", "CROSSES", "UNCUT"}
+
+
+def moved(x: float, y: float, z: float, feed: float | None = 10.0, turn: int = 0) -> CenterMove:
+    """A move in inches; its arc turns around X1 Y0."""
+    return CenterMove(x * INCH, y * INCH, z * INCH, None if feed is None else feed * INCH, turn, (1.0 * INCH, 0.0))
+
+
+UNCOMPENSATED = (
+    moved(0.0, 0.0, 1.0, None), moved(0.0, 0.0, -0.25, 20.0), moved(0.5, 0.0, -0.25), moved(1.5, 0.0, -0.25, turn=1),
+    moved(0.5, 0.0, -0.5, turn=-1), moved(0.5, 1.0, -0.5), moved(1.0, 2.0, -0.75), moved(1.0, 2.0, 1.0, None),
+)  # fmt: skip
+"""Down, along, half a circle, a helix, along, down a ramp, up."""
+
+
+def uncompensated() -> UncompensatedPass:
+    return UncompensatedPass(
+        travels=UNCOMPENSATED, tool=1, diameter=0.5 * INCH, stock=0.0, speed=300.0, feeds={1: 10.0 * INCH},
+        plunge_feed=20.0 * INCH, travel=INCH, near=0.1 * INCH, depth=-0.5 * INCH, leave=INCH,
+    )  # fmt: skip
+
+
+def test_klartext_without_compensation_names_the_axes_that_move() -> None:
+    lines = text_of("klartext", uncompensated()).splitlines()[4:14]
+    assert [line.partition(" ")[2] for line in lines] == [
+        "L X+0 Y+0 Z+1 R0 FMAX",
+        "L Z-0.25 R0 F20",
+        "L X+0.5 R0 F10",
+        "CC X+1 Y+0",
+        "C X+1.5 Y+0 DR+ R0 F10",
+        "CC X+1 Y+0",
+        "CP IPA-180.000000 Z-0.5 DR- R0 F10",
+        "L Y+1 R0 F10",
+        "L X+1 Y+2 Z-0.75 R0 F10",
+        "L Z+1 R0 FMAX",
+    ]
+
+
+@pytest.mark.parametrize("control", EVERY)
+def test_without_compensation_every_control_makes_the_moves(control: str) -> None:
+    made = made_by(control, text_of(control, uncompensated()), uncompensated())
+    moves = list(made.moves)[-len(UNCOMPENSATED) :]
+    assert [move.turn for move in moves] == [move.turn for move in UNCOMPENSATED]
+    for move, wanted in zip(moves, UNCOMPENSATED, strict=True):
+        assert move.point == pytest.approx(wanted[:3], abs=1e-9)

@@ -8,7 +8,7 @@ from core.comp.compensate import compensate
 from core.comp.compensated import Compensated
 from core.controls.control_run import ControlRun
 from core.controls.registry import names, run
-from core.controls.write.contour_pass import CompensatedPass
+from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
@@ -47,18 +47,18 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
     )  # fmt: skip
 
 
-def write(control: str, *cuts: CompensatedPass) -> WrittenProgram | NotWritten:
+def write(control: str, *cuts: PassToWrite) -> WrittenProgram | NotWritten:
     """The program in inches, without remarks."""
     return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
 
 
-def text_of(control: str, *cuts: CompensatedPass) -> str:
+def text_of(control: str, *cuts: PassToWrite) -> str:
     found = write(control, *cuts)
     assert isinstance(found, WrittenProgram), found
     return found.text
 
 
-def made_by(control: str, text: str, *cuts: CompensatedPass) -> ControlRun:
+def made_by(control: str, text: str, *cuts: PassToWrite) -> ControlRun:
     """What the control does with a program and the tools it counts on."""
     tools = tools_of(cuts, STYLES[control]) if control in STYLES else tools_of(cuts, STYLES["linuxcnc"])
     made = run(text.encode(), control, tools, Unit.IN)
