@@ -234,3 +234,11 @@ def test_without_compensation_every_control_makes_the_moves(control: str) -> Non
     assert [move.turn for move in moves] == [move.turn for move in UNCOMPENSATED]
     for move, wanted in zip(moves, UNCOMPENSATED, strict=True):
         assert move.point == pytest.approx(wanted[:3], abs=1e-9)
+
+
+@pytest.mark.parametrize("control", EVERY)
+def test_remarks_stand_in_the_text_where_a_control_reads_comments(control: str) -> None:
+    note = "NOTE" if control == "klartext" else "(NOTE)"
+    found = write(control, uncompensated(), remarks=(note,))
+    assert isinstance(found, WrittenProgram), found
+    assert found.text.count("NOTE") == (control != "threeblock")

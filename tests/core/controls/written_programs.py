@@ -47,9 +47,9 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
     )  # fmt: skip
 
 
-def write(control: str, *cuts: PassToWrite) -> WrittenProgram | NotWritten:
-    """The program in inches, without remarks."""
-    return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
+def write(control: str, *cuts: PassToWrite, remarks: tuple[str, ...] = ()) -> WrittenProgram | NotWritten:
+    """The program in inches."""
+    return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: remarks)
 
 
 def text_of(control: str, *cuts: PassToWrite) -> str:
