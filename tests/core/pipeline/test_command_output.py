@@ -1,13 +1,20 @@
 import json
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
-from core.pipeline.command_output import path_document, path_listing, table_document, table_listing, verdict_listing
+from core.pipeline.command_output import (
+    path_document,
+    path_listing,
+    table_document,
+    table_listing,
+    verdict_listing,
+)
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene, svg_of
-from core.program.model import CutterComp, Number, ProgramParameters
+from core.program.model import ArcSegment, CutterComp, Direction, Number, ProgramParameters, Relative
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
@@ -125,3 +132,13 @@ def test_the_posted_header_tells_what_is_deleted_and_what_stays():
     (noted,) = jobs(derived)
     assert noted.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
     assert noted.notes[1].startswith("UNCUT 0.9")
+
+
+def test_a_relative_center_is_told_as_the_place_it_comes_to():
+    arc = ArcSegment(
+        Direction.CCW, x_end=Number(2.0), y_end=Number(2.0), x_center=Relative(0.0), y_center=Relative(1.0)
+    )
+    one = block(((1.0, 0.0), (2.0, 0.0)), CutterComp.LEFT)
+    found = path_document(derive(program(replace(one, segments=(*one.segments, arc)))))["blocks"][0]["segments"][-1]
+    assert (found["x_center"]["value"], found["y_center"]["value"]) == pytest.approx((2.0, 1.0))
+    assert (found["radius"]["value"], found["sweep"]["value"]) == pytest.approx((1.0, 180.0))
