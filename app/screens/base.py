@@ -325,8 +325,9 @@ class BaseScreen(Screen[None]):
         self._marked[name] = widget
 
     @on(Resize)
-    def _fit_softkeys(self) -> None:
-        self.call_after_refresh(lambda: self.query_exactly_one(Softkeys).refresh_keys())
+    def _fit_frame(self) -> None:
+        """The prompt says whether the terminal is too small, and the softkeys have longer or shorter names."""
+        self.call_after_refresh(self.refresh_frame)
 
     @on(SoftkeyLabel.Pressed)
     async def _softkey_clicked(self, event: SoftkeyLabel.Pressed) -> None:
