@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import acos, asin, atan, atan2, cos, degrees, hypot, inf, radians, sin, sqrt, tan, tau
+from math import asin, atan, atan2, cos, degrees, hypot, inf, radians, sin, sqrt, tan, tau
 from typing import Final
 
 from core.geometry.oriented import Circle, Locus, headings_at_distances, line_through, meeting
@@ -164,7 +164,7 @@ def _radii_and_sweeps(known: Numbers) -> tuple[tuple[float, float], ...]:
             half = asin(c / (2.0 * r))
             return (r, 2.0 * half), (r, tau - 2.0 * half)
         case {"radius": r, "height": h}:
-            return ((r, 2.0 * acos(1.0 - h / r)),)
+            return ((r, 4.0 * asin(sqrt(h / (2.0 * r)))),)
         case {"chord": c, "height": h}:
             return ((h / 2.0 + c * c / (8.0 * h), 4.0 * atan(2.0 * h / c)),)
         case {"radius": r, "sweep": s}:
@@ -172,12 +172,12 @@ def _radii_and_sweeps(known: Numbers) -> tuple[tuple[float, float], ...]:
         case {"chord": c, "sweep": s}:
             return ((c / (2.0 * sin(s / 2.0)), s),)
         case _:
-            return ((known["height"] / (1.0 - cos(known["sweep"] / 2.0)), known["sweep"]),)
+            return ((known["height"] / (2.0 * sin(known["sweep"] / 4.0) ** 2), known["sweep"]),)
 
 
 def _arc_numbers(radius: float, sweep: float) -> Numbers:
     half = sweep / 2.0
-    chord, height = 2.0 * radius * sin(half), radius * (1.0 - cos(half))
+    chord, height = 2.0 * radius * sin(half), 2.0 * radius * sin(half / 2.0) ** 2
     return {"radius": radius, "chord": chord, "height": height, "sweep": sweep, "length": radius * sweep}
 
 

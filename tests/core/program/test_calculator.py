@@ -54,6 +54,12 @@ def test_an_arc_of_radius_and_chord_is_short_or_long() -> None:
     assert answers("ARC", height=2, sweep=short["sweep"])[0]["radius"] == pytest.approx(5.0)
 
 
+def test_a_height_over_a_sweep_next_to_none_gives_its_arc() -> None:
+    (flat,) = answers("ARC", height=0.001, sweep="0.000001")
+    assert flat["radius"] == pytest.approx(0.001 / (2.0 * (radians(1e-6) / 4.0) ** 2), rel=1e-9)
+    assert flat["height"] == pytest.approx(0.001, rel=1e-9)
+
+
 def test_both_tangents_from_a_point_touch_the_circle_at_a_right_angle() -> None:
     left, right = answers("TANGENT FROM A POINT", x=0, y=0, x_center=50, y_center=20, radius=15)
     for found in (left, right):
