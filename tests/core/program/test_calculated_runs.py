@@ -125,6 +125,12 @@ def test_what_was_typed_has_no_tag_and_what_was_calculated_has_cal(case: dict[st
 BAD = [
     ("BEHIND", "2 would have to run 50.000 backwards at XY ANGLE 120: enter 300, or correct segment 1.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=120))),
+    ("BEHIND", "1 would have to run 20.000 backwards at XY ANGLE 0: enter 180, or correct its other fields.",
+     case_of(line(angle=0, x_end=-20, point_x=3, point_y=0))),
+    ("BEHIND", "2 would have to run 5.000 backwards at XY ANGLE 0: blank TANGENT, or correct its end.",
+     case_of(line(x_end=10, y_end=0), line(tangent=True, x_end=5, y_end=0))),
+    ("BEHIND", "2 would have to run 7.000 backwards at XY ANGLE 90: correct its relative angle or its end.",
+     case_of(line(x_end=10, y_end=0), line(angle_inc=90, x_end=10, y_end=-7))),
     ("NO_MEETING", "Segments 1 and 2 are parallel, 50.000 apart: they never meet.",
      case_of(line(angle=0), line(x_end=100, y_end=50, angle=0))),
     ("NO_MEETING", "Segment 1 passes the circle of segment 2 at 46.961; its RADIUS is 15.000.",
@@ -148,6 +154,8 @@ BAD = [
      case_of(line(x_end=50, y_end=0), cw(tangent=True, x_end=70, y_end=20))),
     ("CONTRADICTION", "XY LENGTH is 49.000, but 50.000 by segments 1 and 2: correct or blank one of them.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=300, length=49))),
+    ("CONTRADICTION", "XY ANGLE is 33.690, but 0.000 by PARALLEL TO: correct or blank one of them.",
+     case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20))),
     ("OUT_OF_RANGE", "Segments 1 and 2 are parallel but for 0.001 degrees.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=29.999))),
     ("MISSING", "Segments 1 to 3 need 1 more value: RADIUS of 2, or an end.",
@@ -179,6 +187,16 @@ def test_blanking_either_of_two_numbers_that_contradict_mends_it(blank: str) -> 
 
 
 # corners, choices, relations
+
+
+def test_each_piece_starts_where_the_one_before_ends() -> None:
+    """Also where a short arc's end is moved onto its circle."""
+    tiny = ccw(start_angle=89.9999999, y_end=0.005)
+    last = line(tangent=True, angle=90, x_end=0.00254, y_end=50)
+    first, second = solved(case_of(tiny, last, start=(0.001, 0))).segments
+    assert first.piece is not None
+    assert second.piece is not None
+    assert dist(first.piece.end, second.piece.start) <= 1e-7
 
 
 def test_a_blend_in_a_run_is_put_in_at_the_sharp_corner() -> None:

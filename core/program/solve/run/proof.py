@@ -39,11 +39,12 @@ ON_GRAZE: Final = 10.0 * ARC_RADII
 
 def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
     """The chain of a complete branch and what is against it; no chain where an element has no length."""
-    run, pieces = branch.run, []
+    run = branch.run
+    pieces: list[Piece] = []
     findings: list[Finding] = []
     for index, element in enumerate(run.elements):
-        start, end = branch.joint(index), branch.joint(index + 1)
-        assert start is not None
+        # an arc's end may have moved onto its circle
+        start, end = pieces[-1].end if pieces else run.start, branch.joint(index + 1)
         assert end is not None
         far = max(map(abs, end)) > FARTHEST
         piece: Piece | None
@@ -195,9 +196,10 @@ def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
         assert parallel.index is not None
         target = chain.pieces[parallel.index]
         heading, apart = _heading(target, target.start), _distance(target, piece.start)
-    off = _heading(piece, piece.start) - heading
+    actual = _heading(piece, piece.start)
+    off = actual - heading
     if abs(sin(off)) > AGREES and abs(sin(off)) * piece.length > ARC_RADII:
-        return [reasons.not_parallel(run, index)]
+        return [reasons.not_parallel(run, index, heading, actual)]
     typed = element.known.get("offset")
     if typed is not None and abs(apart - typed) > ARC_RADII:
         return [reasons.length_differs(run, index, "offset", typed, apart)]

@@ -5,7 +5,7 @@ The finding belongs to the segment named last in it or, where one number is at f
 
 from __future__ import annotations
 
-from math import degrees, dist, pi, tau
+from math import cos, degrees, dist, pi, tau
 
 from core.finding import Finding, Severity
 from core.geometry.oriented import Circle, Locus, OrientedLine
@@ -43,10 +43,17 @@ def _plain_angle(angle: float) -> str:
 def behind(run: Run, index: int, length: float, heading: float) -> Finding:
     """A line would have to run against its heading."""
     element = run.elements[index]
-    other = run.elements[index - 1 if index else min(1, len(run.elements) - 1)]
     field = "angle" if "angle" in element.known else None
     text = f"Segment {element.number} would have to run {{0}} backwards at XY ANGLE {_plain_angle(heading)}: "
-    text += f"enter {_plain_angle(heading + pi)}, or correct segment {other.number}."
+    if element.link is not None:
+        text += (
+            "blank TANGENT, or correct its end." if element.link == 0.0 else "correct its relative angle or its end."
+        )
+    elif len(run.elements) == 1:
+        text += f"enter {_plain_angle(heading + pi)}, or correct its other fields."
+    else:
+        other = run.elements[index - 1 if index else 1]
+        text += f"enter {_plain_angle(heading + pi)}, or correct segment {other.number}."
     return _fault("BEHIND", text, element, field, length)
 
 
@@ -121,10 +128,13 @@ def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
     return _fault("CONTRADICTION", f"{text}one of them.", element, name)
 
 
-def not_parallel(run: Run, index: int) -> Finding:
-    """A line is not parallel to its target."""
+def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
+    """A line is not parallel to its target, which runs at the wanted angle or against it."""
     element = run.elements[index]
-    text = f"Segment {element.number} is not parallel to the segment that PARALLEL TO names: correct or blank it."
+    if cos(actual - wanted) < 0.0:
+        wanted += pi
+    given, other = shown_angle(actual % tau), shown_angle(wanted % tau)
+    text = f"XY ANGLE is {given}, but {other} by PARALLEL TO: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, "parallel")
 
 
