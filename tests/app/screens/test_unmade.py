@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import pytest
-
 from app.screens.base import BaseScreen
 from app.session.work import Work
 from tests.app.widget_pilot import operator
 
 
-@pytest.mark.parametrize("action", ["home", "tools", "draw", "post", "program", "save_as", "lookahead"])
-async def test_what_is_said_to_it_ends_nothing(action: str) -> None:
+async def test_what_is_said_to_it_ends_nothing() -> None:
     async with operator("pocket") as at:
-        await at.app.run_action(f"app.{action}")
-        screen = at.app.screen
-        assert isinstance(screen, BaseScreen)
-        screen.show_work(Work(lambda: None))
-        screen.say("Something.")
-        await at.settle()
-        assert at.app.is_running
+        form = at.app.screen
+        for action in ("home", "tools", "draw", "post", "program", "save_as", "lookahead"):
+            await at.app.run_action(f"app.{action}")
+            screen = at.app.screen
+            assert isinstance(screen, BaseScreen)
+            assert screen is not form, action
+            screen.show_work(Work(lambda: None))
+            screen.say("Something.")
+            await at.settle()
+            assert at.app.is_running, action
+            await at.app.run_action("app.contour")
+            await at.settle()
