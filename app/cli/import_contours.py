@@ -194,7 +194,8 @@ def _write_program(options: argparse.Namespace, program: Program, remark: str) -
 
 def import_nc(options: argparse.Namespace) -> None:
     """`cutcomp import FILE.nc --control NAME`: the contours of an NC program."""
-    drawing_only = [name for name in ("fit", "tolerance", "start", "layer", "reverse") if getattr(options, name)]
+    names = ("fit", "tolerance", "start", "layer", "reverse", "damaged")
+    drawing_only = [name for name in names if _given(getattr(options, name))]
     if drawing_only:
         raise Unusable(f"--{drawing_only[0]} goes with a drawing only: leave out --control.")
     units = {"in": Unit.IN, "mm": Unit.MM}
@@ -217,6 +218,11 @@ def import_nc(options: argparse.Namespace) -> None:
         say(f"chain {number}: {len(block.block.segments)} segments.")
         for note in (*chosen.notes, *block.notes):
             say(note)
+
+
+def _given(value: object) -> bool:
+    """Whether an option was typed; 0 is a value."""
+    return value is not None and value is not False and value != []
 
 
 def _center(options: argparse.Namespace) -> CenterPath | None:

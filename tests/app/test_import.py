@@ -197,3 +197,11 @@ def running(pid: int) -> bool:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
+
+
+@pytest.mark.parametrize("option", [["--damaged"], ["--fit", "0"], ["--tolerance", "0"]])
+def test_no_option_of_a_drawing_is_dropped_for_an_nc_program(
+    option: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["import", "part.nc", "--control", "linuxcnc", *option]) == 2
+    assert f"{option[0]} goes with a drawing only" in capsys.readouterr().err
