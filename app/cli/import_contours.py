@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import replace
+from math import isfinite, nan
 from pathlib import Path
 from typing import Final
 
@@ -70,6 +71,17 @@ def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
     return " Take it all the same with --damaged." if error.readable and not options.damaged else ""
 
 
+def _length(text: str) -> float:
+    """A length of an option, in the unit of the drawing or the program."""
+    try:
+        length = float(text)
+    except ValueError:
+        length = nan
+    if not (isfinite(length) and length >= 0.0):
+        raise argparse.ArgumentTypeError(f"{text} is not a length of 0 or more")
+    return length
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "cutcomp import",
@@ -84,17 +96,17 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--layer", action="append", default=[], metavar="L", help="of this layer only; may be repeated")
     parser.add_argument("--units", choices=tuple(UNITS), type=str.lower, help="the unit of a drawing that names none")
     parser.add_argument(
-        "--tolerance", type=float, metavar="T", help="ends so near are joined; usually 0.0005 in, 0.01 mm"
+        "--tolerance", type=_length, metavar="T", help="ends so near are joined; usually 0.0005 in, 0.01 mm"
     )
     parser.add_argument(
-        "--fit", type=float, metavar="T", help="fit arcs within T to runs of lines too; usually 0.0002 in, 0.005 mm"
+        "--fit", type=_length, metavar="T", help="fit arcs within T to runs of lines too; usually 0.0002 in, 0.005 mm"
     )
     parser.add_argument("--start", metavar="X,Y", help="start at the place nearest to this one")
     parser.add_argument("--reverse", action="store_true", help="travel the contour the other way")
     parser.add_argument("--damaged", action="store_true", help="take what can be read of a damaged file")
     parser.add_argument("--control", metavar="NAME[:VARIANT]", help="FILE is an NC program of this control")
     parser.add_argument("--side", choices=("left", "right", "on"), help="of an NC program of the tool's center")
-    parser.add_argument("--diameter", type=float, metavar="D", help="the tool's, for an NC program of its center")
+    parser.add_argument("--diameter", type=_length, metavar="D", help="the tool's, for an NC program of its center")
     add_tool_options(parser)
     parser.add_argument("-o", "--output", type=Path, metavar="OUT.toml", help="write the program here")
     return parser
@@ -113,6 +125,8 @@ def _import(options: argparse.Namespace) -> None:
     unit = listed.unit
     if options.list or not listed.contours:
         _print_list(listed, unit)
+        if not options.list:
+            raise Unusable("The drawing has no contour to take.")
         return
     contours = tuple(_changed(contour, options, unit) for contour in _chosen(listed, options.chain, unit))
     _write(options, listed, contours)
@@ -162,7 +176,9 @@ def _point(text: str, unit: Unit) -> tuple[float, float]:
     try:
         x, y = (to_mm(float(part), unit) for part in parts)
     except ValueError:
-        raise Unusable(f"--start {text}: type X,Y such as 10,2.5.") from None
+        x = y = nan
+    if not (isfinite(x) and isfinite(y)):
+        raise Unusable(f"--start {text}: type X,Y such as 10,2.5.")
     return x, y
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
+from app.cli.drawing_list import Asked, list_drawing
 from app.documents.drawing_files import Worker, contour_finder, drawing_bytes, drawing_lister
 from app.documents.files import load
 from app.documents.programs import example
@@ -205,3 +206,31 @@ def test_no_option_of_a_drawing_is_dropped_for_an_nc_program(
 ) -> None:
     assert main(["import", "part.nc", "--control", "linuxcnc", *option]) == 2
     assert f"{option[0]} goes with a drawing only" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--tolerance", "--fit", "--diameter"])
+@pytest.mark.parametrize("text", ["nan", "inf", "-1", "a"])
+def test_a_length_that_is_none_is_refused(option: str, text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["import", str(DATA / "d14-layers.dxf"), "--list", f"{option}={text}"])
+    assert f"{option}: {text} is not a length of 0 or more" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["nan,0", "0,inf", "1", "1,2,3"])
+def test_a_start_that_is_no_place_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(DATA / "d14-layers.dxf"), "--chain", "1", "--start", text]) == 2
+    assert f"--start {text}: type X,Y" in capsys.readouterr().err
+
+
+def test_a_drawing_without_a_contour_to_take_writes_no_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.cli.import_contours.list_drawing", without_contours)
+    out = tmp_path / "part.toml"
+    assert main(["import", str(DATA / "d14-layers.dxf"), "-o", str(out)]) == 2
+    assert "no contour" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def without_contours(data: bytes, asked: Asked, *, progress: Callable[..., None]) -> ContourList:
+    return replace(list_drawing(data, asked, progress=progress), contours=())
