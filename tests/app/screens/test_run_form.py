@@ -53,7 +53,7 @@ async def test_a_waiting_run_counts_what_is_missing_on_each_of_its_segments():
         for _ in range(3):
             await one.press("pagedown")
             assert header(one).endswith("RUN 1-3  1 more value")
-            assert one.prompt.startswith("Segments 1 to 3 need 1 more value: RADIUS of 2, or an end.")
+            assert one.prompt.startswith("Segments 1 to 3 need 1 more value: RADIUS of 2, or an end (X END or Y END)")
         await to(one, 2, "radius")
         await one.press("'10", "tab")
         assert header(one) == "ARC     RUN 1-3"

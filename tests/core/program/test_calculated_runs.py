@@ -158,7 +158,7 @@ BAD = [
      case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20))),
     ("OUT_OF_RANGE", "Segments 1 and 2 are parallel but for 0.001 degrees.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=29.999))),
-    ("MISSING", "Segments 1 to 3 need 1 more value: RADIUS of 2, or an end.",
+    ("MISSING", "Segments 1 to 3 need 1 more value: RADIUS of 2, or an end (X END or Y END).",
      case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))),
     ("PICK_SOLUTION", "Two solutions fit: pick one on SOLUTION.",
      case_of(line(angle=30), line(x_end=70, y_end=10, length=40))),

@@ -292,7 +292,11 @@ def missing(run: Run, count: int) -> Finding:
     subject = segments(run.elements)
     verb = "needs" if len(run.elements) == 1 else "need"
     element, name = suggested(run)
-    text = f"{subject} {verb} {values}: {label(element, name)} of {element.number}, or an end."
+    ways = [f"{label(element, name)} of {element.number}", "an end" if name == "x_end" else "an end (X END or Y END)"]
+    unlinked = [each.number for each in run.elements if each.link is None and each.number > 1]
+    if unlinked and name != "angle":
+        ways.append(f"TANGENT YES on {unlinked[0]}")
+    text = f"{subject} {verb} {values}: {', or '.join(ways)}."
     return Finding("MISSING", Severity.ERROR, text, segment=element.number, field=name)
 
 
