@@ -341,7 +341,7 @@ def _taken(
     if picked is not None and answers:
         return picked.taken, None if picked.taken is not None else reasons.pick_nearer(run, len(answers))
     if found.stuck is not None:
-        return None, _why_stuck(run, found.stuck, tried=picked is not None)
+        return None, _why_stuck(contour, run, found.stuck, tried=picked is not None)
     if not answers:
         return None, with_limit(run, found.findings[0])
     choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
@@ -353,13 +353,19 @@ def _taken(
     return None, reasons.pick_solution(run, len(answers), picked=choice is not None)
 
 
-def _why_stuck(run: Run, stuck: Branch, *, tried: bool) -> Finding:
+def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Finding:
     if run.missing > 0:
-        return reasons.missing(run, run.missing)
+        return reasons.missing(run, run.missing, _may_be_tangent(contour, run))
     for index in range(1, len(run.elements)):
         if stuck.joint(index) is None and _one_line(stuck, index):
             return reasons.coincident(run, index)
     return reasons.not_yet(run, tried=tried)
+
+
+def _may_be_tangent(contour: Contour, run: Run) -> int | None:
+    """The number of the first segment of a run that could be TANGENT: none before it, or a corner, could not."""
+    numbers = (element.number for element in run.elements if element.link is None and element.number > 1)
+    return next((n for n in numbers if not isinstance(contour.segments[n - 2], CornerSegment)), None)
 
 
 def _one_line(branch: Branch, joint: int) -> bool:

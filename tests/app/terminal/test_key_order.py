@@ -75,7 +75,7 @@ async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
 async def test_random_keys_at_once_do_what_they_do_one_by_one():
     random = Random(20261123)
     keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
-    for _ in range(2):
+    for _ in range(3):
         chosen = random.choices(keys, k=30)
         async with operator() as slow, operator() as fast:
             await slow.press(*chosen)

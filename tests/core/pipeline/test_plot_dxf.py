@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import pytest
+from ezdxf.filemanagement import read as ezdxf_read
 
 from core.geometry.piece import Arc, Piece
 from core.importing.contour import reversed_contour, started_at
@@ -58,3 +60,19 @@ def _apart(first: list[Piece], second: tuple[Piece, ...]) -> float:
         for one, other in zip(first, second, strict=True)
         for share in (0.0, 0.25, 0.5, 1.0)
     )
+
+
+def test_each_role_has_its_layer_and_color() -> None:
+    text, _ = drawn(next(path for path in EXAMPLES if path.stem == "pocket"))
+    document = ezdxf_read(io.StringIO(text))
+    assert not document.audit().errors
+    colors = {layer.dxf.name: layer.dxf.color for layer in document.layers}
+    assert {name: colors[name] for name in ("CONTOUR", "PATH", "LEADS", "UNCUT", "DELETED")} == {
+        "CONTOUR": 7,
+        "PATH": 4,
+        "LEADS": 2,
+        "UNCUT": 1,
+        "DELETED": 8,
+    }
+    assert {entity.dxf.layer for entity in document.modelspace()} >= {"CONTOUR", "PATH", "LEADS"}
+    assert {entity.dxftype() for entity in document.modelspace()} <= {"LINE", "ARC", "CIRCLE"}

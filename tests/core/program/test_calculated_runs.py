@@ -154,7 +154,7 @@ BAD = [
      case_of(line(x_end=50, y_end=0), cw(tangent=True, x_end=70, y_end=20))),
     ("CONTRADICTION", "XY LENGTH is 49.000, but 50.000 by segments 1 and 2: correct or blank one of them.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=300, length=49))),
-    ("CONTRADICTION", "XY ANGLE is 33.690, but 0.000 by PARALLEL TO: correct or blank one of them.",
+    ("CONTRADICTION", "XY ANGLE comes to 33.690, but 0.000 by PARALLEL TO: correct the end, or blank PARALLEL TO.",
      case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20))),
     ("OUT_OF_RANGE", "Segments 1 and 2 are parallel but for 0.001 degrees.",
      case_of(line(angle=30), line(x_end=100, y_end=0, angle=29.999))),
@@ -208,6 +208,25 @@ def test_a_blend_in_a_run_is_put_in_at_the_sharp_corner() -> None:
     assert dist(arc.center, (73.169873, 36.471143)) < 1e-6
     assert arc.turn < 0
     assert [(run.first, run.last) for run in block.runs] == [(1, 3)]
+
+
+@pytest.mark.parametrize("corner", [{"kind": "BLEND ARC", "radius": 5}, {"kind": "CHAMFER", "length": 5}])
+def test_tangent_is_not_offered_where_it_would_follow_a_corner(corner: dict[str, Any]) -> None:
+    last = line(x_end=100, y_end=0)
+    assert any("TANGENT YES on 2" in text for text in said(case_of(line(angle=30), ccw(), last)))
+    after_corner = said(case_of(line(angle=30), corner, ccw(), last))
+    assert any("more value" in text for text in after_corner)
+    assert not any("TANGENT YES on 3" in text for text in after_corner)
+    first_of_run = said(case_of(line(x_end=50, y_end=0), corner, ccw(), last))
+    assert any("more value" in text for text in first_of_run)
+    assert not any("TANGENT YES on 3" in text for text in first_of_run)
+
+
+def test_parallel_to_that_contradicts_calculated_ends_does_not_ask_to_blank_an_angle() -> None:
+    texts = said(case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20)))
+    assert "XY ANGLE comes to 33.690, but 0.000 by PARALLEL TO: correct the end, or blank PARALLEL TO." in texts
+    texts = said(case_of(line(x_end=50, y_end=0), line(parallel=1, angle=30, x_end=80)))
+    assert "XY ANGLE is 30.000, but 0.000 by PARALLEL TO: correct or blank one of them." in texts
 
 
 def test_a_chamfer_in_a_run_is_put_in_at_the_sharp_corner() -> None:

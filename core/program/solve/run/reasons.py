@@ -134,7 +134,10 @@ def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
     if cos(actual - wanted) < 0.0:
         wanted += pi
     given, other = shown_angle(actual % tau), shown_angle(wanted % tau)
-    text = f"XY ANGLE is {given}, but {other} by PARALLEL TO: correct or blank one of them."
+    if "angle" in element.known:
+        text = f"XY ANGLE is {given}, but {other} by PARALLEL TO: correct or blank one of them."
+    else:
+        text = f"XY ANGLE comes to {given}, but {other} by PARALLEL TO: correct the end, or blank PARALLEL TO."
     return _fault("CONTRADICTION", text, element, "parallel")
 
 
@@ -286,16 +289,15 @@ def wrong_sense(branch: Branch, index: int) -> Finding:
     return _fault("WRONG_SENSE", text, element, "direction")
 
 
-def missing(run: Run, count: int) -> Finding:
-    """Too few data."""
+def missing(run: Run, count: int, tangent: int | None) -> Finding:
+    """Too few data; `tangent` is the number of a segment where TANGENT would be one more, if there is one."""
     values = f"{count} more value{'' if count == 1 else 's'}"
     subject = segments(run.elements)
     verb = "needs" if len(run.elements) == 1 else "need"
     element, name = suggested(run)
     ways = [f"{label(element, name)} of {element.number}", "an end" if name == "x_end" else "an end (X END or Y END)"]
-    unlinked = [each.number for each in run.elements if each.link is None and each.number > 1]
-    if unlinked and name != "angle":
-        ways.append(f"TANGENT YES on {unlinked[0]}")
+    if tangent is not None and name != "angle":
+        ways.append(f"TANGENT YES on {tangent}")
     text = f"{subject} {verb} {values}: {', or '.join(ways)}."
     return Finding("MISSING", Severity.ERROR, text, segment=element.number, field=name)
 
