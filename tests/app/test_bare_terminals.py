@@ -19,7 +19,7 @@ from app.terminal.driver import characters
 from app.widgets.field import LineInput
 from app.widgets.option_rows import OptionRows
 from tests.app.documents.typist import ELSEWHERE
-from tests.app.widget_pilot import SURROUNDINGS
+from tests.app.widget_pilot import SURROUNDINGS, operator
 from tests.terminal import cutcomp, running
 
 PROGRAM = cutcomp()
@@ -108,6 +108,18 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
         terminal.until("GOUGE", longest=30.0)
         terminal.until("2.5000", longest=30.0)
         terminal.until("undo 1")
+
+
+async def test_a_terminal_that_stays_too_small_says_its_new_size() -> None:
+    async with operator(size=(20, 5)) as one:
+        assert one.prompt == "20x5: make it 60x20."
+        for width, height in ((59, 24), (80, 19)):
+            await one.pilot.resize_terminal(width, height)
+            await one.settle()
+            assert one.prompt == f"{width}x{height}: make it 60x20."
+        await one.pilot.resize_terminal(80, 24)
+        await one.settle()
+        assert "make it" not in one.prompt
 
 
 @pytest.mark.parametrize(
