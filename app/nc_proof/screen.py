@@ -262,7 +262,7 @@ class ProofScreen(BaseScreen):
     @on(Ran)
     def _ran(self, event: Ran) -> None:
         event.stop()
-        if not self.is_attached or event.result.question is not self.question:
+        if not self.stands or event.result.question is not self.question:
             return
         if event.result.judged and self._work is not None:
             self.host.end_work(self._work)

@@ -267,13 +267,18 @@ class BaseScreen(Screen[None]):
         return NOT_NEEDED
 
     @property
+    def stands(self) -> bool:
+        """The screen is made and is not being taken down; `display` is off from the first step of a removal."""
+        return self._composed and self.is_attached and self.display
+
+    @property
     def at_rest(self) -> bool:
         """Esc has nothing to take back or to close here."""
         return False
 
     def show_work(self, work: Work | None) -> None:
         """How far long work is, on the status line; a screen that is being made or taken down has none."""
-        if self._composed and self.is_attached:
+        if self.stands:
             self.query_exactly_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:

@@ -143,7 +143,7 @@ class HomeScreen(BaseScreen):
     @on(Surveyed)
     def _surveyed(self, event: Surveyed) -> None:
         event.stop()
-        if self.facts.get(event.facts.path) == event.facts:
+        if not self.stands or self.facts.get(event.facts.path) == event.facts:
             return
         self.facts[event.facts.path] = event.facts
         table = self.query_exactly_one("#programs", DataTable)
@@ -186,7 +186,7 @@ class HomeScreen(BaseScreen):
 
     def _show_preview(self, path: Path, heading: str, subject: object) -> None:
         """The drawing of a file, unless the cursor has left it by now."""
-        if not self.is_attached or self.chosen is None or self.chosen.path != path:
+        if not self.stands or self.chosen is None or self.chosen.path != path:
             return
         drawing = self.query_exactly_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject  # type: ignore[assignment]  # Subject is imported late

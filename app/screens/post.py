@@ -145,7 +145,7 @@ class PostScreen(EntryScreen):
     @on(NcMade)
     def _nc_made(self, event: NcMade) -> None:
         event.stop()
-        if not self.is_attached:
+        if not self.stands:
             return
         if event.program is self.current_session.program and event.choice == self.choice and not self.stopped:
             if self._work is not None:

@@ -103,7 +103,7 @@ class ProgramScreen(BaseScreen):
     def _timed(self, event: Timed) -> None:
         """The times in the title of the drawing and at the number of blocks."""
         event.stop()
-        if not self.is_attached or event.derived is not self.current_session.derived:
+        if not self.stands or event.derived is not self.current_session.derived:
             return
         self.times = event.blocks
         count = len(event.derived.blocks)

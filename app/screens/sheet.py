@@ -61,7 +61,7 @@ class SheetScreen(EntryScreen):
         self.app.call_from_thread(self._show, text)
 
     def _show(self, text: str) -> None:
-        if self.is_attached:
+        if self.stands:
             self.query_exactly_one("#sheet-text", Static).update(Content(text))
 
     def action_ending(self, ending: str) -> None:

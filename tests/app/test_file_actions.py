@@ -16,9 +16,10 @@ from app.documents.lock import myself, take
 from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
+from app.documents.survey import Facts
 from app.file_actions import session_of
 from app.screens.dialogs import Question
-from app.screens.home import HomeScreen
+from app.screens.home import HomeScreen, Surveyed
 from core.program.model import Number
 from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS, Operator
@@ -101,6 +102,21 @@ async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
         await one.press("ctrl+o", "f2")
         assert one.session.file is None
         assert one.prompt == "Tool number. Space lists the tools."
+
+
+async def test_a_drawing_that_comes_while_home_is_taken_down_is_dropped(folder, monkeypatch):
+    late = []
+
+    def on_unmount(home: HomeScreen) -> None:
+        home._show_preview(folder / "part.toml", "part", None)
+        home.post_message(Surveyed(Facts(folder / "part.toml")))
+        late.append(home)
+
+    monkeypatch.setattr(HomeScreen, "on_unmount", on_unmount, raising=False)
+    async with at_work(folder) as one:
+        await one.press("ctrl+o", "f2")
+        assert len(late) == 1
+        assert not isinstance(one.app.screen, HomeScreen)
 
 
 async def test_a_file_that_is_in_the_way_is_asked_about(folder):
