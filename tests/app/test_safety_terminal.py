@@ -142,6 +142,13 @@ def spoilt(terminal: Terminal, text: str) -> None:
     assert text not in terminal.text
 
 
+def painted_whole(terminal: Terminal) -> None:
+    """Wait until nothing of the first paint is still to come: it would write over what `spoilt` wrote."""
+    terminal.until("GOUGE none")
+    terminal.until("best 2")
+    terminal.read(quiet=1.0)
+
+
 def stopped(terminal: Terminal, number: signal.Signals) -> None:
     os.kill(terminal.pid, number)
     os.waitpid(terminal.pid, os.WUNTRACED)
@@ -151,9 +158,7 @@ def stopped(terminal: Terminal, number: signal.Signals) -> None:
 @pytest.mark.parametrize("number", [signal.SIGTSTP, signal.SIGSTOP])
 def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: signal.Signals) -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
-        terminal.until("GOUGE none")
-        terminal.until("best 2")
-        terminal.read(quiet=1.0)
+        painted_whole(terminal)
         before = terminal.text.splitlines()[:23]
         stopped(terminal, number)
         spoilt(terminal, "GOUGE none")
@@ -167,9 +172,10 @@ def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: 
 
 def test_a_screen_that_was_written_on_is_painted_again_by_a_key_or_a_size_that_is_the_same() -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
-        terminal.until("GOUGE none")
+        painted_whole(terminal)
         for ask in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
             spoilt(terminal, "GOUGE none")
             ask()
             terminal.until("GOUGE none")
+            terminal.read(quiet=0.3)
             assert "$ ls" not in terminal.text
