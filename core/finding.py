@@ -27,6 +27,7 @@ class Finding:
     or k + 1/2 for the corner arc after it; `field` a field's name in `core.program.fields`.
     `at` (x, y) and `value` are millimeters, `lengths` further millimeters named in the text.
     `line` and `column` count from 1 in a program somebody else wrote.  `area` is in square millimeters.
+    `block` counts from 1 where the findings of several blocks are told together.
     """
 
     code: str
@@ -40,3 +41,4 @@ class Finding:
     line: int | None = None
     column: int | None = None
     area: float | None = None
+    block: int | None = None

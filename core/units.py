@@ -161,6 +161,20 @@ def sentence(finding: Finding, unit: Unit) -> str:
     return re.sub(r"\{(\w+)(?:~(\w+))?\}", fill, finding.text)
 
 
+def segment_name(number: float) -> str:
+    """`segment 3`, or `corner 3-4` for the corner arc after segment 3, which has the number 3.5."""
+    return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
+
+
+def located_sentence(finding: Finding, unit: Unit) -> str:
+    """A finding's sentence after its block and its segment: `Block 1, segment 2: ...`."""
+    places = [] if finding.block is None else [f"block {finding.block}"]
+    if finding.segment is not None:
+        places.append(segment_name(finding.segment) if finding.segment else "START")
+    where = ", ".join(places)
+    return f"{where[:1].upper()}{where[1:]}: {sentence(finding, unit)}" if where else sentence(finding, unit)
+
+
 def _telling_digits(value: float, other: float, unit: Unit) -> str:
     """A length with a form's decimals, or as many more as tell how far it is from another."""
     if not (isfinite(value) and isfinite(other)):

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, say
 from app.documents.files import load, load_from
-from app.session.words import segment_name
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.file.read import StoreError
 from core.program.model import Number, Program
-from core.units import sentence
+from core.units import segment_name, sentence
 
 if TYPE_CHECKING:
     import argparse

@@ -129,7 +129,6 @@ def serve(options: argparse.Namespace) -> int:
     try:
         serve_screens(options.file, options.host, options.port)
     except (OSError, UnicodeError) as error:
-        # a port that is taken or forbidden, a name that is none
-        say(f"{web.address(options.host, options.port)} cannot be served: {error}")
+        say(f"{web.address(options.host, options.port)} cannot be served: {web.why_not_served(error)}")
         return UNUSABLE
     return CLEAN

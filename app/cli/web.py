@@ -6,9 +6,11 @@ Host is not the served address is refused.
 
 from __future__ import annotations
 
+import errno
 import hmac
 import re
 import shlex
+import socket
 import sys
 from ipaddress import ip_address
 from pathlib import Path
@@ -64,6 +66,19 @@ def knows(path: str, secret: str) -> bool:
 def address(host: str, port: int) -> str:
     """What is typed into the browser."""
     return f"http://{f'[{host}]' if ':' in host else host}:{port}"
+
+
+def why_not_served(error: OSError | UnicodeError) -> str:
+    """Why an address cannot be listened on, and the remedy; `error` is what the system or the name's coding said."""
+    if isinstance(error, UnicodeError | socket.gaierror):
+        return "no such machine is known. Check --host."
+    if error.errno == errno.EADDRINUSE:
+        return "another program uses this port. Choose another one with --port."
+    if error.errno == errno.EADDRNOTAVAIL:
+        return "this is not an address of this machine. Check --host."
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return "the system keeps this port for itself. Choose one above 1023 with --port."
+    return f"{error.strerror or 'the system refuses'}. Choose another --host or --port."
 
 
 def adapted(page: str, served: str, asked: str) -> str:

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Final
 
-from app.session.words import length, segment_name
+from app.session.words import length
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
-from core.units import Unit, sentence
+from core.units import Unit, segment_name, sentence
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table

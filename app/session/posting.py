@@ -8,12 +8,11 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.session.words import length, segment_name, segment_numbers
-from core.finding import Finding
+from app.session.words import length, segment_numbers
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent
-from core.units import Unit, sentence
+from core.units import located_sentence, sentence
 
 if TYPE_CHECKING:
     from core.output.nc import Refusal
@@ -63,7 +62,7 @@ def nc_text(
     asked = unit_question(derived)
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
-        return NcText(result.text, notes=(*notes, *(_told(note, unit) for note in result.notes)))
+        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in result.notes)))
     against = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
     return NcText(against=against, notes=notes, overridable=overridable)
@@ -73,19 +72,9 @@ def refusals(derived: Derived, refusal: Refusal) -> tuple[str, ...]:
     """Why nothing was posted: each reason after its block and segment, then the largest tool that fits."""
     from core.pipeline.derive import largest_that_fits
 
-    where = {finding: block.number for block in reversed(derived.blocks) for finding in block.findings}
-    reasons = (_told(finding, refusal.unit, where.get(finding)) for finding in refusal.findings)
+    reasons = (located_sentence(finding, refusal.unit) for finding in refusal.findings)
     fits = (largest_that_fits(block, derived.program) for block in derived.blocks)
     return (*reasons, *(sentence(finding, refusal.unit) for finding in fits if finding is not None))
-
-
-def _told(finding: Finding, unit: Unit, block: int | None = None) -> str:
-    """A finding's sentence after its block and segment."""
-    places = [] if block is None else [f"block {block}"]
-    if finding.segment:
-        places.append(segment_name(finding.segment))
-    where = ", ".join(places)
-    return f"{where[:1].upper()}{where[1:]}: {sentence(finding, unit)}" if where else sentence(finding, unit)
 
 
 def objections(derived: Derived) -> Iterator[str]:

@@ -22,11 +22,6 @@ def counted(count: int, word: str) -> str:
     return f"{count} {word}{'' if count == 1 else 's'}"
 
 
-def segment_name(number: float) -> str:
-    """`segment 3`, or `corner 3-4` for the corner arc after segment 3, which has the number 3.5."""
-    return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
-
-
 def segment_numbers(numbers: Iterable[float]) -> str:
     """Numbers of segments, runs joined: 2-4 7.  Corner arcs are left out."""
     whole = sorted({int(number) for number in numbers if number == int(number)})

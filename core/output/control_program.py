@@ -36,8 +36,7 @@ def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ..
     errors = list(posting_errors(jobs, Grid(unit), override=None))
     for job in jobs:
         if job.comp != "ON" and not level_floor(job):
-            text = f"Block {job.block}: {CLIMBS}"
-            errors.append(Finding("NOTWRITTEN", Severity.ERROR, text))
+            errors.append(Finding("NOTWRITTEN", Severity.ERROR, CLIMBS, block=job.block))
     return tuple(dict.fromkeys(errors))
 
 

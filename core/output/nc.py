@@ -23,7 +23,7 @@ from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE, overridden_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
 from core.program.model import Coolant
-from core.units import Unit, sentence
+from core.units import Unit, located_sentence
 
 COMMENT_WIDTH: Final = 72
 """Characters inside the brackets; longer text goes on in a further comment."""
@@ -137,7 +137,7 @@ class Refusal:
     @property
     def text(self) -> str:
         """Every reason as a sentence, with its segment."""
-        return " ".join(_sentence(finding, self.unit) for finding in self.findings)
+        return " ".join(located_sentence(finding, self.unit) for finding in self.findings)
 
 
 def center_path_program(
@@ -181,13 +181,8 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
     if waived:
         yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
     for finding in waived:
-        yield from comments(f"OVERRIDDEN {finding.code}: {_sentence(finding, unit)}")
+        yield from comments(f"OVERRIDDEN {finding.code}: {located_sentence(finding, unit)}")
     yield from comments(f"G64 P{CORNER_TOLERANCE[unit]}: CORNER TOLERANCE {CORNER_TOLERANCE[unit]}")
-
-
-def _sentence(finding: Finding, unit: Unit) -> str:
-    where = "" if finding.segment is None else f"Segment {finding.segment:g}: " if finding.segment else "START: "
-    return f"{where}{sentence(finding, unit)}"
 
 
 def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:

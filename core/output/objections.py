@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from math import isfinite
 from typing import Final
 
@@ -30,7 +31,7 @@ def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> 
     """The errors that forbid posting, each named once; those the operator overrode are left out."""
     errors = [] if jobs else [Finding("NO_BLOCK", Severity.ERROR, "There is no block to post.")]
     for job in jobs:
-        errors += (*job.errors, *job_errors(job, grid))
+        errors += [replace(finding, block=job.block) for finding in (*job.errors, *job_errors(job, grid))]
     if len({job.work_offset for job in jobs}) > 1:
         errors.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
@@ -44,7 +45,7 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
     fields = {finding.field for finding in errors}
     explained = any(finding.code not in OVERRIDABLE for finding in errors)
     for wrong, code, text, field in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
-        objection = Finding(code, Severity.ERROR, f"Block {job.block}: {text}", field=field)
+        objection = Finding(code, Severity.ERROR, text, field=field)
         known = objection in errors or (field is not None and field in fields) or (code == "NO_PATH" and explained)
         if wrong and not known:
             yield objection
@@ -113,11 +114,13 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     yield unroughed, "NO_ROUGH_PATH", text, "finish_tool"
     wild = not all(_reachable(run) for run in (*job.finish, *job.rough))
     yield wild, "COORDINATE", "A point of the path is beyond any machine's travel.", None
-    yield _no_feed(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
+    no_plunge_feed = _no_feed(job.plunge_feed, grid)
+    yield no_plunge_feed, "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
     unfed = sorted(_unfed(job, grid))
     listed = ", ".join(map(str, unfed[:MAX_LISTED])) + (" ..." if len(unfed) > MAX_LISTED else "")
     text = f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}."
-    yield bool(unfed), "FEED", text, "feed"
+    # a blank FEED is PLUNGE FEED, so the missing one is named first
+    yield bool(unfed) and not no_plunge_feed, "FEED", text, "feed"
 
 
 def _reachable(run: CenterPath) -> bool:

@@ -14,12 +14,12 @@ from typing import Final
 
 import numpy as np
 
-from core.finding import Finding, Severity
+from core.finding import Severity
 from core.output.grid import Grid, length_text
 from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Pass, passes, rough_runs
 from core.output.times import block_times, times_text, together
-from core.units import Kind, Unit, from_mm, sentence, show
+from core.units import Kind, Unit, from_mm, located_sentence, show
 
 PAGE_COLUMNS: Final = 78
 """Columns of the plain text."""
@@ -89,7 +89,7 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
         ("SAFE Z", ", ".join(dict.fromkeys(length_text(job.safe_z, unit) for job in jobs)) or "-"),
     )
     head = (*head, *_times(jobs, unit))
-    errors = dict.fromkeys(_finding_text(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
+    errors = dict.fromkeys(located_sentence(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
     notes = tuple(f"Block {job.block}: {note}" for job in jobs for note in job.notes)
     return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs), notes)
 
@@ -105,11 +105,6 @@ def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
 
 def _feed(value: float | None, unit: Unit) -> str:
     return "-" if value is None else show(from_mm(value, unit), Kind.FEED, unit)
-
-
-def _finding_text(finding: Finding, unit: Unit) -> str:
-    segment = "" if not finding.segment else f"segment {finding.segment:g}: "
-    return f"{segment}{sentence(finding, unit)}"
 
 
 def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
@@ -133,7 +128,7 @@ def _block(job: Job, unit: Unit) -> Section:
         f"BLOCK {job.block}  MILL CONTOUR",
         (*_set_up(job, unit), *_cut(job, all_passes, unit)),
         _pass_table(all_passes, unit),
-        tuple(f"{_MARK[finding.severity]} {_finding_text(finding, unit)}" for finding in job.findings),
+        tuple(f"{_MARK[finding.severity]} {located_sentence(finding, unit)}" for finding in job.findings),
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import shlex
+import socket
 from pathlib import Path
 
 import pytest
@@ -33,16 +35,35 @@ def test_a_port_that_is_none_is_a_sentence(port: str, capsys: pytest.CaptureFixt
     assert f"{port} is no port; ports go from 1 to 65535." in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("fault", [OSError(98, "Address already in use"), UnicodeError("label too long")])
+@pytest.mark.parametrize(
+    ("fault", "told"),
+    [
+        (OSError(errno.EADDRINUSE, "error while attempting to bind"), "another program uses this port."),
+        (OSError(errno.EADDRNOTAVAIL, "error while attempting to bind"), "this is not an address of this machine."),
+        (PermissionError(errno.EACCES, "denied"), "the system keeps this port for itself."),
+        (socket.gaierror(socket.EAI_NONAME, "Name or service not known"), "no such machine is known."),
+        (UnicodeError("label too long"), "no such machine is known."),
+    ],
+)
 def test_an_address_that_cannot_be_served_is_a_sentence(
-    fault: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    fault: Exception, told: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def serve(*_: object) -> None:
         raise fault
 
     monkeypatch.setattr("app.cli.web_server.serve", serve)
     assert main(["serve", "--port", "8123"]) == 2
-    assert "http://127.0.0.1:8123 cannot be served: " in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"http://127.0.0.1:8123 cannot be served: {told}" in said
+    assert "Errno" not in said
+
+
+def test_a_port_that_another_program_listens_on_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        assert main(["serve", "--port", str(other.getsockname()[1])]) == 2
+    said = capsys.readouterr().err
+    assert "another program uses this port. Choose another one with --port." in said
+    assert "Errno" not in said
 
 
 def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:

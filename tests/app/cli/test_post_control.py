@@ -34,3 +34,31 @@ def test_proof_refuses_what_it_cannot_open(tmp_path: Path, capsys: pytest.Captur
     assert "No such control" in capsys.readouterr().err
     assert main(["proof", str(tmp_path / "none.nc"), "--tool", "x"]) == 2
     assert "--tool x" in capsys.readouterr().err
+
+
+def test_a_refusal_names_every_block_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    part = tmp_path / "part.toml"
+    block = """
+[[block]]
+kind = "MILL CONTOUR"
+tool = 1
+cutter_comp = "ON"
+x_start = 0.0
+y_start = 0.0
+z_start = 0.0
+z_bottom = -0.1
+speed = 1000
+
+[[block.segment]]
+kind = "LINE"
+x_end = 1.0
+y_end = 0.0
+"""
+    tools = '[[tool]]\nnumber = 1\ntype = "END MILL"\ndiameter = 0.5\n'
+    part.write_text(f'format = 1\nunits = "IN"\n{tools}{block}{block}')
+    assert main(["post", str(part)]) == 1
+    refused = [line for line in capsys.readouterr().err.splitlines() if "nothing was posted." in line]
+    assert len(refused) == 1
+    assert refused[0].partition("nothing was posted. ")[2] == " ".join(
+        f"Block {number}, START: PLUNGE FEED is blank: enter it on START." for number in (1, 2)
+    )

@@ -265,7 +265,7 @@ def test_segments_without_a_feed_are_named_up_to_six():
     for count, listed in ((1, "segment 1"), (6, "segments 1, 2, 3, 4, 5, 6"), (7, "segments 1, 2, 3, 4, 5, 6 ...")):
         given = (*floors(count, feed=0.0), *floors(7)[count:])
         said = sentence_of("FEED", surface=path, finish=(CenterPath(path),), floors=given)
-        assert said == f"Block 1: There is no FEED above 0 on {listed}."
+        assert said == f"There is no FEED above 0 on {listed}."
 
 
 @pytest.mark.parametrize(
@@ -363,7 +363,7 @@ def test_no_block_is_refused():
 def test_a_refusal_says_why_in_program_units():
     found = center_path_program([job(SLOT, findings=(GOUGE,), speed=0.0)], Unit.IN, name="")
     assert isinstance(found, Refusal)
-    assert found.text == "Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000. Block 1: SPEED must be above 0."
+    assert found.text == "Block 1, segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000. Block 1: SPEED must be above 0."
 
 
 def test_blocks_with_different_work_offsets_are_refused():

@@ -92,7 +92,7 @@ def gouging() -> Job:
 
 def test_a_gouge_makes_the_sheet_say_do_not_run_and_keeps_the_depths():
     one = of(gouging())
-    assert one.errors == ("segment 1: gouges by 0.2500 (deep).",)
+    assert one.errors == ("Block 1, segment 1: gouges by 0.2500 (deep).",)
     assert len(one.blocks[0].table) == 4
     assert NOT_READY in as_text(one)
     assert READY not in as_text(one)
@@ -138,7 +138,7 @@ def test_names_cannot_leave_their_place_on_the_page():
 
 def test_a_finding_on_the_page_has_one_mark_that_of_its_weight():
     page = as_page(of(gouging()), [""])
-    assert '<ul class="marked">\n<li>!! segment 1: gouges' in page
+    assert '<ul class="marked">\n<li>!! Segment 1: gouges' in page
     assert ".marked { list-style: none" in page
 
 
@@ -208,7 +208,7 @@ def test_a_whole_sheet_as_text():
         "  6     7  FINISH  3 of 3  -0.2500          0.0000",
         "",
         "FINDINGS",
-        "  - segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool",
+        "  - Segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool",
         "     would reach.",
         "  ! Near.",
         "",
@@ -274,7 +274,7 @@ def test_a_whole_sheet_as_a_page():
         "<tr><th>TIME</th><td>cut 2:00, rapid 0:05, total 2:05</td></tr>",
         "</table>",
         '<h3>FINDINGS</h3><ul class="marked">',
-        "<li>- segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool would reach.</li>",
+        "<li>- Segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool would reach.</li>",
         "<li>! Near.</li>",
         "</ul>",
         "</section>",
@@ -298,14 +298,14 @@ def test_a_whole_sheet_as_a_page():
 
 def test_what_is_not_ready_says_why_on_the_page():
     page = as_page(of(gouging()), [""])
-    against = f'<div class="bad">{NOT_READY}<ul>\n<li>segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
+    against = f'<div class="bad">{NOT_READY}<ul>\n<li>Block 1, segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
     assert against in page
     assert READY not in page
 
 
 def test_a_finding_of_the_start_and_one_of_no_segment_name_none():
     start, general = (Finding(code, Severity.ERROR, f"{code}.", segment) for code, segment in (("A", 0), ("B", None)))
-    assert of(replace(SLOT, findings=(start, general, start))).errors == ("A.", "B.")
+    assert of(replace(SLOT, findings=(start, general, start))).errors == ("Block 1, START: A.", "Block 1: B.")
 
 
 def test_a_block_that_is_not_known_yet_shows_what_is():
