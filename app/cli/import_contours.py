@@ -45,6 +45,7 @@ def import_contours(arguments: list[str]) -> int:
     """Runs the command; returns 0, or 2 for what cannot be used."""
     options = _parser().parse_args(arguments)
     try:
+        _refuse_unused(options)
         if options.control is None:
             _import(options)
         else:
@@ -60,6 +61,25 @@ def import_contours(arguments: list[str]) -> int:
         say(f"{error.text}{_remedy(error, options)}")
         return UNUSABLE
     return CLEAN
+
+
+def _refuse_unused(options: argparse.Namespace) -> None:
+    """Raises Unusable for an option that would do nothing here."""
+    if options.control is None:
+        nc_only = [name for name in ("side", "diameter", "tools", "tool") if _given(getattr(options, name))]
+        if nc_only:
+            raise Unusable(f"--{nc_only[0]} goes with an NC program only: add --control NAME.")
+        if options.fit == 0.0:
+            raise Unusable("--fit 0: type a length above 0, or leave --fit out.")
+    else:
+        names = ("fit", "tolerance", "start", "layer", "reverse", "damaged")
+        drawing_only = [name for name in names if _given(getattr(options, name))]
+        if drawing_only:
+            raise Unusable(f"--{drawing_only[0]} goes with a drawing only: leave out --control.")
+    if options.list:
+        taking = [name for name in ("chain", "start", "reverse", "output") if _given(getattr(options, name))]
+        if taking:
+            raise Unusable(f"--{taking[0]} takes contours and --list takes none: leave one of them out.")
 
 
 def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
@@ -210,10 +230,6 @@ def _write_program(options: argparse.Namespace, program: Program, remark: str) -
 
 def import_nc(options: argparse.Namespace) -> None:
     """`cutcomp import FILE.nc --control NAME`: the contours of an NC program."""
-    names = ("fit", "tolerance", "start", "layer", "reverse", "damaged")
-    drawing_only = [name for name in names if _given(getattr(options, name))]
-    if drawing_only:
-        raise Unusable(f"--{drawing_only[0]} goes with a drawing only: leave out --control.")
     units = {"in": Unit.IN, "mm": Unit.MM}
     if options.units and options.units not in units:
         raise Unusable("--units: an NC program is in inches or in millimeters.")

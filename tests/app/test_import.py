@@ -208,6 +208,30 @@ def test_no_option_of_a_drawing_is_dropped_for_an_nc_program(
     assert f"{option[0]} goes with a drawing only" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("option", [["--side", "left"], ["--diameter", "6"], ["--tools", "t.tbl"], ["--tool", "1=6"]])
+def test_no_option_of_an_nc_program_is_dropped_for_a_drawing(
+    option: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["import", str(DATA / "d14-layers.dxf"), *option]) == 2
+    assert f"{option[0]} goes with an NC program only: add --control NAME." in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", [["--chain", "1"], ["--start", "0,0"], ["--reverse"], ["--output", "part.toml"]])
+def test_a_list_takes_nothing_and_says_so(
+    option: list[str], capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawing = (DATA / "d14-layers.dxf").resolve()
+    monkeypatch.chdir(tmp_path)
+    assert main(["import", str(drawing), "--list", *option]) == 2
+    assert f"{option[0]} takes contours and --list takes none" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_arcs_within_nothing_are_not_fitted_in_silence(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(DATA / "d14-layers.dxf"), "--list", "--fit", "0"]) == 2
+    assert "--fit 0: type a length above 0, or leave --fit out." in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("option", ["--tolerance", "--fit", "--diameter"])
 @pytest.mark.parametrize("text", ["nan", "inf", "-1", "a"])
 def test_a_length_that_is_none_is_refused(option: str, text: str, capsys: pytest.CaptureFixture[str]) -> None:
