@@ -17,7 +17,7 @@ from core.program.edit import new_block
 from core.program.fields import FARTHEST
 from core.program.model import ArcSegment, Block, CutterComp, Direction, LineSegment, Number, Program, Segment
 from core.program.solve.block import solve_block
-from core.tolerance import ARC_RADII, CLOSED
+from core.tolerance import ARC_RADII, CLOSED, GOUGE
 from core.units import Kind, Unit, decimals_shown, from_mm
 
 FINER_DECIMALS: Final = 6
@@ -57,7 +57,7 @@ def block_of(contour: Contour, program: Program, side: CutterComp | None = None)
     usual = decimals_shown(Kind.LENGTH, unit)
     for decimals in (usual, FINER_DECIMALS, FINEST_DECIMALS):
         block = _block(contour, program, decimals)
-        moved = _moved(block, contour.pieces, program)
+        moved = _moved(block, contour, program)
         if moved is not None:
             if side is not None and not contour.closed:
                 block = replace(block, cutter_comp=side)
@@ -104,7 +104,9 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
 def _notes(contour: Contour, decimals: int, usual: int, *, asked: bool) -> tuple[str, ...]:
     notes = []
     if decimals != usual:
-        notes.append(f"Chain {contour.number} has {decimals} decimals: with {usual} it would move too far.")
+        notes.append(
+            f"Chain {contour.number} has {decimals} decimals: with {usual} it would move too far, or not close."
+        )
     if len(contour.pieces) > MAX_SEGMENTS:
         notes.append(
             f"{len(contour.pieces):,} segments: the form shows them, the look-ahead of a control may not. FIT ARCS?"
@@ -148,14 +150,21 @@ def _segment(piece: Piece, end: Point, unit: Unit, decimals: int) -> Segment:
     return ArcSegment(direction, *ends, x_center=Number(center[0]), y_center=Number(center[1]), sweep=sweep)
 
 
-def _moved(block: Block, pieces: Sequence[Piece], program: Program) -> float | None:
-    """How far the block's contour is from the pieces; None where the form does not take it, or it is too far."""
-    solved = solve_block(block, program)
+def _moved(block: Block, contour: Contour, program: Program) -> float | None:
+    """How far the block's contour is from the drawing's; None where the form does not take it, or it is too far.
+
+    An arc ends on its circle, next to the numbers typed.  Where a closed contour ends with one it must still meet
+    START, since the cutter gouges as deep as the gap.
+    """
+    pieces, solved = contour.pieces, solve_block(block, program)
     errors = [
         finding for segment in solved.segments for finding in segment.findings if finding.severity is Severity.ERROR
     ]
     made = [segment.piece for segment in solved.segments]
     if errors or len(made) != len(pieces):
+        return None
+    first, last = made[0], made[-1]
+    if contour.closed and first is not None and last is not None and dist(first.start, last.end) > GOUGE:
         return None
     worst = 0.0
     for piece, original in zip(made, pieces, strict=True):

@@ -7,7 +7,7 @@ import json
 import random
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from math import atan2, cos, degrees, pi, sin
+from math import atan2, cos, degrees, pi, sin, tau
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +57,12 @@ def arc(center: Point, radius: float, begin: float, end: float, layer: str = "0"
 def circle(center: Point, radius: float, layer: str = "0") -> list[tuple[int, object]]:
     """A CIRCLE."""
     return [(0, "CIRCLE"), (8, layer), (10, center[0]), (20, center[1]), (30, 0), (40, radius)]
+
+
+def ellipse(center: Point, axis: Point, ratio: float, layer: str = "0") -> list[tuple[int, object]]:
+    """A whole ellipse; `axis` goes from the center to an end of the long axis."""
+    tags: list[tuple[int, object]] = [(0, "ELLIPSE"), (8, layer), (10, center[0]), (20, center[1]), (30, 0.0)]
+    return [*tags, (11, axis[0]), (21, axis[1]), (31, 0.0), (40, ratio), (41, 0.0), (42, tau)]
 
 
 def square(x: float, y: float, size: float, layer: str = "0") -> list[list[tuple[int, object]]]:

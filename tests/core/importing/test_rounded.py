@@ -28,7 +28,7 @@ from core.program.model import Number, Program, Tool
 from core.program.solve.block import solve_block
 from core.units import Unit
 from core.verify.judge import judge_together
-from tests.core.importing.drawings import dxf, entity, line, listed
+from tests.core.importing.drawings import dxf, ellipse, entity, line, listed
 
 SEEDS = range(12)
 
@@ -125,7 +125,7 @@ def test_arcs_too_small_for_the_digits_of_the_form_have_more_and_say_so() -> Non
     item = block_of(contour, Program(unit=Unit.IN))
     assert item.decimals == 6
     assert item.moved <= 0.0001
-    assert item.notes == ("Chain 1 has 6 decimals: with 4 it would move too far.",)
+    assert item.notes == ("Chain 1 has 6 decimals: with 4 it would move too far, or not close.",)
 
 
 @pytest.mark.parametrize(
@@ -147,6 +147,20 @@ def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> Non
         assert type(one) is type(other)
         for share in (0.0, 0.5, 1.0):
             assert one.point_at(share) == pytest.approx(other.point_at(share), abs=0.001)
+
+
+@pytest.mark.parametrize("unit", list(Unit))
+def test_a_contour_of_arcs_alone_ends_on_its_start_and_is_cut_clean(unit: Unit) -> None:
+    empty = Program(unit=unit, tools=(Tool(1, diameter=Number(1.0 if unit is Unit.MM else 0.04)),))
+    for seed in SEEDS:
+        chance = random.Random(f"ellipse {seed}")
+        center, axis = ((chance.uniform(-80.0, 80.0), chance.uniform(-80.0, 80.0)) for _ in range(2))
+        contour = listed(dxf(ellipse(center, axis, chance.uniform(0.3, 0.95)))).contours[0]
+        assert all(isinstance(piece, Arc) for piece in contour.pieces)
+        program, (made,) = taken(empty, [contour])
+        program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-1.0)),))
+        codes = {finding.code for finding in derive(program).blocks[0].findings}
+        assert not codes & {"GOUGE", "NEARLY_CLOSED"}, (seed, made.decimals, codes)
 
 
 def test_an_export_of_2000_lines_becomes_few_arcs() -> None:
