@@ -272,7 +272,7 @@ def _last_error(told: tuple[Finding, ...]) -> Finding | None:
 def _parting(parts: Parting, of: str, unit: Unit) -> str:
     """Where the paths part, and by how much where they are farthest apart; short enough for a line of the screen."""
     where = f"differs from {shown_name(of)} from line {parts.line}"
-    return f"{where}, most at line {parts.farthest} ({_length(parts.distance, unit)})"
+    return f"{where}, by {_length(parts.distance, unit)} at line {parts.farthest}"
 
 
 def _length(value: float, unit: Unit) -> str:

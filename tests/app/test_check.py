@@ -77,7 +77,7 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert status == 1
     assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
     assert rows["rosettacnc:easy"].strip() == "runs"
-    assert "differs from rosettacnc:easy from line 14, most at line 14 (3.075)" in rows["rosettacnc:normal"]
+    assert "differs from rosettacnc:easy from line 14, by 3.075 at line 14" in rows["rosettacnc:normal"]
     assert rows["heidenhain"].split("  ", 1)[0] == "runs"
     assert "by the contour" in rows["heidenhain"]
 
