@@ -35,6 +35,9 @@ STOCK: Final = 1e-4
 """Is what the cutter leaves on the surface worth a word?  A stretch left thinner than this everywhere is cut: no
 machine is as exact, and curves drawn by many lines leave that much at every joint."""
 
+SHOWN: Final = 0.00127
+"""Is a length more than 0.0000 on a form in inches?  Half of its last digit."""
+
 LARGEST: Final = 1e7
 """Is a coordinate one a machine could have?  Ten kilometers; beyond it doubles lose the last digit."""
 

@@ -152,7 +152,7 @@ class ProofScreen(BaseScreen):
         self._keep(self.document)
         self._ask(replace(self.question, text=text))
 
-    def take_over(self, action: str) -> bool:
+    def take_over(self, action: str, /) -> bool:
         """Undo, redo and save are those of the text here."""
         match action:
             case "undo":

@@ -199,8 +199,8 @@ class BaseScreen(Screen[None]):
         """What the table of fields says of the field with the cursor; None where that is none."""
         return None
 
-    def take_over(self, action: str) -> bool:  # noqa: ARG002  # screens with a document of their own use it
-        """Do undo or redo on what this screen shows, where that is not the program; whether it was done."""
+    def take_over(self, _action: str, /) -> bool:
+        """Do undo or redo on a document of this screen's own, where it has one; whether it was done."""
         return False
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:

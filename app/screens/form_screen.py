@@ -184,8 +184,8 @@ class FormScreen(BaseScreen):
         self.quiet()
         self.pick(field, text)
 
-    def may_be_blank(self, field: Field) -> bool:  # noqa: ARG002  # screens where one may ask the field
-        """Whether no choice is one too."""
+    def may_be_blank(self, _field: Field, /) -> bool:
+        """Whether a choice of this field may be left blank."""
         return False
 
     def picked_text(self, field: Field) -> str:

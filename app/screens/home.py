@@ -24,7 +24,7 @@ from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.words import counted, length
-from app.widgets.drawing import Drawing
+from app.widgets.drawing import Drawable, Drawing
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
@@ -184,12 +184,12 @@ class HomeScreen(BaseScreen):
         heading = f"{name}  {len(block.block.segments)} segments{tool}"
         self.app.call_from_thread(self._show_preview, path, heading, Subject(block, unit))
 
-    def _show_preview(self, path: Path, heading: str, subject: object) -> None:
+    def _show_preview(self, path: Path, heading: str, subject: Drawable | None) -> None:
         """The drawing of a file, unless the cursor has left it by now."""
         if not self.stands or self.chosen is None or self.chosen.path != path:
             return
         drawing = self.query_exactly_one("#preview", Drawing)
-        drawing.heading, drawing.subject = heading, subject  # type: ignore[assignment]  # Subject is imported late
+        drawing.heading, drawing.subject = heading, subject
 
     # ---- keys
 

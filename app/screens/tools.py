@@ -128,7 +128,7 @@ class ToolsScreen(FormScreen):
         tools, row = self.current_session.program.tools, _row(name)
         return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
 
-    def may_be_blank(self, field: Field) -> bool:
+    def may_be_blank(self, field: Field, /) -> bool:
         """A tool need have neither a type nor a coolant."""
         return field.kind in (Kind.TEXT, Kind.CHOICE)
 

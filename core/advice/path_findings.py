@@ -16,7 +16,7 @@ from core.comp.compensated import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point
-from core.tolerance import GOUGE
+from core.tolerance import GOUGE, SHOWN
 from core.verify.contact import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
 from core.verify.report import verdict_findings as verdict_findings
@@ -202,7 +202,7 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
     """What the best path would cut that the control's does not, or that there is none."""
     if not best.loops:
         return (Finding("NO_BEST", Severity.INFO, "The tool does not fit. Use a smaller one."),)
-    if apart.length <= GOUGE or not apart.stretches:
+    if apart.length <= SHOWN or not apart.stretches:
         return ()
     first = apart.stretches[0]
     x, y = first.points[0].tolist()

@@ -136,7 +136,7 @@ class Refusal:
 
     @property
     def text(self) -> str:
-        """Every reason as a sentence, with its segment."""
+        """Every reason as a sentence, with its block and its segment."""
         return " ".join(located_sentence(finding, self.unit) for finding in self.findings)
 
 

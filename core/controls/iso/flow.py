@@ -469,7 +469,7 @@ class Flow:
             return ()
         return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
 
-    def ends_here(self, line: int) -> bool:
+    def ends_here(self, line: int, /) -> bool:
         """Whether the program ends with a line that was run."""
         if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
             self.percents += 1

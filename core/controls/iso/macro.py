@@ -170,7 +170,7 @@ class MacroParameters:
         self._locals(dict(enumerate(arguments, 1)))
         self.names = {}
 
-    def leave(self, value: float | None) -> None:
+    def leave(self, value: float | None, /) -> None:
         """A subprogram ends, and may return a value."""
         outer, self.names = self._outer.pop()
         self._locals(outer)

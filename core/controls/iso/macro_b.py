@@ -123,8 +123,8 @@ class Variables(MacroParameters):
         self.callers.append(self.local)
         self.local = dict(arguments) if isinstance(arguments, Mapping) else dict(enumerate(arguments, 1))
 
-    def leave(self, value: float | None = None) -> None:  # noqa: ARG002  macros return nothing
-        """A macro ends."""
+    def leave(self, _returned: float | None = None, /) -> None:
+        """A macro ends; those of macro B return no value."""
         self.local = self.callers.pop()
 
 

@@ -189,7 +189,7 @@ class MacroFlow(Flow):
         if not differences:
             self.rows_without_progress = 0
 
-    def ends_here(self, line: int) -> bool:  # noqa: ARG002  the next row says it
+    def ends_here(self, _line: int, /) -> bool:
         """Whether the next row belongs to another program, which nothing has called."""
         first, last = self.program
         return not first <= self.at < last

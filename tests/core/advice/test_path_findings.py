@@ -221,11 +221,15 @@ def test_the_nearest_place_is_told_against_the_radius() -> None:
 def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> None:
     found = work(lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1)), Side.RIGHT, lookahead=4)
     best = best_path(found.surface, Side.RIGHT, 0.25, closed=False)
-    (more,) = better_path_findings(best, separation(found.compensated.path, best, 0.25))
+    apart = separation(found.compensated.path, best, 0.25)
+    (more,) = better_path_findings(best, apart)
     assert (more.code, more.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert more.value > 8.0
     assert more.at == (0.25, -0.25)
     assert sentence(more, Unit.MM).startswith("BEST cuts ")
+    assert better_path_findings(best, replace(apart, length=0.0013)) != ()
+    # in inches this would read 0.0000
+    assert better_path_findings(best, replace(apart, length=0.0012)) == ()
     same = work(SQUARE, closed=True)
     whole = best_path(SQUARE, Side.LEFT, 0.25, closed=True)
     assert better_path_findings(whole, separation(same.compensated.path, whole, 0.25)) == ()

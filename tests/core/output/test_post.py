@@ -8,7 +8,7 @@ from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program
 from core.output.objections import OVERRIDE
 from core.output.passes import CenterPath, Cutter, Floor, Job, passes
-from core.units import Unit
+from core.units import Unit, located_sentence
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = path_of(polyline((0, 0), (1, 0))[0], arc((1, 0), (1.5, 0.5), (1, 0.5), Turn.CCW))
@@ -257,7 +257,7 @@ def sentence_of(code: str, **changes: object) -> str:
     found = center_path_program([job(SLOT, **changes)], Unit.IN, name="SLOT")
     assert isinstance(found, Refusal)
     (finding,) = (finding for finding in found.findings if finding.code == code)
-    return finding.text
+    return located_sentence(finding, Unit.IN)
 
 
 def test_segments_without_a_feed_are_named_up_to_six():
@@ -265,7 +265,7 @@ def test_segments_without_a_feed_are_named_up_to_six():
     for count, listed in ((1, "segment 1"), (6, "segments 1, 2, 3, 4, 5, 6"), (7, "segments 1, 2, 3, 4, 5, 6 ...")):
         given = (*floors(count, feed=0.0), *floors(7)[count:])
         said = sentence_of("FEED", surface=path, finish=(CenterPath(path),), floors=given)
-        assert said == f"There is no FEED above 0 on {listed}."
+        assert said == f"Block 1: There is no FEED above 0 on {listed}."
 
 
 @pytest.mark.parametrize(
