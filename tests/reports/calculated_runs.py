@@ -11,9 +11,9 @@ starts, and both sets are compared.
 
 from __future__ import annotations
 
+import argparse
 import math
 import random
-import sys
 import time
 from collections import Counter
 from typing import Any
@@ -114,5 +114,9 @@ def report(contour_count: int, run_count: int, first: int) -> None:
 
 
 if __name__ == "__main__":
-    numbers = [int(each) for each in sys.argv[1:]]
-    report(*(numbers + [10000, 300, 0][len(numbers) :]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("contours", type=int, nargs="?", default=10000)
+    parser.add_argument("runs", type=int, nargs="?", default=300)
+    parser.add_argument("first", type=int, nargs="?", default=0)
+    options = parser.parse_args()
+    report(options.contours, options.runs, options.first)

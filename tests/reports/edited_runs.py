@@ -8,8 +8,8 @@ farther, the answer has jumped, unless the run asks to pick again (PICK_SOLUTION
 
 from __future__ import annotations
 
+import argparse
 import random
-import sys
 from collections import Counter
 from math import dist, hypot
 from typing import Any
@@ -72,5 +72,9 @@ def report(runs: int, edits: int, first: int) -> None:
 
 
 if __name__ == "__main__":
-    numbers = [int(each) for each in sys.argv[1:]]
-    report(*(numbers + [50, 1000, 0][len(numbers) :]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", type=int, nargs="?", default=50)
+    parser.add_argument("edits", type=int, nargs="?", default=1000)
+    parser.add_argument("first", type=int, nargs="?", default=0)
+    options = parser.parse_args()
+    report(options.runs, options.edits, options.first)
