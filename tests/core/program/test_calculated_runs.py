@@ -422,6 +422,26 @@ def test_a_pick_far_from_every_answer_takes_none() -> None:
     assert set(codes(block)) & {"PICK_SOLUTION", "NOT_YET"}
 
 
+def test_a_pick_takes_no_answer_that_only_comes_near_to_data_of_which_none_is_surplus() -> None:
+    case = case_of(
+        ccw(x_center=-51.99792541693032, sweep=134.28928966594114),
+        cw(y_center=-13.852276233289533, x_end=5.536180196084601),
+        cw(
+            x_end=-25.497171352993604,
+            y_end=-46.94453235844928,
+            x_center=-27.534324247541257,
+            y_center=-13.928157043256764,
+            tangent=True,
+        ),
+        start=(-48.90262986985844, -23.82333450373656),
+    )
+    # at this pick a chain misses the last center by 0.0007 mm, and no further step brings it nearer
+    chains, _ = every_chain(case, {1: (-40.43723078354757, 12.375201802314528)})
+    assert chains
+    for chain in chains:
+        assert walk(case, chain) < 1e-7
+
+
 # random runs
 
 

@@ -68,10 +68,14 @@ class _Walked:
 
 
 class ChainProblem:
-    """The numbers of a run that are not known, and what a choice of them misses each datum by."""
+    """The numbers of a run that are not known, and what a choice of them misses each datum by.
+
+    With `surplus` no numbers need meet all data exactly: more is typed than it takes, or a line only grazes a circle.
+    """
 
     def __init__(self, run: Run, known: Branch) -> None:
         self.run, self.count = run, 0
+        self.surplus = run.missing < 0 or any(known.grazes)
         self.scale = max(run.size, 1.0)
         self.angular: list[bool] = []
         self.parts = [self._part(index, element, known) for index, element in enumerate(run.elements)]
@@ -214,9 +218,8 @@ def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
         else:
             break
         numbers, missed, size, damping = tried, after, norm(after), damping * 0.1
-    surplus = len(missed) > problem.count
-    close = max(map(abs, missed), default=inf) <= (ARC_RADII if surplus else ROOT * problem.scale)
-    return numbers if close else None
+    close = ARC_RADII if problem.surplus else ROOT * problem.scale
+    return numbers if max(map(abs, missed), default=inf) <= close else None
 
 
 def norm(values: Numbers) -> float:
