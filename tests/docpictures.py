@@ -86,6 +86,8 @@ def program(picture: Picture) -> Program:
         x_start=Number(picture.start[0]),
         y_start=Number(picture.start[1]),
         z_bottom=Number(-0.25),
+        plunge_feed=Number(20.0),
+        speed=Number(300.0),
         lookahead=_lookahead(picture),
         segments=tuple(LineSegment(x_end=Number(x), y_end=Number(y)) for x, y in picture.to),
     )

@@ -206,7 +206,7 @@ class FormScreen(BaseScreen):
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
         event.stop()
-        self.say(f"{event.letter} is not a choice.", Tone.ERROR)
+        self.say(f"{event.letter} is not a choice: left and right change it.", Tone.ERROR)
 
     # ---- keys
 

@@ -238,23 +238,14 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
 
 
 def new_block(program: Program) -> Block:
-    """A block as the form offers it, its place still blank: the first with tool 1 and usual feeds.
+    """A block as the form offers it, its place still blank: the first has tool 1, and neither speed nor feeds.
 
     Any other has tool, side, speed, feeds and depths of the block before.  What the tool table proposes stays blank.
     """
     if program.blocks:
         return replace(program.blocks[-1], x_start=None, y_start=None, lookahead=None, segments=())
     zero = Number(0.0)
-    tool = next((tool for tool in program.tools if tool.number == 1), None)
-    feed = 20.0 if program.unit is Unit.IN else 500.0
-    return Block(
-        tool=Number(1.0),
-        finish_tool=zero,
-        z_start=zero,
-        plunge_feed=None if tool is not None and tool.plunge_feed is not None else Number(feed),
-        speed=None if tool is not None and tool.speed is not None else Number(300.0),
-        peck_depth=zero,
-    )
+    return Block(tool=Number(1.0), finish_tool=zero, z_start=zero, peck_depth=zero)
 
 
 def insert_block(program: Program, at: int) -> Edited:

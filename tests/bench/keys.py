@@ -70,6 +70,8 @@ def gear(count: int) -> Program:
         x_start=Number(corners[0][0]),
         y_start=Number(corners[0][1]),
         z_bottom=Number(-0.25),
+        plunge_feed=Number(20.0),
+        speed=Number(300.0),
         segments=tuple(segments),
     )
     return Program(tools=(Tool(1, diameter=Number(0.125)),), blocks=(block,))
@@ -103,6 +105,8 @@ def plate(bumps: int = 24) -> Program:
         x_start=Number(radius),
         y_start=Number(0.0),
         z_bottom=Number(-0.25),
+        plunge_feed=Number(20.0),
+        speed=Number(300.0),
         segments=tuple(segments),
     )
     return Program(tools=(Tool(1, diameter=Number(0.25)),), blocks=(block,))

@@ -212,7 +212,7 @@ DRAWINGS = {
 
 
 def new_file(folder: Path) -> Path:
-    tools = (Tool(1, "END MILL", Number(6.0)),)
+    tools = (Tool(1, "END MILL", Number(6.0), speed=Number(3000.0), plunge_feed=Number(100.0)),)
     program = Program(Unit.MM, tools=tools)
     path = folder / "part.toml"
     save(Program(Unit.MM, tools=tools, blocks=(new_block(program),)), path)

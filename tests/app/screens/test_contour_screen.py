@@ -125,7 +125,7 @@ async def test_a_choice_is_spelled_stepped_and_listed():
         await one.press("space", "up", "enter")
         assert str(one.session.block.cutter_comp) == "LEFT"
         await one.press("q")
-        assert one.prompt == "Q is not a choice."
+        assert one.prompt == "Q is not a choice: left and right change it."
 
 
 async def test_a_block_is_left_and_a_new_one_begun():

@@ -20,6 +20,7 @@ def block(points: Points, comp: CutterComp, **changes: Typed) -> Block:
     segments = tuple(LineSegment(x_end=Number(x), y_end=Number(y)) for x, y in points[1:])
     (x, y), tool, bottom = points[0], Number(1), Number(-0.25)
     plain = replace(new_block(Program()), tool=tool, x_start=Number(x), y_start=Number(y), z_bottom=bottom)
+    plain = replace(plain, plunge_feed=Number(20.0), speed=Number(300.0))
     return changed(replace(plain, cutter_comp=comp, segments=segments), changes)
 
 

@@ -186,9 +186,8 @@ def test_new_block():
     assert block.tool == Number(1.0)
     assert block.cutter_comp is CutterComp.ON
     assert (block.finish_tool, block.z_start, block.peck_depth) == (Number(0.0),) * 3
-    assert (block.plunge_feed, block.speed) == (Number(20.0), Number(300.0))
     assert (block.x_start, block.y_start, block.z_bottom, block.lookahead) == (None,) * 4
-    assert edit.new_block(Program(unit=Unit.MM)).plunge_feed == Number(500.0)
+    assert (block.plunge_feed, block.speed, block.coolant) == (None,) * 3
 
 
 def test_insert_block_takes_the_tool_of_the_block_before():
