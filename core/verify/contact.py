@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.nearby import near_pairs, point_boxes, sorted_pairs
+from core.geometry.nearby import BoxTree, changes, near_pairs, point_boxes
 from core.geometry.path import Flags, Floats, Path, Rows
 from core.geometry.piece import Point
 from core.geometry.piece_arrays import PieceArrays, at, blocks, direction, piece_arrays
@@ -23,6 +23,9 @@ from core.verify.uncut import POINT, gaps_of
 
 PARALLEL: Final = 1e-6
 """Sine of the angle up to which a move and the wall it touches run the same way."""
+
+PIECES_AT_A_TIME: Final = 500
+"""Gouging pieces whose walls are looked for at a time: what is worked out for them stays small."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +90,10 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     gouging[pairs.i[pairs.least < radius - pairs.grant]] = True
     undecided = (gouging & (way == 0)).nonzero()[0]
     if len(undecided):
-        way += _ways(_behind_nearer_walls(pairs, undecided, radius), radius)
+        walls, beside = BoxTree.of(pairs.others.boxes), BoxTree.of(_sideways(pairs.others, 0.5, radius))
+        for first in range(0, len(undecided), PIECES_AT_A_TIME):
+            index = undecided[first : first + PIECES_AT_A_TIME]
+            way += _ways(_behind_nearer_walls(pairs, index, radius, walls, beside), radius)
     return tuple(pairs.pieces.rows[way < 0].tolist())
 
 
@@ -103,22 +109,21 @@ def _ways(pairs: Pairs, radius: float) -> Rows:
     return ways
 
 
-def _behind_nearer_walls(pairs: Pairs, index: Rows, radius: float) -> Pairs:
+def _behind_nearer_walls(pairs: Pairs, index: Rows, radius: float, walls: BoxTree, beside: BoxTree) -> Pairs:
     """Pairs of the pieces `index` with all walls that they touch along more than a point, nearest or not.
 
-    There an end of the piece is a radius beside the wall, or the wall's middle is beside the piece.
+    There an end of the piece is a radius beside the wall, or the wall's middle is beside the piece: `beside` holds the
+    points a radius from the walls' middles.
     """
-    pieces, walls, rounding = pairs.pieces.take(index), pairs.others, rounding_of(pairs.others)
+    pieces, count = pairs.pieces.take(index), len(pairs.others)
     room = 2.0 * float(pairs.grant.max()) + ON_PATH
-    i, j = [], []
-    for share in (0.0, 1.0):
-        k, wall = sorted_pairs(near_pairs(_sideways(pieces, share, radius), walls.boxes, room))
-        i.append(k % len(pieces))
-        j.append(wall)
-    wall, k = sorted_pairs(near_pairs(_sideways(walls, 0.5, radius), pieces.boxes, room))
-    return paired(
-        pairs.pieces, walls, index[np.concatenate((*i, k))], np.concatenate((*j, wall % len(walls))), rounding
-    )
+    found = [near_pairs(_sideways(pieces, share, radius), walls, room) for share in (0.0, 1.0)]
+    found.append(near_pairs(pieces.boxes, beside, room))
+    each = np.concatenate([k % len(pieces) * count + j % count for batches in found for k, j in batches])
+    # np.unique takes ten times as long
+    each.sort()
+    k, j = np.divmod(each[changes(each)], count)
+    return paired(pairs.pieces, pairs.others, index[k], j, rounding_of(pairs.others))
 
 
 def _sideways(pieces: PieceArrays, share: float, radius: float) -> Floats:

@@ -27,7 +27,7 @@ from core.verify.stretches import Stretches
 FINE: Final = 1e-8
 """Millimeters between the bounds of a largest distance at which it counts as known."""
 
-BAND_PIECES: Final = 2_000
+BAND_PIECES: Final = 1_000
 """Pieces of stretches that are worked out at a time."""
 
 MAX_DIVISIONS: Final = 100
