@@ -133,7 +133,8 @@ def test_arcs_too_small_for_the_digits_of_the_form_have_more_and_say_so() -> Non
 )
 def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> None:
     contour = contour_of(rounded_polygon(3), 6)
-    empty = Program(unit=Unit.MM, tools=(Tool(1, diameter=Number(8.0)),))
+    tool = Tool(1, diameter=Number(8.0), speed=Number(3000.0), plunge_feed=Number(100.0))
+    empty = Program(unit=Unit.MM, tools=(tool,))
     program, _ = taken(empty, [contour])
     program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-5.0)),))
     derived = derive(program)
@@ -151,7 +152,8 @@ def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> Non
 
 @pytest.mark.parametrize("unit", list(Unit))
 def test_a_contour_of_arcs_alone_ends_on_its_start_and_is_cut_clean(unit: Unit) -> None:
-    empty = Program(unit=unit, tools=(Tool(1, diameter=Number(1.0 if unit is Unit.MM else 0.04)),))
+    diameter = Number(1.0 if unit is Unit.MM else 0.04)
+    empty = Program(unit=unit, tools=(Tool(1, diameter=diameter, speed=Number(3000.0), plunge_feed=Number(20.0)),))
     for seed in SEEDS:
         chance = random.Random(f"ellipse {seed}")
         center, axis = ((chance.uniform(-80.0, 80.0), chance.uniform(-80.0, 80.0)) for _ in range(2))
