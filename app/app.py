@@ -244,7 +244,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line of the screen in front, or of the one under a dialog."""
-        screens = [screen for screen in self.screen_stack if isinstance(screen, BaseScreen)]
+        screens = self._screens()
         if screens:
             screens[-1].say(text, tone)
 
@@ -381,6 +381,24 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         if self.guided:
             self.guided = False
             self.say(text)
+
+    def watch_session(self, session: Session) -> None:
+        """All screens follow the session."""
+        for screen in self._screens():
+            screen.follow(session)
+
+    def watch_shown(self, shown: Session) -> None:
+        """So they do what half-typed numbers would do."""
+        for screen in self._screens():
+            screen.follow_shown(shown)
+
+    def watch_characters(self, characters: str) -> None:
+        """All screens draw with these characters."""
+        for screen in self._screens():
+            screen.draw_with(characters)
+
+    def _screens(self) -> list[BaseScreen]:
+        return [screen for screen in self.screen_stack if isinstance(screen, BaseScreen)]
 
     def watch_guided(self) -> None:
         """The prompt changes at once."""

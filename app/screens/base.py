@@ -224,19 +224,22 @@ class BaseScreen(Screen[None]):
         return Sentence("")
 
     def on_mount(self) -> None:
-        """Follow the App's session."""
-        self._composed = True
-        self.watch(self.app, "session", self._follow)
-        self.watch(self.app, "characters", self._draw_with)
+        """Show what the App holds; from then on it tells its screens what has changed.
 
-    def _draw_with(self, characters: str) -> None:
+        A watcher would stay in the App's lists until the next change, and with it each screen that is gone.
+        """
+        self._composed = True
+        self.follow(self.host.session)
+        self.draw_with(self.host.characters)
+
+    def draw_with(self, characters: str) -> None:
         """Every drawing is made of these characters."""
         for drawing in self.query(Drawing):
             drawing.characters = characters
 
     def on_screen_resume(self) -> None:
         """Catch up with what has changed while another screen was in front."""
-        self._follow(self.host.session)
+        self.follow(self.host.session)
         self.show_work(self.host.longest_work)
 
     @property
@@ -245,12 +248,16 @@ class BaseScreen(Screen[None]):
         stack = self.app.screen_stack
         return self in stack and all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
 
-    def _follow(self, session: Session) -> None:
+    def follow(self, session: Session) -> None:
+        """Show the session, if it is another one than before."""
         if self.in_view and session is not self.session:
             self.session = session
             self.show_session(session)
             self.query_exactly_one(Status).show(session)
             self.refresh_frame()
+
+    def follow_shown(self, shown: Session) -> None:
+        """Show what half-typed numbers would do, where that is shown at all."""
 
     def refresh_frame(self) -> None:
         """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""

@@ -181,7 +181,7 @@ class ContourScreen(FormScreen):
     def on_mount(self) -> None:
         """Follow also what half-typed numbers would do."""
         super().on_mount()
-        self.watch(self.app, "shown", self._show_shown)
+        self.follow_shown(self.host.shown)
 
     def _made_form(self, session: Session) -> Form:
         self._form = form_at(session)
@@ -247,7 +247,7 @@ class ContourScreen(FormScreen):
                 label.update(text)
         self.query_exactly_one(f"#{SEGMENT}", SegmentField).show(str(segment))
 
-    def _show_shown(self, shown: Session) -> None:
+    def follow_shown(self, shown: Session) -> None:
         """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
         if not self.in_view:
             return

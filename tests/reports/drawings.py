@@ -59,9 +59,11 @@ def picked(terminal: Relayed, name: str) -> None:
 
 
 def completed(terminal: Relayed, options: argparse.Namespace) -> None:
-    """The tool's diameter, the blend, and Z BOTTOM of both blocks."""
+    """The tool's diameter, speed and feeds, the blend, and Z BOTTOM of both blocks."""
     go(terminal, "f6", "DIAMETER")
-    press(terminal, "tab", "tab", *options.diameter, "enter")
+    press(terminal, "tab", "tab")
+    for value in (options.diameter, options.speed, options.feed, options.feed):
+        press(terminal, *value, "enter")
     go(terminal, "f8", "SEGMENT")
     go(terminal, "f4", "BLEND OFFSET")
     press(terminal, "tab", *options.blend, "enter")
@@ -115,6 +117,8 @@ def main() -> int:
     parser.add_argument("--baud", type=int, default=9600)
     parser.add_argument("--delay", type=float, default=0.15, help="seconds each way")
     parser.add_argument("--diameter", default="2", help="of the tool, in the drawing's unit")
+    parser.add_argument("--speed", default="3000", help="SPEED of the tool")
+    parser.add_argument("--feed", default="100", help="FEED and PLUNGE FEED of the tool")
     parser.add_argument("--blend", default="1", help="BLEND OFFSET")
     parser.add_argument("--depth", default="-1", help="Z BOTTOM")
     options = parser.parse_args()

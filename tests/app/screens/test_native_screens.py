@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import gc
+from weakref import ref
+
 import pytest
 from textual.widgets import DataTable, Static
 
@@ -200,6 +203,20 @@ async def test_every_screen_opens_at_every_size(size):
             await run(one, "app.contour")
             assert one.screen is form, name
         assert load(example("pocket")) == one.session.program
+
+
+@pytest.mark.parametrize(("there", "back"), [("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")])
+async def test_screens_that_were_left_take_no_memory(there, back):
+    async with operator() as one:
+        left = []
+        for _ in range(5):
+            await one.press(there)
+            left.append(ref(one.app.screen))
+            await one.press(back)
+        await one.press("down", "up")
+        gc.collect()
+        # Textual may hold the last one
+        assert sum(screen() is not None for screen in left) <= 1
 
 
 async def test_the_setup_sheet_is_shown_and_written(tmp_path, monkeypatch):
