@@ -179,7 +179,12 @@ class BaseScreen(Screen[None]):
         return self.host.session
 
     def compose(self) -> ComposeResult:
-        """The frame round the body."""
+        """The frame round the body; the classes of the size come first, or all of it would be styled twice."""
+        for points, size in (
+            (self.HORIZONTAL_BREAKPOINTS, self.app.size.width),
+            (self.VERTICAL_BREAKPOINTS, self.app.size.height),
+        ):
+            self.add_class(max(point for point in points if point[0] <= size)[1], update=False)
         with Horizontal(id="main"):
             with Vertical(id="desk"):
                 yield from self.compose_body()
@@ -316,13 +321,13 @@ class BaseScreen(Screen[None]):
 
     @on(DescendantFocus)
     def _mark_focus(self, event: DescendantFocus) -> None:
-        """Mark the row and the panel with the cursor by classes: `:focus-within` would repaint far more."""
-        # a list fills its place and has no row: a mark on the desk would style all of it anew
-        row = event.widget.parent if isinstance(event.widget.parent, Horizontal) else None
+        """Mark the label and the panel of the cursor by classes: `:focus-within` would style and repaint far more."""
+        row = event.widget.parent
+        label = next((each for each in row.children if each.has_class("label")), None) if row is not None else None
         panel = next(
             (each for each in event.widget.ancestors if isinstance(each, Widget) and "panel" in each.classes), None
         )
-        self._mark("-at", row)
+        self._mark("-at", label)
         self._mark("-here", panel if isinstance(panel, Widget) else None)
         self.refresh_frame()
 
@@ -330,11 +335,12 @@ class BaseScreen(Screen[None]):
         before = self._marked.get(name)
         if before is widget:
             return
-        if before is not None:
-            before.remove_class(name)
-        if widget is not None:
-            widget.add_class(name)
         self._marked[name] = widget
+        changed = [each for each in (before, widget) if each is not None]
+        for each in changed:
+            each.set_class(each is widget, name, update=False)
+        # what is in them looks the same as before
+        self.app.stylesheet.update_nodes(changed)
 
     @on(Resize)
     def _fit_frame(self) -> None:

@@ -271,9 +271,8 @@ class FieldRow(Horizontal):
     """A field with its label and its tag."""
 
     def __init__(self, cell: Cell) -> None:
-        super().__init__(classes="field")
+        super().__init__(classes=f"field {cell.state}")
         self.cell = cell
-        self.add_class(cell.state)
         self._stand(cell)
 
     def _stand(self, cell: Cell) -> None:
