@@ -685,3 +685,10 @@ def test_a_drilling_cycle_of_haas_may_go_without_r() -> None:
     other = registry.run(text, "fanuc:a")
     assert not isinstance(other, UnknownControl)
     assert other.stopped_at == 3
+
+
+def test_of_an_arc_with_radius_and_center_the_radius_holds() -> None:
+    plain = ran(f"{HEAD}X0 Y0\nG2 X10. R5.\nM30")
+    both = ran(f"{HEAD}X0 Y0\nG2 X10. R5. I3. J1.\nM30")
+    assert flat(both) == flat(plain)
+    assert flat(both)[-1].center == pytest.approx((5.0, 0.0))

@@ -335,3 +335,11 @@ def test_an_arc_that_passes_the_window_by_has_no_chords_in_it() -> None:
     around = Path.from_pieces([Arc((50.0, 0.0), (-50.0, 0.0), (0.0, 0.0), Turn.CCW)])
     assert not len(chords([Layer(around, Style.PATH)], View((0.0, 0.0), 1.0), 20, 10).starts)
     assert len(chords([Layer(around, Style.PATH)], View((0.0, 45.0), 1.0), 20, 10).starts)
+
+
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+def test_of_an_arc_through_the_window_only_what_is_near_is_divided(turn: Turn) -> None:
+    """The window is 20 wide and 20 high; the arc of radius 500 passes its center and goes on for a quarter circle."""
+    around = Path.from_pieces([Arc((0.0, turn * -500.0), (0.0, turn * 500.0), (0.0, 0.0), turn)])
+    found = chords([Layer(around, Style.PATH)], View((500.0, 0.0), 1.0), 20, 10)
+    assert 20.0 < np.abs(found.runs).sum() < 40.0

@@ -230,6 +230,18 @@ def test_fitting_keeps_corners_and_says_what_it_did() -> None:
     assert fitted_contour(listed(data).contours[0], 0.005).drawn == 4
 
 
+def test_a_sampled_notch_turns_the_other_way_than_the_outline() -> None:
+    # a plate of 20 by 10 whose top edge has a half circle of radius 4 cut out, sampled by 100 lines
+    notch = [(10 + 4 * math.cos(math.pi * k / 100), 10 - 4 * math.sin(math.pi * k / 100)) for k in range(101)]
+    points = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), *notch, (0.0, 10.0), (0.0, 0.0)]
+    contour = listed(dxf(*(line(p, q) for p, q in itertools.pairwise(points)))).contours[0]
+    fitted = fitted_contour(contour, 0.005)
+    (arc,) = (piece for piece in fitted.pieces if isinstance(piece, Arc))
+    assert fitted.drawn == 6
+    assert arc.center == pytest.approx((10.0, 10.0), abs=0.005)
+    assert arc.radius == pytest.approx(4.0, abs=0.005)
+
+
 def test_lines_and_arcs_of_a_sampled_slot_come_back() -> None:
     # a slot of two lines and two half circles, the circles sampled by 200 lines each
     ends = [(20 + 5 * math.sin(math.pi * k / 200), -5 * math.cos(math.pi * k / 200)) for k in range(201)]

@@ -299,3 +299,17 @@ def test_a_spline_in_an_insert_that_stretches_is_stretched() -> None:
     stretched = listed(stream.getvalue().encode()).contours[0]
     direct = listed(spline((0, 0), (20, 10), (60, -5), (80, 5))).contours[0]
     assert stretched.length == pytest.approx(direct.length, abs=1e-6)
+
+
+@pytest.mark.parametrize(("version", "encoding"), [("AC1015", "cp1252"), ("AC1027", "utf-8")])
+def test_names_are_read_in_the_encoding_of_their_version(version: str, encoding: str) -> None:
+    """Up to 2004 the code page of the header, from 2007 on UTF-8."""
+    text = dxf(line((0, 0), (5, 0), "Größe")).decode().replace("AC1009", f"{version}\n9\n$DWGCODEPAGE\n3\nANSI_1252")
+    assert read_dxf(text.encode(encoding), "test.dxf").layers == ("Größe",)
+
+
+def test_each_step_of_the_work_is_told() -> None:
+    drawing = read_dxf(dxf(*square(0, 0, 10)), "test.dxf")
+    told: list[str] = []
+    contours_of(drawing, ImportOptions.usual(DrawingUnit.MM), lambda step, *_: told.append(step))
+    assert [step for step in told if step != "fitting"] == ["cleaning", "chaining", "nesting"]
