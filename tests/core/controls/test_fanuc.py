@@ -692,3 +692,9 @@ def test_of_an_arc_with_radius_and_center_the_radius_holds() -> None:
     both = ran(f"{HEAD}X0 Y0\nG2 X10. R5. I3. J1.\nM30")
     assert flat(both) == flat(plain)
     assert flat(both)[-1].center == pytest.approx((5.0, 0.0))
+
+
+def test_a_colon_stands_for_the_letter_of_a_program_number() -> None:
+    done = ran(f"%\n:5\n{HEAD}X10.\nY5.\nM98 P7\nM30\n:7\nX20.\nM99\n%")
+    assert [move.end[:2] for move in flat(done)] == [(10.0, 0.0), (10.0, 5.0), (20.0, 5.0)]
+    assert not [finding for finding in done.findings if finding.severity is not Severity.INFO]

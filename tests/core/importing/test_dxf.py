@@ -313,3 +313,16 @@ def test_each_step_of_the_work_is_told() -> None:
     told: list[str] = []
     contours_of(drawing, ImportOptions.usual(DrawingUnit.MM), lambda step, *_: told.append(step))
     assert [step for step in told if step != "fitting"] == ["cleaning", "chaining", "nesting"]
+
+
+@pytest.mark.parametrize(("closed", "count"), [(0, 3), (1, 4)])
+def test_a_polyline_runs_through_its_vertices_and_back_where_it_is_closed(closed: int, count: int) -> None:
+    corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (0.0, 7.0)]
+    vertices: list[tuple[int, object]] = []
+    for x, y in corners:
+        vertices += [(0, "VERTEX"), (8, "0"), (10, x), (20, y), (30, 0.0)]
+    polyline = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, closed), (10, 0), (20, 0), (30, 0), *vertices, (0, "SEQEND")]
+    (contour,) = listed(dxf(polyline)).contours
+    assert contour.closed == bool(closed)
+    assert contour.drawn == count
+    assert set(corners) <= {piece.start for piece in contour.pieces} | {piece.end for piece in contour.pieces}
