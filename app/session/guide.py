@@ -40,6 +40,8 @@ STEPS: Final = (
     Step(0, "y_start", "0", "The lower side lies on Y 0."),
     Step(0, "z_start", "0", "The top of the material is Z 0."),
     Step(0, "z_bottom", "-.25", "The cut goes a quarter deep."),
+    Step(0, "plunge_feed", "5", "The tool goes down into the material at this feed."),
+    Step(0, "speed", "1000", "The spindle turns so many times a minute."),
     Step(1, "feed", "10", "The feed holds for the segments that follow too."),
     Step(1, "x_end", CORNERS[0][0], "First to the left corner."),
     Step(1, "y_end", CORNERS[0][1], "It lies on Y 0 too."),

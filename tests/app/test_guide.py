@@ -55,7 +55,7 @@ async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path,
     monkeypatch.chdir(tmp_path)
     async with guided(tmp_path) as one:
         await one.press("tab", "7", "enter", "pagedown")
-        for _ in range(60):
+        for _ in range(70):
             if not one.app.guided:
                 break
             await obey(one)
