@@ -698,3 +698,19 @@ def test_a_colon_stands_for_the_letter_of_a_program_number() -> None:
     done = ran(f"%\n:5\n{HEAD}X10.\nY5.\nM98 P7\nM30\n:7\nX20.\nM99\n%")
     assert [move.end[:2] for move in flat(done)] == [(10.0, 0.0), (10.0, 5.0), (20.0, 5.0)]
     assert not [finding for finding in done.findings if finding.severity is not Severity.INFO]
+
+
+UNSUPPORTED: Final = (
+    "G2.1 G2.2 G2.3 G2.4 G3.1 G3.2 G3.3 G3.4 G6.2 G7 G7.1 G12.1 G13.1 G29 G33 G37 G43.1 G43.4 G43.5 G45 G46 G47 G48 "
+    "G66.1 G68.2 G68.3 G68.4"
+)
+"""Codes of the control's manual that change the path in a way cutcomp does not calculate."""
+
+
+@pytest.mark.parametrize("code", UNSUPPORTED.split())
+def test_a_code_of_the_control_that_is_not_supported_stops_the_run(code: str) -> None:
+    done = ran(f"{HEAD}X1.\n{code} X5. I1. J1. R1.\nX9.\nM30")
+    stop = done.findings[-1]
+    assert (stop.code, stop.severity, stop.line) == ("BEYOND", Severity.ERROR, 3)
+    assert f"does not support {code}," in stop.text
+    assert flat(done)[-1].end[0] == 1.0

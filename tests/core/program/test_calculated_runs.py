@@ -303,6 +303,16 @@ def test_parallel_and_point_at_distance_have_all_their_answers() -> None:
     assert len(solved(case).runs[0].answers) == 2
 
 
+@pytest.mark.parametrize(("make", "side"), [(ccw, 1.0), (cw, -1.0)])
+def test_a_relative_center_gives_radius_and_heading_where_the_start_is_not_known(make: Any, side: float) -> None:
+    arc = make(x_center_inc=0, y_center_inc=10 * side, x_end=60, y_end=10 * side)
+    # the other one turns through 270 degrees to the same end
+    answer, _ = solved(case_of(line(angle=0), arc)).runs[0].answers
+    first, second = plain(answer)
+    assert (first["x_end"], first["y_end"]) == pytest.approx((50.0, 0.0))
+    assert (second["x_center"], second["y_center"]) == pytest.approx((50.0, 10.0 * side))
+
+
 def test_a_full_circle_may_be_tangent() -> None:
     block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
     assert block.whole
