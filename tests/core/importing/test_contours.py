@@ -242,6 +242,16 @@ def test_a_sampled_notch_turns_the_other_way_than_the_outline() -> None:
     assert arc.radius == pytest.approx(4.0, abs=0.005)
 
 
+def test_a_side_that_wavers_by_less_than_fit_is_one_line() -> None:
+    # the lower side of a square of 20, a point each 0.4, those near its ends off by half of FIT
+    lower = [(0.4 * k, 0.0025 if k in (1, 2, 48, 49) else 0.0) for k in range(51)]
+    points = [*lower, (20.0, 20.0), (0.0, 20.0), (0.0, 0.0)]
+    contour = listed(dxf(*(line(p, q) for p, q in itertools.pairwise(points)))).contours[0]
+    fitted = fitted_contour(contour, 0.005)
+    assert fitted.drawn == 4
+    assert all(isinstance(piece, Line) for piece in fitted.pieces)
+
+
 def test_lines_and_arcs_of_a_sampled_slot_come_back() -> None:
     # a slot of two lines and two half circles, the circles sampled by 200 lines each
     ends = [(20 + 5 * math.sin(math.pi * k / 200), -5 * math.cos(math.pi * k / 200)) for k in range(201)]

@@ -36,6 +36,8 @@ def verdict(surface: Path) -> Verdict:
         (Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (2, 0), (3, 0), Turn.CCW)]), (2, 0)),
         (Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW), Arc((-2, 0), (2, 0), (0, 0), Turn.CW)]), (0, 2)),
         (lines((0, 0), (4, 0), (0, 0)), (2, 0)),
+        (lines((0, 4), (0, 0), (4, 4), (4, 0), (0, 4)), (2, 2)),
+        (lines((0, 0), (4, 4), (4, 0), (0, 4), (0, 0)), (2, 2)),
     ],
 )
 def test_crossings_and_touches_are_found(surface: Path, at: Point) -> None:
