@@ -68,6 +68,7 @@ async def keyed(program: str, page: str, folder: Path, picture: Path | None) -> 
         await browser.press("ctrl+k", "7")
         await browser.until("GUIDE  Enter")
         await browser.press("enter", "l", "enter", *"1", "enter", *"0", "enter", *"-.25", "enter")
+        await browser.press("5", "enter", *"1000", "enter")
         await browser.until("LINE")
         for x, y in ("00", "01", "21", "20", "10"):
             await browser.press(x, "enter", y, "enter")
