@@ -16,7 +16,7 @@ from textual.widgets import DataTable, Label
 from app.documents.tool_tables import tool_line
 from app.screens.contour_cells import cells_at, fields_at, form_at, run_here, run_label, run_trouble, value_at
 from app.screens.dialogs import ChooseLine
-from app.screens.enter_stops import next_stop, run_stops, unanswered
+from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.screens.values import prompt_of
 from app.session.block_findings import Entry, block_findings, remedy
@@ -513,9 +513,14 @@ class ContourScreen(FormScreen):
             return
         self.quiet()
         before = self.current_session.program
-        if not self.take() or (self.current_session.program is not before and run_stops(self.current_session)):
+        if not self.take():
             return
-        stop = next_stop(self.current_session, widget.name or "")
+        session = self.current_session
+        stop = next_stop(session, widget.name or "")
+        # what is missing may still be typed in a field after this one
+        may_follow = stop is not None and run_lacks(session)
+        if session.program is not before and run_stops(session) and not may_follow:
+            return
         if stop is not None:
             self.focus_field(stop)
         else:

@@ -61,6 +61,12 @@ def run_stops(session: Session) -> bool:
     return run.code != "MISSING" or all(isinstance(end, Number) for end in ends)
 
 
+def run_lacks(session: Session) -> bool:
+    """Whether more data would help the run of the segment: there are too few, or they are not calculated yet."""
+    run = run_here(session)
+    return run is not None and run.code in ("MISSING", "NOT_YET")
+
+
 def _needs_answer(session: Session, field: Field) -> bool:
     value = value_at(session, field.name)
     if isinstance(value, Unread) or unusable(value, field, session.program.unit) is not None:

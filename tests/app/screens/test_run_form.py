@@ -143,6 +143,18 @@ async def test_enter_stops_at_solution_until_one_is_taken():
         assert one.session.place.segment == 3
 
 
+async def test_enter_goes_through_the_last_arc_of_a_run_while_data_are_missing():
+    case = case_of(ccw(x_center=0, y_center=20, radius=20), cw(radius=30, tangent=True), ccw(tangent=True))
+    async with operator(program_of(case)) as one:
+        await to(one, 3, "x_end")
+        await one.press("'80", "enter", "'45", "enter")
+        assert one.at == "x_center"
+        await one.press("'80", "enter", "'30", "enter")
+        typed = one.session.block.segments[2]
+    assert (typed.x_end, typed.y_end) == (Number(80.0), Number(45.0))
+    assert (typed.x_center, typed.y_center) == (Number(80.0), Number(30.0))
+
+
 async def test_tangent_is_switched_by_space():
     async with operator(golden("c18")) as one:
         await to(one, 2, "tangent")
