@@ -313,6 +313,11 @@ def test_a_relative_center_gives_radius_and_heading_where_the_start_is_not_known
     assert (second["x_center"], second["y_center"]) == pytest.approx((50.0, 10.0 * side))
 
 
+def test_a_radius_that_follows_from_start_and_center_is_not_asked_for() -> None:
+    told = said(case_of(ccw(x_center=0, y_center=20), cw(radius=30, tangent=True)))
+    assert any("2 more values: SWEEP ANGLE of 1, or an end" in text for text in told), told
+
+
 def test_a_full_circle_may_be_tangent() -> None:
     block = solved(case_of(line(x_end=50, y_end=0), ccw(tangent=True, x_end=50, y_end=0, x_center=50, y_center=10)))
     assert block.whole

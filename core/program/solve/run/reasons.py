@@ -307,9 +307,17 @@ def suggested(run: Run) -> tuple[Element, str]:
     for arcs, name in ((True, "radius"), (False, "angle"), (False, "length"), (True, "sweep"), (False, "x_end")):
         for element in run.elements:
             relative = element.link is not None if name == "angle" else f"{name}_inc" in element.known
-            if bool(element.turn) is arcs and name not in element.known and not relative:
+            given = name == "radius" and _radius_follows(run, element)
+            if bool(element.turn) is arcs and name not in element.known and not relative and not given:
                 return element, name
     return run.elements[0], "x_end"
+
+
+def _radius_follows(run: Run, element: Element) -> bool:
+    """Whether an arc's center and a point of it give its radius, so that RADIUS would add nothing."""
+    known = element.known
+    point = element is run.elements[0] or {"x_end", "y_end"} <= known.keys()
+    return {"x_center_inc", "y_center_inc"} <= known.keys() or ({"x_center", "y_center"} <= known.keys() and point)
 
 
 def not_yet(run: Run, *, tried: bool) -> Finding:
