@@ -49,7 +49,7 @@ async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_
         assert "GOUGE" in chips
         await one.press("f10")
         assert isinstance(one.screen, ContourScreen)
-        assert "Segments 7 and 8 need 1 more value: RADIUS of 8, or an end (X END or Y END), or TANGENT YES on 7." in [
+        assert "Segments 7 and 8 need 1 more value: XY ANGLE of 7, or an end (X END or Y END)." in [
             entry.text for entry in one.screen.entries
         ]
 
