@@ -158,9 +158,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
                 self.show_nc(document, self._asked)
             elif document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
-            self.tell(self._opened.notice)
-            if self._opened.offer is not None:
-                self._ask_offer(document, self._opened.offer)
+            self.tell_and_ask(self._opened)
 
     def _first_painted(self) -> None:
         """The numeric libraries come now: the first paint does without them."""

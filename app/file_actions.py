@@ -229,15 +229,25 @@ class FileActions(App[int]):
             self.bring_form()
             if document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
+        self.tell_and_ask(opened)
+
+    def tell_and_ask(self, opened: Opened[Any]) -> None:
+        """Say what there is to say of a document that was opened, and ask about work that was left."""
         self.tell(opened.notice)
         if opened.offer is not None:
-            self._ask_offer(document, opened.offer)
+            self._ask_offer(opened.document, opened.offer)
 
     @work(group="offer", description="offer")
     async def _ask_offer(self, document: ContourDocument | NcDocument, offer: Offer) -> None:
+        """Ask, and work on what comes of the answer; where nothing does, the screen stays, HOME too."""
         word, service = await self.ask(offer.ask), self.service
-        if service is not None:
-            self.adopt(await self.on_disk(lambda: service.answer(document, offer, word)))
+        if service is None:
+            return
+        opened = await self.on_disk(lambda: service.answer(document, offer, word))
+        if opened.document is not document:
+            self.adopt(opened)
+        else:
+            self.tell_and_ask(opened)
 
     async def ask(self, ask: Ask) -> str:
         """The word of the answer to a question; only in a worker."""

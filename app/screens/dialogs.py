@@ -116,13 +116,10 @@ class Question(ModalScreen[str]):
         self.dismiss(word)
 
     def on_key(self, event: events.Key) -> None:
-        """A letter gives its answer at once, so does F1 for the first, and so on."""
+        """A letter gives its answer at once; the softkeys beside the box are those of the screen behind it."""
         letter = (event.character or "").upper()
-        words = [answer.word for answer in self.answers]
-        keys = {f"{key}{number}": word for key in ("f", "alt+") for number, word in enumerate(words, 1)}
-        word = keys.get(event.key) or next(
-            (answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter)), None
-        )
+        words = (answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter))
+        word = next(words, None)
         if word is not None and self.readable:
             event.stop()
             self.dismiss(word)

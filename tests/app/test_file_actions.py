@@ -21,6 +21,7 @@ from app.file_actions import session_of
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen, Surveyed
 from core.program.model import Number
+from core.units import Unit
 from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 
@@ -84,6 +85,48 @@ async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo
         await one.press("r")
         assert one.session.block.segments[0].x_end == Number(5.5)
         assert one.session.history.undo_count == 1
+
+
+@asynccontextmanager
+async def at_home(folder: Path, **options) -> AsyncIterator[Operator]:
+    """The program as it starts without a file: HOME, and a question where work was left that has no name."""
+    service = DocumentService(state=folder / "own", **options)
+    opened = service.new(offers=True)
+    app = CutcompApp(
+        session_of(opened.document),
+        surroundings=SURROUNDINGS,
+        service=service,
+        opened=opened,
+        home=True,
+        settings_file=SettingsFile(folder / "settings.toml", Settings()),
+    )
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Operator(app, pilot)
+        await one.settle()
+        yield one
+        await one.settle()
+    service.stop()
+
+
+@pytest.mark.parametrize(
+    ("key", "left"), [("escape", 1), ("d", 0)], ids=["asked again at the next start", "kept as a backup"]
+)
+async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key, left):
+    async with at_home(folder, me=DEAD) as one:
+        await one.press("f3", "'2", "enter")
+        [journal] = (folder / "own").glob("unnamed-*")
+        kept = journal.read_bytes()
+    journal.write_bytes(kept)
+    async with at_home(folder) as one:
+        assert isinstance(one.app.screen, Question)
+        await one.press("f3", "f1")
+        assert isinstance(one.app.screen, Question), "no softkey of the screen behind it answers"
+        await one.press(key)
+        assert isinstance(one.app.screen, HomeScreen)
+        await one.press("f3")
+        assert one.session.program.unit is Unit.MM
+    async with at_home(folder) as one:
+        assert sum(isinstance(screen, Question) for screen in one.app.screen_stack) == left
 
 
 async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
