@@ -628,7 +628,7 @@ class ContourScreen(FormScreen):
         if isinstance(widget, ChoiceField) and widget.name in SWITCHED:
             widget.action_step(1)
         elif isinstance(widget, ChoiceField):
-            widget.action_show_overlay()
+            widget.action_spell_or_list()
         elif widget is not None and widget.name == "lookahead":
             self.app.call_later(self.app.run_action, "app.lookahead")
         elif widget is not None and widget.name in LISTED:

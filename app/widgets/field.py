@@ -165,7 +165,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
     """A choice: Space lists, left and right step, letters spell."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("space", "show_overlay", "List", show=False),
+        Binding("space", "spell_or_list", "List", show=False),
         Binding("left", "step(-1)", "Choice before", show=False),
         Binding("right", "step(1)", "Next choice", show=False),
         Binding("delete,backspace", "blank", "Blank again", show=False),
@@ -215,6 +215,14 @@ class ChoiceField(Select[str], inherit_bindings=False):
         """Go to the next choice, or to the one before."""
         here = self.choices.index(self.value) if self.value in self.choices else -1 if by > 0 else 0
         self.value = self.choices[(here + by) % len(self.choices)]
+
+    def action_spell_or_list(self) -> None:
+        """Open the list; between two words of a choice that is being spelled the blank belongs to it."""
+        spelled = f"{self._spelled} "
+        if self._spelled and self._choice_spelled(spelled) is not None:
+            self._spelled = spelled
+        else:
+            self.action_show_overlay()
 
     def action_blank(self) -> None:
         """Take back what was picked."""

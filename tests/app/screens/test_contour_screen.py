@@ -10,6 +10,7 @@ from textual.widgets import DataTable, OptionList
 from app.screens.palette import Palette
 from app.session.derivation import Request, derived
 from app.session.work import Work
+from app.widgets.field import ChoiceField
 from app.widgets.findings_list import FindingsList
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
@@ -112,6 +113,15 @@ async def test_f1_on_start_deletes_nothing():
         await one.press("f1")
         assert one.prompt == "START cannot be deleted."
         assert one.session.history.undo_count == 0
+
+
+async def test_a_choice_of_two_words_is_spelled_with_its_blank():
+    async with operator() as one:
+        await one.press("down", "down", *"profile", "space", *"right")
+        assert one.value("cutter_comp") == "PROFILE RIGHT"
+        assert not one.screen.query_one("#fields ChoiceField", ChoiceField).expanded
+        await one.press("up", "down", "space")
+        assert one.screen.query_one("#fields ChoiceField", ChoiceField).expanded
 
 
 async def test_a_choice_is_spelled_stepped_and_listed():
