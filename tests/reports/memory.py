@@ -56,7 +56,7 @@ def inside(pipe: int, seed: int, part: str, rate: float) -> int:
 
 @dataclass
 class Told:
-    """Where the next keys go: names, one a line; `keys` counts them."""
+    """Where the next keys go: names, one a line; `keys` counts them, another program comes at `next_life`."""
 
     pipe: int
     chance: Random
@@ -64,6 +64,7 @@ class Told:
     rate: float
     waiting: list[str] = field(default_factory=list)
     keys: int = 0
+    next_life: int = LIFE
 
     def tell(self, app: Any, monkey: Any) -> None:
         """The next key for this screen."""
@@ -94,7 +95,10 @@ def _told(kind: type[Any], told: Told) -> type[Any]:
         def next(self) -> None:
             program = self.session.program
             large = sum(len(block.segments) for block in program.blocks) > LARGEST or len(program.blocks) > 5
-            if large or told.keys % LIFE == LIFE - 1:
+            # a file that is just being opened is nobody's yet
+            if (large or told.keys >= told.next_life) and not any(
+                worker.group == "question" and worker.is_running for worker in self.workers
+            ):
                 another_life(self, told)
             told.tell(self, monkey)
 
@@ -110,6 +114,7 @@ def _told(kind: type[Any], told: Told) -> type[Any]:
 
 def another_life(app: Any, told: Told) -> None:
     """Another program, HOME, or an NC program under proof."""
+    told.next_life = told.keys + LIFE
     part = told.chance.choice(("pocket.toml", "plate-mm.toml", "part.nc"))
     if part != "part.nc":
         shutil.copy(ROOT / "app" / "examples" / part, told.cage)
