@@ -14,7 +14,16 @@ from textual.widget import Widget
 from textual.widgets import DataTable, Label
 
 from app.documents.tool_tables import tool_line
-from app.screens.contour_cells import cells_at, fields_at, form_at, run_here, run_label, run_trouble, value_at
+from app.screens.contour_cells import (
+    RIGHT_COLUMN,
+    cells_at,
+    fields_at,
+    form_at,
+    run_here,
+    run_label,
+    run_trouble,
+    value_at,
+)
 from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
@@ -396,8 +405,9 @@ class ContourScreen(FormScreen):
         return fields_at(self.current_session)
 
     def names(self) -> list[str]:
-        """SEGMENT stands before the first field."""
-        return [SEGMENT, *super().names()]
+        """SEGMENT, the left column, the right one: SOLUTION comes last for Enter, yet stands in the left one."""
+        right = RIGHT_COLUMN[form_at(self.current_session)]
+        return [SEGMENT, *sorted(super().names(), key=right.__contains__)]
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
         """SEGMENT, or a field of the form."""

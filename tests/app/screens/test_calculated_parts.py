@@ -26,7 +26,7 @@ from tests.rs274 import Ran, run
 from tests.terminal import Terminal, cutcomp, running
 
 PATIENCE = 60.0
-TAB, ENTER, PAGE_UP, PAGE_DOWN, SAVE = b"\t", b"\r", b"\x1b[5~", b"\x1b[6~", b"\x13"
+TAB, BACK_TAB, ENTER, PAGE_UP, PAGE_DOWN, SAVE = b"\t", b"\x1b[Z", b"\r", b"\x1b[5~", b"\x1b[6~", b"\x13"
 FEED = 444.0
 Point = tuple[float, float]
 
@@ -41,14 +41,14 @@ def start(x: float, y: float, side: str = "") -> bytes:
 
 
 def fields(form: Form, typed: dict[str, float | bool]) -> bytes:
-    """Values typed into a segment, from its first field on; TANGENT and SOLUTION are switched by Space."""
-    names = [*(field.name for field in TABLES[form]), "choice"]
+    """Values typed into a segment, from its first field on; Space switches TANGENT, and SOLUTION, where Enter goes."""
+    names = [field.name for field in TABLES[form]]
     here, keys = 0, b""
-    for name in sorted(typed, key=names.index):
+    for name in sorted(typed.keys() - {"choice"}, key=names.index):
         keys += TAB * (names.index(name) - here)
-        keys += b" " if name in ("tangent", "choice") else f"{typed[name]:g}".encode()
+        keys += b" " if name == "tangent" else f"{typed[name]:g}".encode()
         here = names.index(name)
-    return keys
+    return keys + ENTER + b" " if "choice" in typed else keys
 
 
 def line(**typed: float | bool) -> bytes:
@@ -72,7 +72,6 @@ class Drawing:
 
     keys: bytes
     segments: int
-    first: Form
     moves: Callable[[], Sequence[Point | tuple[Point, Point]]]
 
 
@@ -144,7 +143,6 @@ DRAWINGS = {
     "rounded corner": Drawing(
         start(0, 0) + line(angle=30) + PAGE_DOWN + blend(5) + PAGE_DOWN + line(x_end=100, y_end=0, angle=300),
         3,
-        Form.LINE,
         rounded_corner,
     ),
     "square fillet": Drawing(
@@ -155,7 +153,6 @@ DRAWINGS = {
         + PAGE_DOWN
         + line(x_end=60, y_end=40, angle=90, tangent=True),
         3,
-        Form.LINE,
         square_fillet,
     ),
     "three arcs": Drawing(
@@ -166,7 +163,6 @@ DRAWINGS = {
         + PAGE_DOWN
         + arc("ccw", x_end=80, y_end=45, x_center=80, y_center=30, radius=15, tangent=True, choice=True),
         3,
-        Form.ARC,
         three_arcs,
     ),
     "cam": Drawing(
@@ -181,7 +177,6 @@ DRAWINGS = {
         + PAGE_DOWN
         + arc("ccw", x_end=-20, y_end=0, x_center=0, y_center=0, radius=20, tangent=True, choice=True),
         5,
-        Form.ARC,
         cam,
     ),
     "angled slot": Drawing(
@@ -202,7 +197,6 @@ DRAWINGS = {
         + PAGE_DOWN
         + line(x_end=0, y_end=0),
         8,
-        Form.LINE,
         slot,
     ),
 }
@@ -234,8 +228,8 @@ def key_in(path: Path, own: dict[str, str], drawing: Drawing) -> None:
         terminal.read(quiet=0.3)
         terminal.send(drawing.keys + TAB + SAVE)
         wait_for_file(terminal, path, lambda program: len(program.blocks[0].segments) >= drawing.segments)
-        to_feed = [field.name for field in TABLES[drawing.first]].index("feed")
-        terminal.send(PAGE_UP * (drawing.segments - 1) + TAB * (to_feed + 1) + f"{FEED:g}".encode() + TAB)
+        # FEED and TANGENT are the last fields
+        terminal.send(PAGE_UP * (drawing.segments - 1) + BACK_TAB * 2 + f"{FEED:g}".encode() + TAB)
         terminal.until("444.0", longest=PATIENCE)
         terminal.until("not saved", longest=PATIENCE)
         os.kill(terminal.pid, signal.SIGKILL)

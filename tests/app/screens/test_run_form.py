@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from app.screens.contour_cells import fields_at
+from app.screens.contour import ContourScreen
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from core.draw.scene import Style
@@ -32,8 +32,8 @@ def header(one: Operator) -> str:
 async def to(one: Operator, segment: int, field: str) -> None:
     """The cursor to a field of a segment."""
     await one.press("ctrl+home", *["pagedown"] * segment)
-    names = [each.name for each in fields_at(one.session)]
-    await one.press(*["tab"] * (1 + names.index(field)))
+    assert isinstance(one.screen, ContourScreen)
+    await one.press(*["tab"] * one.screen.names().index(field))
     assert one.at == field
 
 
