@@ -460,7 +460,7 @@ class FileActions(App[int]):
         result = await self._written(proof.document, path)
         if isinstance(result, Saved):
             proof.saved(result.document)
-            self.notify(result.notice.text, timeout=4)
+            self.notify(result.notice.text, timeout=4, markup=False)
         return isinstance(result, Saved)
 
     async def output_named(self, text: str, suffix: str, file: Path | None) -> Path:
@@ -550,7 +550,7 @@ class FileActions(App[int]):
         if self.document.file.path is not None:
             self.keep_settings(self.settings.using(self.document.file.path))
         self.quiet()
-        self.notify(result.notice.text, timeout=4)
+        self.notify(result.notice.text, timeout=4, markup=False)
         return True
 
     @property

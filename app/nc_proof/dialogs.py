@@ -37,7 +37,6 @@ class ChooseControl(ModalScreen[str]):
                     for choice in choices()
                 ),
                 id="controls",
-                compact=True,
             )
 
     def on_mount(self) -> None:
@@ -69,7 +68,7 @@ class CompareControls(ModalScreen[str]):
         """The list, empty until the controls have answered."""
         with Vertical(id="compare-box", classes="wide-box"):
             yield Static("Every control is running the program ...", id="compare-wait")
-            yield OptionRows(id="compared", compact=True)
+            yield OptionRows(id="compared")
 
     def on_mount(self) -> None:
         """Ask all controls."""

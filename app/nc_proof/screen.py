@@ -109,15 +109,15 @@ class ProofScreen(BaseScreen):
         with Vertical(id="proof-title"):
             with Horizontal(classes="head"):
                 yield Label("NC PROOF", classes="head-label")
-                yield Label(id="proof-control", classes="head-kind")
-                yield Label(id="proof-file", classes="head-note")
+                yield Label(id="proof-control", classes="head-kind", markup=False)
+                yield Label(id="proof-file", classes="head-note", markup=False)
             with Horizontal(classes="head"):
-                yield Static(id="proof-outcome")
-                yield Label(id="proof-tools", classes="head-note")
+                yield Static(id="proof-outcome", markup=False)
+                yield Label(id="proof-tools", classes="head-note", markup=False)
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")
-        yield OptionRows(id="proof-findings", classes="panel", compact=True)
+        yield OptionRows(id="proof-findings", classes="panel")
 
     def on_mount(self) -> None:
         """The text, the cursor where it was, and the first run."""

@@ -41,9 +41,9 @@ class Calculator(ModalScreen[str]):
         with Vertical(id="question"):
             for quantity in self.case.inputs:
                 with Horizontal(classes="field"):
-                    yield Label(quantity.label, classes="label")
+                    yield Label(quantity.label, classes="label", markup=False)
                     yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
-            yield OptionRows(id="answers", compact=True)
+            yield OptionRows(id="answers")
             yield Static(id="number-trouble", markup=False)
 
     def on_mount(self) -> None:

@@ -172,14 +172,14 @@ class ContourScreen(FormScreen):
                 form.border_title = "MILL CONTOUR"
                 with Horizontal(id="block", classes="head"):
                     yield Label("BLOCK", classes="head-label")
-                    yield Label(id="block-number", classes="head-value")
+                    yield Label(id="block-number", classes="head-value", markup=False)
                     yield Label("MILL CONTOUR", classes="head-kind")
-                    yield Label(id="file", classes="head-note")
+                    yield Label(id="file", classes="head-note", markup=False)
                 with Horizontal(id="segment-line", classes="head"):
                     yield Label("SEGMENT", id="segment-label", classes="head-label")
                     yield SegmentField(SEGMENT, str(session.place.segment), id=SEGMENT)
-                    yield Label(id="segment-kind", classes="head-kind")
-                    yield Label(id="segment-count", classes="head-note")
+                    yield Label(id="segment-kind", classes="head-kind", markup=False)
+                    yield Label(id="segment-count", classes="head-note", markup=False)
                 with Vertical(id="fields"):
                     yield self._made_form(session)
             yield Verdict(id="verdict", classes="panel")
@@ -674,7 +674,7 @@ class ContourScreen(FormScreen):
         session, place = self.current_session, self.current_session.place
         label = f"DELETE SEGMENT {place.segment}, block {place.block}"
         if self.host.apply(delete_segment(session.program, place), label):
-            self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
+            self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3, markup=False)
 
     def action_recalculate(self) -> None:
         """The calculated look-ahead comes back."""

@@ -59,9 +59,7 @@ class Question(ModalScreen[str]):
         """A framed box: the loss, then one answer a line."""
         with Vertical(id="question", classes="-wide" if self.details else ""):
             yield Static("\n".join((*self.lines, *self.details)), id="loss", markup=False)
-            yield OptionRows(
-                *(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers", compact=True
-            )
+            yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
 
     def on_mount(self) -> None:
         """The safe answer is chosen."""
@@ -206,7 +204,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
             yield Static("\n".join(self.lines), id="loss", markup=False)
             for number, entry in enumerate(self.entries):
                 with Horizontal(classes="field"):
-                    yield Label(entry.label, classes="label")
+                    yield Label(entry.label, classes="label", markup=False)
                     yield LineInput(entry.text, id=f"number-{number}", classes="number")
             yield Static(id="number-trouble", markup=False)
 
@@ -256,7 +254,7 @@ class ChooseLine(ModalScreen[str]):
     def compose(self) -> ComposeResult:
         """A framed list."""
         with Vertical(id="question"):
-            yield OptionRows(*(Option(words, id=result) for result, words in self.rows), id="answers", compact=True)
+            yield OptionRows(*(Option(words, id=result) for result, words in self.rows), id="answers")
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
@@ -291,7 +289,7 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
         """A framed list."""
         with Vertical(id="question"):
             yield Static("Space marks, Enter takes what is marked.", id="loss", markup=False)
-            yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers", compact=True)
+            yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
 
     def on_mount(self) -> None:
         """The cursor on the first row."""

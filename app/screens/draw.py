@@ -98,9 +98,9 @@ class DrawScreen(BaseScreen):
         """Title, chips, the drawing, and on a wide terminal the findings beside it."""
         with Horizontal(classes="head"):
             yield Label("BLOCK", classes="head-label")
-            yield Label(id="draw-block", classes="head-value")
-            yield Label(id="draw-segment", classes="head-kind")
-        yield Label(id="draw-chips")
+            yield Label(id="draw-block", classes="head-value", markup=False)
+            yield Label(id="draw-segment", classes="head-kind", markup=False)
+        yield Label(id="draw-chips", markup=False)
         with Horizontal(id="draw-body"):
             with Vertical(id="draw-picture"):
                 yield FullDrawing(id="full-drawing")

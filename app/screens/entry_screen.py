@@ -35,10 +35,10 @@ class EntryScreen(BaseScreen):
         """Title, entry, the rest."""
         with Vertical(id="entry-form", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label(self.TITLE, classes="head-title")
+                yield Label(self.TITLE, classes="head-title", markup=False)
                 yield from self.compose_head()
             with Horizontal(id="entry-line", classes="field"):
-                yield Label(self.LABEL, classes="label")
+                yield Label(self.LABEL, classes="label", markup=False)
                 yield LineInput(self._text, id="entry", select_on_focus=True)
             yield from self.compose_rest()
 

@@ -85,7 +85,7 @@ class HelpScreen(BaseScreen):
         with Horizontal(classes="head"):
             yield Label("HELP", classes="head-title")
         with VerticalScroll(id="help-text"):
-            yield Static(id="help-lines")
+            yield Static(id="help-lines", markup=False)
 
     @on(events.Resize)
     def _fill(self) -> None:

@@ -69,7 +69,7 @@ class HomeScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """The folder, its programs, the drawing of the one with the cursor."""
         with Vertical(id="files", classes="panel -bare"):
-            yield Static(id="folder", classes="head")
+            yield Static(id="folder", classes="head", markup=False)
             yield DataTable(id="programs", cursor_type="row")
         yield Drawing(id="preview")
 

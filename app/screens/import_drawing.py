@@ -705,7 +705,7 @@ class ImportScreen(BaseScreen):
         self.host.move(FormPlace(first))
         self.host.action_contour()
         which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
-        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4)
+        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4, markup=False)
         notes = [note for block in blocks for note in block.notes]
         if notes:
             rest = f" {len(notes) - MAX_NOTES} more notes." if len(notes) > MAX_NOTES else ""

@@ -42,7 +42,7 @@ class ImportToolsScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """The unit, then the faults."""
-        yield Static(id="table-unit")
+        yield Static(id="table-unit", markup=False)
         yield Static(id="table-faults", markup=False)
 
     def on_mount(self) -> None:
@@ -78,7 +78,7 @@ class ImportToolsScreen(EntryScreen):
         ask = Question("IMPORT?", list(changes(program, table.tools)), [Answer("IMPORT")], "GO BACK")
         if await self.app.push_screen_wait(ask) == "IMPORT":
             self.host.apply(merged(program, table.tools), "IMPORT TOOL TABLE")
-            self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4)
+            self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4, markup=False)
             self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:

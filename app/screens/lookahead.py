@@ -48,7 +48,7 @@ class LookaheadScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """A title, the table, the drawing of the chosen value."""
         with Vertical(id="lookahead", classes="panel -bare"):
-            yield Static(id="lookahead-title", classes="head")
+            yield Static(id="lookahead-title", classes="head", markup=False)
             yield DataTable(id="values", cursor_type="row")
         yield Drawing(id="value-path")
 

@@ -52,7 +52,7 @@ class SettingsForm(FormScreen):
         """A title and the form."""
         with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label(self.NAME, classes="head-title")
+                yield Label(self.NAME, classes="head-title", markup=False)
             yield Form(self._cells(self.host.session), id="settings-form", classes="fields")
 
     def on_mount(self) -> None:

@@ -71,18 +71,17 @@ class PostScreen(EntryScreen):
 
     def compose_head(self) -> ComposeResult:
         """The unit of the file, for whoever loads it at the machine."""
-        yield Label(UNITS[self.current_session.program.unit], classes="head-unit")
+        yield Label(UNITS[self.current_session.program.unit], classes="head-unit", markup=False)
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
         yield OptionRows(
             *(Option(Content.assemble(f"{name:<19}", (words, "$c-label")), id=name) for name, words in choices()),
             id="post-controls",
-            compact=True,
         )
         with Horizontal(id="post-answer"):
-            yield Static(id="post-findings")
-            yield Static(id="post-preview")
+            yield Static(id="post-findings", markup=False)
+            yield Static(id="post-preview", markup=False)
 
     def on_mount(self) -> None:
         """The path of the tool's center is chosen."""
@@ -229,6 +228,6 @@ class PostScreen(EntryScreen):
         if written is None:
             return
         lines = made.text.count("\n")
-        self.notify(f"Posted: {written}, {lines} lines.", timeout=5)
+        self.notify(f"Posted: {written}, {lines} lines.", timeout=5, markup=False)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

@@ -69,8 +69,8 @@ class ProgramScreen(BaseScreen):
         with Vertical(id="program", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield Label("PROGRAM", classes="head-label")
-                yield Label(id="block-count", classes="head-kind")
-                yield Label(id="program-file", classes="head-note")
+                yield Label(id="block-count", classes="head-kind", markup=False)
+                yield Label(id="program-file", classes="head-note", markup=False)
             yield DataTable(id="blocks", cursor_type="row")
         yield Drawing(id="block-drawing")
 
@@ -175,7 +175,7 @@ class ProgramScreen(BaseScreen):
         """Delete the block with the cursor."""
         at = self.chosen
         if self.host.apply(delete_block(self.current_session.program, at), f"DELETE BLOCK {at}"):
-            self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)
+            self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3, markup=False)
 
     def action_copy_block(self) -> None:
         """A copy of the block with the cursor, after it."""

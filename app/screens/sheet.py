@@ -83,7 +83,7 @@ class SheetScreen(EntryScreen):
         written = await self.host.write(path, made)
         if written is None:
             return
-        self.notify(f"Setup sheet: {written}", timeout=4)
+        self.notify(f"Setup sheet: {written}", timeout=4, markup=False)
         self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:

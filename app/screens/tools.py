@@ -96,11 +96,11 @@ class ToolsScreen(FormScreen):
                 yield Label("TOOL SETUP", classes="head-title")
             with Horizontal(id="tool-headings"):
                 for field in TOOL:
-                    yield Label(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}")
+                    yield Label(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}", markup=False)
             with VerticalScroll(id="tool-rows", can_focus=False):
                 yield from self._rows(self.host.session)
-                yield Static(EMPTY, id="no-tools")
-        yield Static(id="tool-use")
+                yield Static(EMPTY, id="no-tools", markup=False)
+        yield Static(id="tool-use", markup=False)
 
     def _rows(self, session: Session) -> list[ToolRow]:
         return [ToolRow(_cells(tool, row, session)) for row, tool in enumerate(session.program.tools)]
@@ -228,7 +228,7 @@ class ToolsScreen(FormScreen):
         if tool is not None and self.host.apply(
             delete_tool(self.current_session.program, tool.number), f"DELETE TOOL {tool.number}"
         ):
-            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
+            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3, markup=False)
 
     def action_leave(self) -> None:
         """The old value back; at rest the screen before."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, work
+from textual.content import Content
 from textual.geometry import Region, Size
 from textual.message import Message
 from textual.reactive import reactive
@@ -172,8 +173,8 @@ class Drawing(Widget):
         framed = self.styles.border_bottom[0] not in ("", "none")
         together = f"{self.heading}   {bar}".strip()
         fits = len(together) + 4 <= self.size.width
-        self.border_title = together if not framed and fits else self.heading
-        self.border_subtitle = bar if framed else ""
+        self.border_title = Content(together if not framed and fits else self.heading)
+        self.border_subtitle = Content(bar if framed else "")
 
     def notify_style_update(self) -> None:
         """Other colors: the same picture in them."""

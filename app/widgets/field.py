@@ -14,6 +14,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal
 from textual.content import Content
 from textual.geometry import Size
+from textual.markup import escape
 from textual.message import Message
 from textual.reactive import Reactive
 from textual.strip import Strip
@@ -106,7 +107,7 @@ class NumberField(LineInput):
     @property
     def edited(self) -> bool:
         """Something has been typed that the program does not hold."""
-        return self.value.strip() not in (self.resting, self.full)
+        return self.value.strip() not in (self.resting.strip(), self.full.strip())
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
         """Every printable key is typed, but ? asks for help, = calculates, and Space lists what a field takes."""
@@ -192,7 +193,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
         self._spelled = ""
         super().__init__(
             [(choice, choice) for choice in choices],
-            prompt=prompt or "?",
+            prompt=escape(prompt) or "?",
             value=text if text in self.choices else Select.NULL,
             allow_blank=blank or text not in self.choices,
             compact=True,
@@ -203,7 +204,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
         """Show the choice that the program holds, among other choices where they have changed, or the prompt."""
         with self.prevent(Select.Changed):
             if prompt:
-                self.prompt = prompt
+                self.prompt = escape(prompt)
             if choices and tuple(choices) != self.choices:
                 self.choices = tuple(choices)
                 self.set_options([(choice, choice) for choice in choices])
@@ -295,7 +296,7 @@ class FieldRow(Horizontal):
         cell = self.cell
         yield FieldLabel(cell)
         if cell.state is State.READ_ONLY:
-            yield Label(cell.text, classes="value")
+            yield Label(cell.text, classes="value", markup=False)
         elif cell.choices or cell.folds:
             yield ChoiceField(cell.name, cell.choices, cell.text, prompt=cell.full, blank=cell.folds)
         else:

@@ -71,7 +71,7 @@ class FindingsList(OptionRows):
             self.number = number
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
-        super().__init__(id=id, classes=classes, compact=True)
+        super().__init__(id=id, classes=classes)
         self._width = 0
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 

@@ -6,6 +6,7 @@ from rich.segment import Segment
 from rich.style import Style
 from textual.strip import Strip
 from textual.widgets import OptionList
+from textual.widgets.option_list import Option
 
 REVERSED = Style(reverse=True, underline=False)
 
@@ -14,8 +15,11 @@ class OptionRows(OptionList):
     """The list; its line with the cursor has the cursor's ink alone, or is reversed where there are no colors.
 
     Textual gives options no reverse: where the style sheet means it, it says underline.  While the list has no room, a
-    page up or down is no step: Textual's own fails then.
+    page up or down is no step: Textual's own fails then.  Brackets in an option are no markup: a file may have them.
     """
+
+    def __init__(self, *options: Option | None, id: str | None = None, classes: str | None = None) -> None:
+        super().__init__(*options, id=id, classes=classes, compact=True, markup=False)
 
     def render_line(self, y: int) -> Strip:
         """A line, that of the cursor in the cursor's looks."""

@@ -112,8 +112,8 @@ class Softkeys(Vertical):
         """Eight labels, then the rest."""
         yield from self._labels
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
-        yield Static(Text("\n").join(more), id="more")
-        yield Static(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend")
+        yield Static(Text("\n").join(more), id="more", markup=False)
+        yield Static(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend", markup=False)
 
     def on_mount(self) -> None:
         """Show the keys as they are."""

@@ -45,9 +45,9 @@ class Status(Horizontal):
 
     def compose(self) -> ComposeResult:
         """Three labels."""
-        yield Label("", id="units")
-        yield Label("", id="undo")
-        yield Label("", id="clock")
+        yield Label("", id="units", markup=False)
+        yield Label("", id="undo", markup=False)
+        yield Label("", id="clock", markup=False)
 
     def on_mount(self) -> None:
         """Read the clock from now on."""

@@ -119,8 +119,8 @@ class Verdict(Vertical):
 
     def compose(self) -> ComposeResult:
         """The strip and the chips."""
-        yield Static(id="strip")
-        yield Static(id="chips")
+        yield Static(id="strip", markup=False)
+        yield Static(id="chips", markup=False)
 
     def watch_case(self) -> None:
         """Another path."""

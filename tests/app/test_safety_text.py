@@ -19,8 +19,9 @@ from core.units import Kind
 from tests.core.program.parts import line, program
 from tests.terminal import cutcomp, running
 
-EVIL = "\x1b]0;a\x07\x1b[2J\u009b5n\x7f\r\u202e)(M30%\u2028"
-"""A title, a cleared screen, a question to the terminal, a reversed line, an end of the comment, a new line."""
+EVIL = "\x1b]0;a\x07\x1b[2J\u009b5n\x7f\r\u202e[/q])(M30%\u2028"
+"""A title, a cleared screen, a question to the terminal, a reversed line, markup of Textual that it would refuse, an
+end of the comment, a new line."""
 
 
 ESCAPES = ("\x1b]0;", "\x1b[2J")
@@ -39,7 +40,7 @@ HOSTILE = (
     + unread(Form.PARAMETERS, "parameters")
     + '[setup]\nname = "A (MSG, B) % \u00d8"\n'
     + unread(Form.SETUP, "setup")
-    + '[[tool]]\nnumber = 1\ntype = ") (MSG, x) %"\n'
+    + '[[tool]]\nnumber = 1\ntype = ") [/q] (MSG, x) %"\n'
     + unread(Form.TOOL, "tool")
     + '[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "LEFT"\n'
     + unread(Form.START, "block")
@@ -54,7 +55,8 @@ HOSTILE = (
 
 @pytest.fixture
 def part(tmp_path: Path) -> Path:
-    path = tmp_path / "a\x1b[2J\u202eb.toml"
+    path = tmp_path / "c[" / "d]a\x1b[2J\u202eb.toml"
+    path.parent.mkdir()
     path.write_text(HOSTILE, encoding="utf-8")
     return path
 
@@ -74,7 +76,7 @@ KEYS = (
     *(b"\x1b[20~", b"\x1b[20~", b"\x1b[21~", b"\x1b[21~", b"\x13", b"\x1b8", b"\x0f", b"\x1b8"),
     *(b"\x1b[1;5H\t9\r", b"\x1a", b"\x1b[19~", b"\x1bOR", b"\x1b8", b"\x11"),
 )
-"""Through every screen of a program, to the question at the end."""
+"""Through every screen of a program, and out."""
 
 
 def test_every_screen(part: Path) -> None:
@@ -84,14 +86,19 @@ def test_every_screen(part: Path) -> None:
         for key in KEYS:
             terminal.send(key)
             terminal.read(quiet=0.05, longest=0.5)
-        terminal.read(quiet=0.3)
+        for _ in range(100):
+            terminal.read(quiet=0.1, longest=0.2)
+            if (ended := terminal.ended()) is not None:
+                break
         sent = bytes(terminal.seen).decode()
-    assert "M30" in sent, "nothing of it was shown"
+    assert ended == 0, "it has failed, or the last key, which leaves it, never came to its turn"
+    assert sent.count("[/q]") > 10, "nothing of it was shown"
     assert [evil for evil in (*ESCAPES, "\x7f", "\u202e", "\u2028", "\u009b") if evil in sent] == []
 
 
 def test_a_hostile_nc_text(tmp_path: Path) -> None:
-    nc = tmp_path / "evil.nc"
+    nc = tmp_path / "c[" / "d]evil.nc"
+    nc.parent.mkdir()
     nc.write_text(f"G20\n({EVIL.replace(chr(13), '')})\nM30\n", encoding="utf-8")
     with running(cutcomp(str(nc)), cwd=str(tmp_path)) as terminal:
         terminal.until("NC PROOF", longest=20.0)

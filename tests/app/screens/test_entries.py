@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+
+import pytest
 from textual import events
 from textual.widgets import Static
 
 from app.screens.contour import ContourScreen
 from app.widgets.field import NumberField
+from core.program.file.read import loads
 from core.program.model import Number
 from tests.app.widget_pilot import operator
 
@@ -69,3 +73,17 @@ async def test_pasted_text_takes_no_field_and_presses_no_key():
         assert one.at == "x_start"
         assert one.session.history.undo_count == 0
         assert len(one.session.block.segments) == 11
+
+
+@pytest.mark.parametrize("text", [" b ", "b\u2028", "\tb"])
+async def test_the_cursor_leaves_fields_whose_text_a_file_has_with_blanks_around_it(text: str):
+    unread = f"[block.unread]\nfinish_tool = {json.dumps(text)}\nx_start = {json.dumps(text)}\n"
+    start = loads(f'format = 1\nunits = "IN"\n[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "ON"\n{unread}', "part")
+    async with operator(start) as one:
+        await one.press(*["tab"] * 3)
+        assert one.at == "finish_tool"
+        await one.press("tab")
+        assert one.at == "x_start"
+        await one.press("shift+tab")
+        assert one.at == "finish_tool"
+        assert one.session.history.undo_count == 0
