@@ -13,6 +13,7 @@ from app.documents.journal import Journal, Kind, Place
 from app.documents.journal_file import Record
 from app.documents.lock import Owner
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
+from app.documents.programs import empty_program
 from core.program import history as program_history
 from core.program.edit import FormPlace
 from core.program.file.read import StoreError, loads_bytes
@@ -215,8 +216,11 @@ class ContourDocument:
             return None
 
     def differences(self, journal: Journal) -> tuple[str, ...]:
-        """What the program of a journal has otherwise."""
-        return program_history.differences(self.program, _history_of(journal).program)
+        """What the program of a journal has otherwise; a new program is compared in the units of the journal's."""
+        mine, left = self.program, _history_of(journal).program
+        if mine.unit is not left.unit and mine == empty_program(mine.unit):
+            mine = empty_program(left.unit)
+        return program_history.differences(mine, left)
 
     def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
         """What a file's program has otherwise than the saved one, and what this has otherwise than it."""

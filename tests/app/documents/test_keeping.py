@@ -14,8 +14,9 @@ from app.documents.left_overs import read
 from app.documents.lock import lock_path
 from app.documents.programs import example
 from app.documents.service import Opened, Trouble
+from core.units import Unit
 from tests.app.documents.test_journal_file import GONE
-from tests.app.documents.typist import DEAD, names, number_in, service, started
+from tests.app.documents.typist import DEAD, Typist, names, number_in, service, started
 
 
 def test_killed_after_any_edit_everything_comes_back_with_its_undo(own: Path, file: Path) -> None:
@@ -134,6 +135,15 @@ def test_a_program_without_a_name_is_offered_at_the_next_start_and_moves_beside_
     assert list(own.iterdir()) == []
     other.type(3).killed()
     assert started(own, part.with_name("new.toml")).answer("RESTORE").work == other.work
+
+
+def test_a_program_in_millimeters_is_compared_with_a_new_one_in_millimeters(own: Path) -> None:
+    at_work = service(own)
+    Typist(at_work, None).took(at_work.new(Unit.MM)).type(7).killed()
+    asked = started(own).asked
+    assert "Compared with a new program:" in asked
+    assert "units" not in asked
+    assert "BLEND OFFSET" not in asked
 
 
 def test_a_program_that_was_never_saved_is_offered(own: Path, part: Path) -> None:
