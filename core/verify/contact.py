@@ -13,19 +13,15 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.nearby import BoxTree, changes, near_pairs, point_boxes
-from core.geometry.path import Flags, Floats, Path, Rows
+from core.geometry.path import Flags, Path, Rows
 from core.geometry.piece import Point
-from core.geometry.piece_arrays import PieceArrays, at, blocks, direction, piece_arrays
+from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
-from core.verify.pairs import Pairs, along, keeping, measurable, paired, pairs_of, rounding_of
+from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
 from core.verify.uncut import POINT, gaps_of
 
 PARALLEL: Final = 1e-6
 """Sine of the angle up to which a move and the wall it touches run the same way."""
-
-PIECES_AT_A_TIME: Final = 500
-"""Gouging pieces whose walls are looked for at a time: what is worked out for them stays small."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,17 +80,11 @@ def _point(place: complex) -> Point:
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
-    way = _ways(pairs, radius)
-    gouging = np.zeros(len(pairs.pieces), np.bool_)
-    gouging[pairs.i[pairs.least < radius - pairs.grant]] = True
-    undecided = (gouging & (way == 0)).nonzero()[0]
-    if len(undecided):
-        walls, beside = BoxTree.of(pairs.others.boxes), BoxTree.of(_sideways(pairs.others, 0.5, radius))
-        for first in range(0, len(undecided), PIECES_AT_A_TIME):
-            index = undecided[first : first + PIECES_AT_A_TIME]
-            way += _ways(_behind_nearer_walls(pairs, index, radius, walls, beside), radius)
-    return tuple(pairs.pieces.rows[way < 0].tolist())
+    """Rows of pieces that touch walls along more than a point, all of them against the walls' direction.
+
+    The walls nearest to a piece are asked: behind them a piece that gouges may run along others either way.
+    """
+    return tuple(pairs.pieces.rows[_ways(pairs, radius) < 0].tolist())
 
 
 def _ways(pairs: Pairs, radius: float) -> Rows:
@@ -107,30 +97,6 @@ def _ways(pairs: Pairs, radius: float) -> Rows:
     ways[pairs.i[touching[way < 0]]] = -1
     ways[pairs.i[touching[way > 0]]] = 1
     return ways
-
-
-def _behind_nearer_walls(pairs: Pairs, index: Rows, radius: float, walls: BoxTree, beside: BoxTree) -> Pairs:
-    """Pairs of the pieces `index` with all walls that they touch along more than a point, nearest or not.
-
-    There an end of the piece is a radius beside the wall, or the wall's middle is beside the piece: `beside` holds the
-    points a radius from the walls' middles.
-    """
-    pieces, count = pairs.pieces.take(index), len(pairs.others)
-    room = 2.0 * float(pairs.grant.max()) + ON_PATH
-    found = [near_pairs(_sideways(pieces, share, radius), walls, room) for share in (0.0, 1.0)]
-    found.append(near_pairs(pieces.boxes, beside, room))
-    each = np.concatenate([k % len(pieces) * count + j % count for batches in found for k, j in batches])
-    # np.unique takes ten times as long
-    each.sort()
-    k, j = np.divmod(each[changes(each)], count)
-    return paired(pairs.pieces, pairs.others, index[k], j, rounding_of(pairs.others))
-
-
-def _sideways(pieces: PieceArrays, share: float, radius: float) -> Floats:
-    """(4, 2 n) boxes of the points a radius beside the pieces at a fraction of them, on the left and on the right."""
-    t = np.full(len(pieces), share)
-    points, across = at(pieces, t), 1j * radius * direction(pieces, t)
-    return point_boxes(np.concatenate((points + across, points - across)))
 
 
 def _way(pairs: Pairs, radius: float) -> Rows:

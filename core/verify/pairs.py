@@ -78,11 +78,8 @@ def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Ro
     """
     slack = float(pieces.slack.max(initial=0.0) + others.slack.max(initial=0.0))
     i, j = nearest_pairs(pieces if rows is None else pieces.take(rows), others, 4.0 * (rounding + slack) + ON_PATH)
-    return paired(pieces, others, i if rows is None else rows[i], j, rounding)
-
-
-def paired(pieces: PieceArrays, others: PieceArrays, i: Rows, j: Rows, rounding: float) -> Pairs:
-    """These pairs of pieces i and others j, measured."""
+    if rows is not None:
+        i = rows[i]
     grant = rounding + uneven_slack(pieces, i, others, j)
     return Pairs(pieces, others, pieces.stations, i, j, grant, *_measured(pieces, i, others, j))
 
