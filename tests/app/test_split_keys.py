@@ -35,7 +35,7 @@ def on_x_start(part: Path, line: Line | None = None) -> Iterator[Terminal]:
     with running([*PROGRAM, str(part)]) as inner, relayed(inner, line or Line()) as terminal:
         terminal.until("best", longest=30.0)
         terminal.send(b"\t\t\t\t2.5")
-        terminal.until("X START               2.5")
+        terminal.until("X START                 2.5")
         yield terminal
 
 

@@ -71,12 +71,12 @@ def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
 
 def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
-        terminal.until("CUTCOMP LOOKAHEAD CAL       2")
+        terminal.until("CUTCOMP LOOKAHEAD CAL      2")
         terminal.send(b"\t" * 11 + b"4\r")
-        terminal.until("CUTCOMP LOOKAHEAD USR       4")
+        terminal.until("CUTCOMP LOOKAHEAD USR      4")
         terminal.until("DELETED 2-3")
         terminal.send(ESC + b"OR")
-        terminal.until("CUTCOMP LOOKAHEAD CAL       2")
+        terminal.until("CUTCOMP LOOKAHEAD CAL      2")
 
 
 def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
