@@ -40,8 +40,8 @@ class Stretches:
         inside[inside] = (s[inside] > self.first[owner[inside]]) & (s[inside] < self.last[owner[inside]])
         return inside
 
-    def keep(self, chosen: Flags) -> Stretches:
-        """The stretches for which `chosen` (k,) is True."""
+    def keep(self, chosen: Flags | Rows) -> Stretches:
+        """The stretches for which `chosen` (k,) is True, or those of these numbers."""
         return Stretches(self.first[chosen], self.last[chosen])
 
     def part(self, first: int, last: int) -> Stretches:

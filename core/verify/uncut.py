@@ -24,6 +24,9 @@ POINT: Final = 1e-6
 ON_EDGE: Final = 1e-7
 """Millimeters from the cutter's edge at which an end of a gap is on it."""
 
+GAPS_AT_A_TIME: Final = 2_500
+"""Gaps whose ends are looked at together: what is worked out for them stays small."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gaps:
@@ -198,6 +201,14 @@ def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: f
 
 def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     """(k,) the places of the others from which both ends of each gap are reached, and (2, k) which ends are."""
+    corner, reached = np.full(len(index[0]), complex(nan, nan)), np.zeros(ends.shape, np.bool_)
+    for first in range(0, len(corner), GAPS_AT_A_TIME):
+        some = slice(first, first + GAPS_AT_A_TIME)
+        corner[some], reached[:, some] = _some_corners(pairs, index[:, some], ends[:, some], radius)
+    return corner, reached
+
+
+def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     near = [nearest(pairs, rows, points) for rows, points in zip(index, ends, strict=True)]
     reached = np.array([one.apart[one.first] <= radius + 4.0 * ON_PATH for one in near])
     corner = np.full(len(index[0]), complex(nan, nan))
@@ -214,8 +225,10 @@ def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floa
     """(k,) area between each gap and the circle about its corner."""
     parts = gaps.cut(pairs.stations[1:-1])
     owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
-    sectors = _sectors(pairs.pieces.take(piece), parts, pairs.stations[piece], corner[owner], radius)
-    areas = np.zeros(len(gaps))
+    areas, sectors, arcs = np.zeros(len(gaps)), np.empty(len(piece)), pairs.pieces.arcs[piece]
+    for rows in blocks(arcs, arcs):
+        part, on = parts.keep(rows), piece[rows]
+        sectors[rows] = _sectors(pairs.pieces.take(on), part, pairs.stations[on], corner[owner[rows]], radius)
     np.add.at(areas, owner, sectors)
     return areas
 
