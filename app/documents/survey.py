@@ -1,4 +1,4 @@
-"""Survey: what the list of files tells of a program file: its date, blocks, tools and verdict."""
+"""Survey: the files that can be opened, and what the list of them tells of a contour program: date, tools, verdict."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from app.documents.files import load
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from app.documents.lock import alive, user
+from app.documents.naming import is_drawing
+from app.documents.nc_text import NC_SUFFIXES
 from app.documents.patience import FILE, FOLDER, within
 from app.documents.programs import examples, is_program
 from core.finding import Severity
@@ -24,6 +26,8 @@ from core.program.model import Number, Program
 
 MAX_LISTED: Final = 500
 """Files of a folder that are listed; more are reached by typing a path."""
+DRAWING: Final = "drawing"
+NC_PROGRAM: Final = "NC program"
 
 
 class Outcome(StrEnum):
@@ -150,23 +154,24 @@ def day_of(changed: datetime, now: datetime) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Listed:
-    """A line of the list of files: a program, a drawing, a folder, an example, or a kept copy of unsaved work."""
+    """A line of the list of files: a contour program, an example, a folder, a kept copy of unsaved work, or a file of
+    another `kind`, which is a drawing or an NC program."""
 
     path: Path
     name: str
     folder: bool = False
     example: bool = False
-    drawing: bool = False
+    kind: str = ""
     copy: KeptCopy | None = None
 
     @property
     def program(self) -> bool:
-        """Whether it is a program's file."""
-        return self.copy is None and not (self.folder or self.drawing)
+        """Whether it is the file of a contour program."""
+        return self.copy is None and not (self.folder or self.kind)
 
 
 def programs_of(folder: Path) -> tuple[Listed, ...]:
-    """Programs and drawings of a folder, the examples, folders and kept copies; OSError where it cannot be read."""
+    """What a folder holds that can be opened, the examples, and kept copies; OSError where it cannot be read."""
     inside = within(FOLDER, lambda: tuple(_inside(folder)))
     programs = (each for each in inside if not each.folder)
     folders = (each for each in inside if each.folder)
@@ -192,12 +197,20 @@ def _inside(folder: Path) -> Iterator[Listed]:
     with os.scandir(folder) as entries:
         inside = sorted(entries, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
-    drawings = [each for each in inside if each.name.lower().endswith(".dxf") and not each.is_dir()]
-    folders = [each for each in inside if not each.name.startswith(".") and each.is_dir()]
+    shown = [each for each in inside if not each.name.startswith(".")]
+    others = [(each, kind) for each in shown if (kind := _kind(each.name)) and not each.is_dir()]
+    folders = [each for each in shown if each.is_dir()]
     saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
     for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
         yield Listed(path, path.name.removesuffix(".toml"))
-    for each in drawings[:MAX_LISTED]:
-        yield Listed(Path(each.path), each.name, drawing=True)
+    # drawings before NC programs
+    for each, kind in sorted(others, key=lambda other: other[1] != DRAWING)[:MAX_LISTED]:
+        yield Listed(Path(each.path), each.name, kind=kind)
     for each in folders[:MAX_LISTED]:
         yield Listed(Path(each.path), f"{each.name}/", folder=True)
+
+
+def _kind(name: str) -> str:
+    """What a file is by its name, where it is no contour program."""
+    path = Path(name)
+    return DRAWING if is_drawing(path) else NC_PROGRAM if path.suffix.lower() in NC_SUFFIXES else ""

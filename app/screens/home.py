@@ -1,4 +1,4 @@
-"""HOME: the programs of a folder and the example parts, each with its verdict; a new program, a path, the guide."""
+"""HOME: the programs and drawings of a folder and the example parts; a new program, a path, the guide."""
 
 from __future__ import annotations
 
@@ -121,8 +121,8 @@ class HomeScreen(BaseScreen):
         name = Content.styled(each.name, "" if each.example else "bold")
         if each.folder:
             return name, *(Content(""),) * 4
-        if each.drawing:
-            return name, *(Content(""),) * 3, Content.styled("drawing", "$c-label")
+        if each.kind:
+            return name, *(Content(""),) * 3, Content.styled(each.kind, "$c-label")
         if each.copy is not None:
             changed = datetime.fromisoformat(each.copy.time)
             return name, Content(day_of(changed, self.host.now())), Content(""), Content(""), Content(each.copy.word)

@@ -18,6 +18,7 @@ from app.documents.service import DocumentService, Opened
 from app.documents.settings import Settings, SettingsFile, load_settings
 from app.documents.survey import Facts
 from app.file_actions import session_of
+from app.nc_proof.screen import ProofScreen
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen, Surveyed
 from core.program.model import Number
@@ -127,6 +128,18 @@ async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key
         assert one.session.program.unit is Unit.MM
     async with at_home(folder) as one:
         assert sum(isinstance(screen, Question) for screen in one.app.screen_stack) == left
+
+
+async def test_an_nc_program_in_the_list_opens_under_proof(folder):
+    (folder / "job.nc").write_text("G20 G17 G90\nT1 M6\nG0 X1\nM30\n")
+    async with at_home(folder) as one:
+        assert isinstance(one.app.screen, HomeScreen)
+        await one.press("j")
+        assert one.app.screen.chosen is not None
+        assert one.app.screen.chosen.kind == "NC program"
+        await one.press("enter")
+        assert isinstance(one.app.screen, ProofScreen)
+        assert one.app.screen.document.file.path == folder / "job.nc"
 
 
 async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):

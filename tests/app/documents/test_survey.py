@@ -99,3 +99,11 @@ def test_opening_a_file_that_does_not_answer_is_told(own: Path, part: Path, monk
     never.set()
     assert isinstance(opened, Trouble)
     assert "cannot be opened: no answer" in opened.text
+
+
+def test_drawings_and_nc_programs_of_a_folder_are_listed_behind_its_programs(part: Path) -> None:
+    for name in ("a.NC", "b.dxf", "c.tap", "d.pdf", ".e.nc"):
+        (part.parent / name).write_text("M30\n")
+    (part.parent / "f.nc").mkdir()
+    listed = [(each.name, each.kind) for each in programs_of(part.parent) if not (each.folder or each.example)]
+    assert listed == [(part.stem, ""), ("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program")]
