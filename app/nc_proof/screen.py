@@ -436,8 +436,9 @@ class ProofScreen(BaseScreen):
     @work(exclusive=True, group="question")
     async def action_tool(self) -> None:
         """Give a tool or an offset another diameter."""
+        own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         lines = [
-            f"Tool and diameter in {self.unit}: {self.tool}=.5 or 2=12.7mm.",
+            f"Tool and diameter in {self.unit}: {self.tool}={own} or {self.tool}={other}.",
             f"A diameter alone is that of tool {self.tool}.",
         ]
         text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines))
