@@ -26,10 +26,12 @@ from app.documents.questions import (
     DISCARD,
     GO_BACK,
     LEAVE,
+    NEW_PROGRAM,
     SAVE,
     Ask,
     before_output,
     held_sentence,
+    into_which,
     leaving,
     name_of,
     not_answering,
@@ -283,11 +285,28 @@ class FileActions(App[int]):
         elif isinstance(result, Trouble):
             self.say(result.text, Tone.ERROR)
         elif isinstance(result, Path) and is_drawing(result):
-            self.show_drawing(result)
+            await self._open_drawing(result)
         elif isinstance(result, Path):
             self.show_folder(result)
         else:
             await self._begun(result)
+
+    async def _open_drawing(self, path: Path) -> None:
+        """IMPORT on a drawing, into a new program, or into the open one, which is asked unless that is new itself."""
+        service, program = self.service, self.document.program
+        assert service is not None
+        fresh = self.document.is_new
+        if not fresh:
+            word = await self.ask(into_which(path, self.document))
+            if word == GO_BACK:
+                return
+            if word == NEW_PROGRAM:
+                if not await self.may_close("NEW PROGRAM?", self._all_open()):
+                    return
+                await self.close_documents(self._all_open())
+                self.adopt(service.new(program.unit))
+                fresh = True
+        self.show_drawing(path, fresh=fresh)
 
     async def _begun(self, opened: Opened[Any]) -> None:
         """Work on what was opened; of programs there is only one."""

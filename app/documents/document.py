@@ -154,6 +154,11 @@ class ContourDocument:
         return self.history.program
 
     @property
+    def is_new(self) -> bool:
+        """Nothing has been typed into the program yet."""
+        return self.program == empty_program(self.program.unit)
+
+    @property
     def unsaved(self) -> bool:
         """The file does not hold the program as it is now."""
         return self.program is not self.saved_program and self.program != self.saved_program
@@ -218,7 +223,7 @@ class ContourDocument:
     def differences(self, journal: Journal) -> tuple[str, ...]:
         """What the program of a journal has otherwise; a new program is compared in the units of the journal's."""
         mine, left = self.program, _history_of(journal).program
-        if mine.unit is not left.unit and mine == empty_program(mine.unit):
+        if mine.unit is not left.unit and self.is_new:
             mine = empty_program(left.unit)
         return program_history.differences(mine, left)
 

@@ -33,6 +33,8 @@ WRITE_THERE: Final = "WRITE THERE"
 WRITE_ANYWAY: Final = "OVERWRITE"
 KEEP_BOTH: Final = "KEEP BOTH"
 YOURS: Final = "YOURS"
+ADD: Final = "ADD"
+NEW_PROGRAM: Final = "NEW PROGRAM"
 THEIRS: Final = "THEIRS"
 FILE_AS_IT_IS: Final = "FILE AS IT IS"
 MAX_DIFFERENCES: Final = 6
@@ -94,6 +96,16 @@ def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
     """The first few, and how many more there are."""
     rest = len(details) - most
     return tuple(details) if rest <= 0 else (*details[:most], f"And {rest} more.")
+
+
+# ---- before an import
+
+
+def into_which(drawing: Path, document: Document) -> Ask:
+    """Whether a drawing's contours go into the open program."""
+    lines = (f"Contours of {printable(drawing.name)}:",)
+    answers = (Answer(ADD, f"behind the blocks of {name_of(document)}"), Answer(NEW_PROGRAM, "of this drawing alone"))
+    return Ask("INTO WHICH PROGRAM?", lines, answers, safe=ADD)
 
 
 # ---- before leaving

@@ -266,7 +266,7 @@ class BaseScreen(Screen[None]):
 
     def refresh_frame(self) -> None:
         """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
-        if not self._composed:
+        if not self.stands:
             return
         prompt = self.said or self.too_small() or self.prompt_text()
         if self.host.guided and self.said is None and prompt.tone is not Tone.ERROR:

@@ -21,10 +21,13 @@ from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen, Surveyed
+from app.screens.import_drawing import ImportScreen
 from core.program.model import Number
 from core.units import Unit
 from tests.app.documents.typist import ELSEWHERE
 from tests.app.widget_pilot import SURROUNDINGS, Operator
+
+DATA = Path(__file__).parents[1] / "data" / "dxf"
 
 
 @pytest.fixture
@@ -128,6 +131,25 @@ async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key
         assert one.session.program.unit is Unit.MM
     async with at_home(folder) as one:
         assert sum(isinstance(screen, Question) for screen in one.app.screen_stack) == left
+
+
+@pytest.mark.parametrize(("answer", "name"), [("a", "part.toml"), ("n", None)], ids=["added", "a new program"])
+async def test_a_drawing_goes_to_the_open_program_or_begins_one(folder, answer, name):
+    (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
+    async with at_work(folder) as one:
+        await one.press("ctrl+o", "s", "enter")
+        assert isinstance(one.app.screen, Question)
+        await one.press(answer)
+        assert isinstance(one.app.screen, ImportScreen)
+        assert (None if one.session.file is None else one.session.file.name) == name
+        assert one.app.document.is_new is (name is None)
+
+
+async def test_a_drawing_begins_a_program_where_nothing_was_typed_yet(folder):
+    (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
+    async with at_home(folder) as one:
+        await one.press("s", "enter")
+        assert isinstance(one.app.screen, ImportScreen)
 
 
 async def test_an_nc_program_in_the_list_opens_under_proof(folder):
