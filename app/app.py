@@ -161,9 +161,11 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             self.tell_and_ask(self._opened)
 
     def _first_painted(self) -> None:
-        """The numeric libraries come now: the first paint does without them."""
-        gc.freeze()
-        gc.enable()
+        """The numeric libraries come now: the first paint does without them, and without the garbage collector."""
+        if not gc.isenabled():
+            # what stands by now stays to the end
+            gc.freeze()
+            gc.enable()
         if not self._deriving:
             self._derive(Request(self.session.program))
 
