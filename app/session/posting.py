@@ -69,12 +69,12 @@ def nc_text(
 
 
 def refusals(derived: Derived, refusal: Refusal) -> tuple[str, ...]:
-    """Why nothing was posted: each reason after its block and segment, then the largest tool that fits."""
-    from core.pipeline.derive import largest_that_fits
+    """Why nothing was posted: each reason after its block and segment, then what cuts a block clean that gouges."""
+    from core.pipeline.derive import remedy_for_gouge
 
     reasons = (located_sentence(finding, refusal.unit) for finding in refusal.findings)
-    fits = (largest_that_fits(block, derived.program) for block in derived.blocks)
-    return (*reasons, *(sentence(finding, refusal.unit) for finding in fits if finding is not None))
+    remedies = (remedy_for_gouge(block, derived.program) for block in derived.blocks)
+    return (*reasons, *(sentence(remedy, refusal.unit) for remedy in remedies if remedy is not None))
 
 
 def objections(derived: Derived) -> Iterator[str]:

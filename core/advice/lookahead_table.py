@@ -23,6 +23,7 @@ class Trial:
     """A contour and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
 
     `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
+    Another tool is looked for in steps of `diameter_step`, the last digit that a screen shows.
     """
 
     surface: Path
@@ -33,6 +34,7 @@ class Trial:
     overlap: float
     stocks: tuple[float, ...] = ()
     rougher: float | None = None
+    diameter_step: float = 0.001
 
     def paths(self, radius: float, lookaheads: tuple[int, ...] | range = VALUES) -> tuple[Compensated, ...]:
         """The control's path at a radius for each look-ahead; those that are the same test as many crossings."""

@@ -17,9 +17,6 @@ from core.geometry.piece import Point
 from core.tolerance import CLOSED
 from core.verify.judge import judge
 
-DIAMETER_STEP: Final = 0.001
-"""Millimeters to which the largest diameter is found."""
-
 MAX_STARTS: Final = 6
 """The number of the longest sides that are tried as the start."""
 
@@ -38,7 +35,7 @@ USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
 
 @dataclass(frozen=True, slots=True)
 class ToolFits:
-    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one of STEP more is not."""
+    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one that is a step larger is not."""
 
     diameter: float
     value: int
@@ -85,22 +82,23 @@ def larger_tool_without_blends(
     """The largest tool without blend moves, if there are any to leave out and it is worth offering too."""
     if trial.blend <= 0.0:
         return None
-    least = 0 if than is None else max(int(_steps(than.diameter) * LARGER_BY), _steps(than.diameter) + 1)
+    given = 0 if than is None else _steps(trial, than.diameter)
+    least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
     return largest_tool(without_blends(trial), hint, wanted, least=least)
 
 
 def largest_tool(
     trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
 ) -> ToolFits | None:
-    """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
+    """The largest clean diameter below the cutter's, in whole steps, rounded down; by halving what is left.
 
     `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.  There is none
-    where one of `least` STEPs is not clean.
+    where one of `least` steps is not clean.
     """
-    clean, fails = least, _steps(2.0 * trial.radius)
+    clean, fails = least, _steps(trial, 2.0 * trial.radius)
     if clean >= fails or (clean and not _clean(trial, clean, wanted)):
         return None
-    tries = [] if hint is None else [_steps(2.0 * hint), _steps(2.0 * hint) + 1]
+    tries = [] if hint is None else [_steps(trial, 2.0 * hint), _steps(trial, 2.0 * hint) + 1]
     while fails - clean > 1:
         size = tries.pop(0) if tries else (clean + fails) // 2
         if not clean < size < fails:
@@ -110,11 +108,11 @@ def largest_tool(
         else:
             fails = size
     value = _recommended(_with_tool(trial, clean), wanted) if clean else None
-    return None if value is None else ToolFits(clean * DIAMETER_STEP, value)
+    return None if value is None else ToolFits(clean * trial.diameter_step, value)
 
 
 def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
-    """Whether the finish path of one of the usual look-aheads is clean with a diameter of `size` STEPs."""
+    """Whether the finish path of one of the usual look-aheads is clean with a diameter of `size` steps."""
     if not wanted():
         raise SearchCanceled
     trial = _with_tool(trial, size)
@@ -125,12 +123,12 @@ def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
 
 
 def _with_tool(trial: Trial, size: int) -> Trial:
-    return replace(trial, radius=size * DIAMETER_STEP / 2.0)
+    return replace(trial, radius=size * trial.diameter_step / 2.0)
 
 
-def _steps(diameter: float) -> int:
+def _steps(trial: Trial, diameter: float) -> int:
     """Whole steps in a diameter, rounding forgiven."""
-    return int(diameter / DIAMETER_STEP + 1e-6)
+    return int(diameter / trial.diameter_step + 1e-6)
 
 
 def start_mid_side(

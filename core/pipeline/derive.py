@@ -35,6 +35,7 @@ from core.pipeline.outline import outline_block
 from core.pipeline.parameters import parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
+from core.units import Kind, decimals_shown, to_mm
 from core.verify.judge import judge_together
 
 OUTLINED = 0.4
@@ -183,6 +184,7 @@ def trial_of(block: DerivedBlock, program: Program) -> Trial | None:
         parameter(program, "blend_overlap"),
         () if block.solved.tool_diameter is None else stocks(block, program),
         None if block.solved.finish_diameter is None else (block.solved.tool_diameter or 0.0) / 2,
+        to_mm(10.0 ** -decimals_shown(Kind.LENGTH, program.unit), program.unit),
     )
 
 
@@ -199,17 +201,19 @@ def advice_for_block(
     return advice_for(trial, block.lookahead.calculated, table or table_of(trial), wanted)
 
 
-def largest_that_fits(
-    block: DerivedBlock, program: Program, wanted: Callable[[], bool] = never_canceled
-) -> Finding | None:
-    """The largest tool that cuts a block clean which gouges, with its block; None where it does not or none fits.
+def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
+    """What cuts a block clean that gouges: the look-ahead that the table recommends, else the largest tool that fits.
 
-    Raises SearchCanceled where `wanted` says no.
+    None where the block does not gouge, and where neither helps.
     """
     trial = trial_of(block, program)
     if trial is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
         return None
-    fits = largest_tool(trial, wanted=wanted)
+    value = table_of(trial).recommended
+    if value is not None:
+        text = f"Block {block.number}: CUTCOMP LOOKAHEAD {value} is clean."
+        return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead")
+    fits = largest_tool(trial)
     if fits is None:
         return None
     text = f"Block {block.number}: the tool is too big; largest that fits: {{value}}."

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from core.output.sheet import Sheet, as_page, as_text, sheet
 from core.output.svg import svg
-from core.pipeline.derive import largest_that_fits
+from core.pipeline.derive import remedy_for_gouge
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene
@@ -18,7 +18,7 @@ def sheet_of(derived: Derived, *, name: str, day: str) -> Sheet:
     """The sheet of a program called `name`, printed on `day` (any text)."""
     program = derived.program
     made = sheet(jobs(derived), program.unit, name, program.setup.name, day)
-    further = [*(largest_that_fits(block, program) for block in derived.blocks), unit_question(derived)]
+    further = [*(remedy_for_gouge(block, program) for block in derived.blocks), unit_question(derived)]
     told = tuple(sentence(finding, program.unit) for finding in further if finding is not None)
     return replace(made, errors=(*made.errors, *told)) if made.errors else replace(made, notes=(*told, *made.notes))
 

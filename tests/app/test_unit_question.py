@@ -14,16 +14,16 @@ from app.documents.programs import example as example_path
 from app.screens.dialogs import Question
 from app.screens.parameters import ParametersScreen
 from app.screens.post import PostScreen
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, remedy_for_gouge
 from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.pipeline.unit_question import unit_question
-from core.program.model import Block, Number, Program, Tool
+from core.program.model import Block, CutterComp, Number, Program, Tool
 from core.units import Unit, sentence
 from tests.app.widget_pilot import operator
 from tests.core.program.parts import line, program
 
 LARGE = "The tool is 0.5000 across, more than half of the part's smaller side, 0.9000. The program is in INCH."
-GOUGED = "the tool is too big; largest that fits: 0.5000."
+GOUGED = "CUTCOMP LOOKAHEAD 3 is clean."
 
 
 def plate(width: float, height: float, tool: float, unit: Unit = Unit.IN) -> Program:
@@ -140,7 +140,7 @@ def test_a_refusal_names_its_block_and_the_largest_tool(capsys: pytest.CaptureFi
         assert f"Block 1: {GOUGED}" in said
 
 
-async def test_the_post_screen_names_the_largest_tool() -> None:
+async def test_the_post_screen_names_the_lookahead_that_is_clean() -> None:
     async with operator("notch") as one:
         one.app.action_post()
         await one.settle()
@@ -149,7 +149,7 @@ async def test_the_post_screen_names_the_largest_tool() -> None:
         assert f"Block 1: {GOUGED}" in str(one.screen.query_exactly_one("#post-findings", Static).content)
 
 
-def test_the_sheet_names_the_largest_tool_and_asks_for_the_unit() -> None:
+def test_the_sheet_names_the_lookahead_that_is_clean_and_asks_for_the_unit() -> None:
     notch = derive(load(example_path("notch")))
     for write in (sheet_text, sheet_page):
         said = " ".join(write(notch, name="notch", day="").split())
@@ -157,3 +157,15 @@ def test_the_sheet_names_the_largest_tool_and_asks_for_the_unit() -> None:
     asked = sheet_text(derive(plate(4, 0.9, 0.5)), name="plate", day="")
     assert "INCH or MM? The tool is 0.5000 across" in asked
     assert "READY to post. Know before you run it:" in asked
+
+
+def test_where_no_lookahead_is_clean_the_largest_tool_is_named_rounded_down() -> None:
+    """A slot 10 mm wide in an inch program: 0.3937 is clean, 0.3938 is not."""
+    ends = [(0.0, 0.0), (10 / 25.4, 0.0), (10 / 25.4, 2.0)]
+    sides = (line(x_end=x, y_end=y, feed=9) for x, y in ends)
+    slot = program(*sides, start={"cutter_comp": CutterComp.LEFT, "x_start": Number(0.0), "y_start": Number(2.0)})
+    parameters = replace(slot.parameters, blend_offset=Number(0.0))
+    part = replace(slot, unit=Unit.IN, parameters=parameters, tools=(Tool(1, "END MILL", Number(0.5)),))
+    found = remedy_for_gouge(derive(part).block(1), part)
+    assert found is not None
+    assert sentence(found, Unit.IN) == "Block 1: the tool is too big; largest that fits: 0.3937."

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
 from core.advice.remedies import (
-    DIAMETER_STEP,
     SearchCanceled,
     largest_tool,
     lookahead_without_blends,
@@ -19,6 +18,9 @@ from core.advice.remedies import (
 )
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, shut
+
+DIAMETER_STEP = 0.001
+"""Millimeters, as a screen in millimeters shows them."""
 
 SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
 
@@ -40,6 +42,13 @@ def test_the_largest_tool_is_rounded_down(width):
     assert found is not None
     assert width - DIAMETER_STEP < found.diameter <= width
     assert round(found.diameter / DIAMETER_STEP) * DIAMETER_STEP == pytest.approx(found.diameter, abs=1e-12)
+
+
+def test_the_largest_tool_of_an_inch_program_is_one_that_its_screen_shows():
+    inch_digit = 0.00254
+    found = largest_tool(Trial(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0, diameter_step=inch_digit))
+    assert found is not None
+    assert found.diameter == pytest.approx(157 * inch_digit)
 
 
 def test_a_hint_finds_the_same_tool():

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
-from core.advice.remedies import DIAMETER_STEP, started
+from core.advice.remedies import started
 from core.advice.why_not_clean import MAX_NAMED_PLACES, Advice, advice_for
 from core.comp.lookahead import calculated
 from core.finding import Severity
@@ -20,6 +20,9 @@ from core.units import Unit, sentence
 from tests.bench.families import gear
 from tests.core.comp.contours import lines, mixed, shut
 from tests.properties import exercised, must_exercise
+
+DIAMETER_STEP = 0.001
+"""Millimeters, as a screen in millimeters shows them."""
 
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
 SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
