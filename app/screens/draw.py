@@ -49,8 +49,8 @@ class FullDrawing(Drawing, can_focus=True):
     """The drawing with the keys of DRAW."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("n", "screen.finding(1)", "Next finding", show=False),
-        Binding("p", "screen.finding(-1)", "Finding before", show=False),
+        Binding("n,N", "screen.finding(1)", "Next finding", show=False),
+        Binding("p,P", "screen.finding(-1)", "Finding before", show=False),
         Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
         Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
         Binding("0,home", "screen.fit", "Whole part", show=False),
@@ -65,8 +65,8 @@ class FullDrawing(Drawing, can_focus=True):
         Binding("shift+right", "screen.move_cross(8, 0)", "Cross right", show=False),
         Binding("shift+up", "screen.move_cross(0, 8)", "Cross up", show=False),
         Binding("shift+down", "screen.move_cross(0, -8)", "Cross down", show=False),
-        Binding("x", "screen.type_cross", "Type X and Y of the pick", show=False),
-        Binding("m", "app.next_characters", "Characters", show=False),
+        Binding("x,X", "screen.type_cross", "Type X and Y of the pick", show=False),
+        Binding("m,M", "app.next_characters", "Characters", show=False),
     ]
 
 

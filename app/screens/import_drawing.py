@@ -126,11 +126,11 @@ class ContoursDrawing(Drawing, can_focus=True):
         Binding("right", "screen.pan(1, 0)", "Move right", show=False),
         Binding("up", "screen.pan(0, 1)", "Move up", show=False),
         Binding("down", "screen.pan(0, -1)", "Move down", show=False),
-        Binding("n,pagedown", "screen.next_row(1)", "Next chain", show=False),
-        Binding("p,pageup", "screen.next_row(-1)", "Chain before", show=False),
+        Binding("n,N,pagedown", "screen.next_row(1)", "Next chain", show=False),
+        Binding("p,P,pageup", "screen.next_row(-1)", "Chain before", show=False),
         Binding("space", "screen.mark", "Mark", show=False),
         Binding("enter", "screen.take", "Take", show=False),
-        Binding("m", "app.next_characters", "Characters", show=False),
+        Binding("m,M", "app.next_characters", "Characters", show=False),
     ]
 
 
@@ -141,7 +141,7 @@ class ImportScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "leave", "Back", show=False),
         Binding("slash", "filter", "Filter", show=False),
-        Binding("b", "branch", "Branch", show=False),
+        Binding("b,B", "branch", "Branch", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("TAKE", "take", "TAKE", lambda screen: screen.contour is not None, "The list is empty."),

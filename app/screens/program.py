@@ -45,7 +45,7 @@ class ProgramScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("ctrl+up", "move_block(-1)", "Move block up", show=False),
         Binding("ctrl+down", "move_block(1)", "Move block down", show=False),
-        Binding("c", "copy_block", "Copy block", show=False),
+        Binding("c,C", "copy_block", "Copy block", show=False),
         Binding("escape", "app.home", "Back to files", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (

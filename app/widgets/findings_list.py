@@ -49,8 +49,8 @@ class FindingsList(OptionRows):
     """The list; the one in hand is highlighted, n and p step, round."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("n", "screen.finding(1)", "Next finding", show=False),
-        Binding("p", "screen.finding(-1)", "Finding before", show=False),
+        Binding("n,N", "screen.finding(1)", "Next finding", show=False),
+        Binding("p,P", "screen.finding(-1)", "Finding before", show=False),
     ]
 
     entries: reactive[tuple[Entry, ...]] = reactive((), repaint=False)
