@@ -19,7 +19,16 @@ from textual.worker import get_current_worker
 
 from app.documents.files import load, why
 from app.documents.folders import short_path
-from app.documents.survey import Facts, Listed, day_of, example_programs, facts_of, programs_of
+from app.documents.survey import (
+    DRAWING,
+    NC_PROGRAM,
+    Facts,
+    Listed,
+    day_of,
+    example_programs,
+    facts_of,
+    programs_of,
+)
 from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
@@ -100,10 +109,8 @@ class HomeScreen(BaseScreen):
             self.trouble = f"{short_path(folder)} cannot be shown: {_why_not(error)}"
             self.listed = tuple(example_programs())
         self.folder = folder
-        count = sum(each.program and not each.example for each in self.listed)
-        words = counted(count, "program")
         self.query_exactly_one("#folder", Static).update(
-            Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {words}")
+            Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {self._counts()}")
         )
         table = self.query_exactly_one("#programs", DataTable)
         table.clear()
@@ -113,6 +120,13 @@ class HomeScreen(BaseScreen):
         table.move_cursor(row=rows[0] if rows else 0)
         self._survey(self._programs(), dict(self.facts))
         self.refresh_frame()
+
+    def _counts(self) -> str:
+        """How many files of each kind the folder holds."""
+        own = sum(each.program and not each.example for each in self.listed)
+        others = {kind: sum(each.kind == kind for each in self.listed) for kind in (DRAWING, NC_PROGRAM)}
+        words = [counted(count, kind) for kind, count in others.items() if count]
+        return ", ".join([counted(own, "program"), *words] if own or not words else words)
 
     def _programs(self) -> tuple[Path, ...]:
         return tuple(each.path for each in self.listed if each.program)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from textual.widgets import Static
 
 from app.app import CutcompApp
 from app.documents import times
@@ -159,6 +160,7 @@ async def test_an_nc_program_in_the_list_opens_under_proof(folder):
         await one.press("j")
         assert one.app.screen.chosen is not None
         assert one.app.screen.chosen.kind == "NC program"
+        assert str(one.app.screen.query_one("#folder", Static).content).endswith("1 program, 1 NC program")
         await one.press("enter")
         assert isinstance(one.app.screen, ProofScreen)
         assert one.app.screen.document.file.path == folder / "job.nc"
