@@ -10,7 +10,6 @@ from typing import Any, ClassVar, Final
 from textual import on
 from textual.binding import Binding, BindingType
 from textual.command import CommandPalette, DiscoveryHit, Hit, Hits, Provider
-from textual.events import ScreenSuspend
 from textual.widgets import Input, OptionList
 
 from app.screens.base import BaseScreen
@@ -106,11 +105,6 @@ class Palette(CommandPalette):
         """Listen to the first key of the line, whose cursor does not blink."""
         line = self.query_one(Input)
         line.select_on_focus = line.cursor_blink = False
-
-    @on(ScreenSuspend)
-    def _left(self) -> None:
-        """No list is there any more for Textual's line of no matches, which comes half a second after a key."""
-        self._stop_no_matches_countdown()
 
     @on(Input.Changed)
     async def _first_digit(self, event: Input.Changed) -> None:

@@ -220,18 +220,6 @@ async def test_a_finding_on_a_field_of_another_screen_puts_the_cursor_on_segment
         assert (one.session.place.segment, one.at) == (0, "segment")
 
 
-async def test_a_palette_that_is_left_says_nothing_of_no_matches():
-    async with operator() as one:
-        one.app.action_command_palette()
-        await one.press("'zzqq")
-        palette = one.app.screen
-        assert isinstance(palette, Palette)
-        while palette._no_matches_timer is None:
-            await one.pilot.pause(0.01)
-        await one.press("f8")
-        assert palette._no_matches_timer is None
-
-
 async def test_the_palette_comes_back_at_once():
     """Before the one of a moment ago is gone."""
     async with operator() as one:
