@@ -86,7 +86,7 @@ def test_every_screen(part: Path) -> None:
         for key in KEYS:
             terminal.send(key)
             terminal.read(quiet=0.05, longest=0.5)
-        for _ in range(100):
+        for _ in range(600):
             terminal.read(quiet=0.1, longest=0.2)
             if (ended := terminal.ended()) is not None:
                 break
