@@ -1,0 +1,35 @@
+"""Every choice, and the START of a segment, can be read whole in its field at 80x24."""
+
+from __future__ import annotations
+
+import pytest
+from textual.widgets import Label
+
+from app.widgets.field import ChoiceField
+from tests.app.widget_pilot import operator
+from tests.core.program.run_files import program_of
+from tests.core.program.test_calculated_runs import case_of, line
+
+ARROW = 2
+"""Columns that a choice leaves to its arrow."""
+
+
+@pytest.mark.parametrize("keys", [[], ["'1", "enter"], ["'2", "enter"], ["f4"], ["f6"]])
+async def test_every_choice_fits_into_its_field(keys: list[str]):
+    async with operator() as one:
+        await one.press(*keys)
+        fields = [field for field in one.screen.query(ChoiceField) if field.region.width]
+        assert fields
+        for field in fields:
+            room = field.size.width - ARROW
+            assert not [choice for choice in field.choices if len(choice) > room], field.name
+
+
+@pytest.mark.parametrize(("x", "y"), [(100.0, 60.0), (-1234.5, -1234.25)])
+async def test_the_start_of_a_segment_fits_beside_its_label(x: float, y: float):
+    case = case_of(line(x_end=x, y_end=y), line(x_end=0, y_end=0))
+    async with operator(program_of(case)) as one:
+        await one.press("pagedown", "pagedown")
+        value = one.row("START").query_one(".value", Label)
+        assert str(value.content) == f"{x:.3f} {y:.3f})"
+        assert len(str(value.content)) <= value.size.width
