@@ -363,9 +363,19 @@ def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Fin
 
 
 def _may_be_tangent(contour: Contour, run: Run) -> int | None:
-    """The number of the first segment of a run that could be TANGENT: none before it, or a corner, could not."""
-    numbers = (element.number for element in run.elements if element.link is None and element.number > 1)
-    return next((n for n in numbers if not isinstance(contour.segments[n - 2], CornerSegment)), None)
+    """The number of the first segment of a run where TANGENT YES would be one more value.
+
+    Not with no segment before it, behind a corner, or between two headings that are both known already.
+    """
+    heading = run.heading
+    for element in run.elements:
+        known = element.known
+        settled = heading is not None and ("angle" in known or "start_angle" in known)
+        behind_corner = element.number > 1 and isinstance(contour.segments[element.number - 2], CornerSegment)
+        if element.number > 1 and element.link is None and not settled and not behind_corner:
+            return element.number
+        heading = known.get("angle")
+    return None
 
 
 def _one_line(branch: Branch, joint: int) -> bool:

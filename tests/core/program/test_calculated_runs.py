@@ -313,6 +313,12 @@ def test_a_relative_center_gives_radius_and_heading_where_the_start_is_not_known
     assert (second["x_center"], second["y_center"]) == pytest.approx((50.0, 10.0 * side))
 
 
+def test_tangent_is_not_offered_between_two_headings_that_are_typed() -> None:
+    sides = line(x_end=100, y_end=0), line(x_end=100, y_end=60), line(angle=180), line(angle=240)
+    told = said(case_of(*sides, cw(x_center=40, y_center=30, radius=6), line(angle=60)))
+    assert any("or TANGENT YES on 5." in text for text in told), told
+
+
 def test_a_radius_that_follows_from_start_and_center_is_not_asked_for() -> None:
     told = said(case_of(ccw(x_center=0, y_center=20), cw(radius=30, tangent=True)))
     assert any("2 more values: SWEEP ANGLE of 1, or an end" in text for text in told), told
