@@ -148,7 +148,8 @@ def post(options: argparse.Namespace) -> int:
     if question := unit_question(derived):
         say(f"{question.severity}: {sentence(question, derived.program.unit)}")
     if not isinstance(result, Posted):
-        say(f"nothing was posted. {' '.join(refusals(derived, result))}{_words(result, options)}")
+        reasons, remedies = refusals(derived, result)
+        say(f"nothing was posted. {' '.join((*reasons, *remedies))}{_words(result, options)}")
         return FINDINGS
     if options.override is not None and not result.overridden:
         say("--override was not needed: nothing stood against posting.")

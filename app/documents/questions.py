@@ -33,10 +33,10 @@ WRITE_THERE: Final = "WRITE THERE"
 WRITE_ANYWAY: Final = "OVERWRITE"
 KEEP_BOTH: Final = "KEEP BOTH"
 YOURS: Final = "YOURS"
-ADD: Final = "ADD"
-NEW_PROGRAM: Final = "NEW PROGRAM"
 THEIRS: Final = "THEIRS"
 FILE_AS_IT_IS: Final = "FILE AS IT IS"
+ADD: Final = "ADD"
+NEW_PROGRAM: Final = "NEW PROGRAM"
 MAX_DIFFERENCES: Final = 6
 """Differences that a question lists."""
 FEW_DIFFERENCES: Final = 3

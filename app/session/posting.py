@@ -63,18 +63,18 @@ def nc_text(
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
         return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in result.notes)))
-    against = refusals(derived, result)
+    against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
-    return NcText(against=against, notes=notes, overridable=overridable)
+    return NcText(against=against, notes=(*remedies, *notes), overridable=overridable)
 
 
-def refusals(derived: Derived, refusal: Refusal) -> tuple[str, ...]:
-    """Why nothing was posted: each reason after its block and segment, then what cuts a block clean that gouges."""
+def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Why nothing was posted, each reason after its block and segment; and what cuts the blocks clean that gouge."""
     from core.pipeline.derive import remedy_for_gouge
 
-    reasons = (located_sentence(finding, refusal.unit) for finding in refusal.findings)
+    reasons = tuple(located_sentence(finding, refusal.unit) for finding in refusal.findings)
     remedies = (remedy_for_gouge(block, derived.program) for block in derived.blocks)
-    return (*reasons, *(sentence(remedy, refusal.unit) for remedy in remedies if remedy is not None))
+    return reasons, tuple(sentence(remedy, refusal.unit) for remedy in remedies if remedy is not None)
 
 
 def objections(derived: Derived) -> Iterator[str]:
