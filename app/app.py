@@ -14,6 +14,8 @@ from textual.binding import Binding, BindingType
 from textual.command import CommandPalette
 from textual.events import Key
 from textual.filter import LineFilter
+from textual.markup import escape
+from textual.notifications import SeverityLevel
 from textual.reactive import var
 from textual.screen import ModalScreen, Screen
 from textual.timer import Timer
@@ -137,6 +139,19 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
     def get_line_filters(self) -> Sequence[LineFilter]:
         """Nothing that a file holds may move the terminal's cursor, wherever it is shown."""
         return [*super().get_line_filters(), PRINTABLE]
+
+    def notify(
+        self,
+        message: str,
+        *,
+        title: str = "",
+        severity: SeverityLevel = "information",
+        timeout: float | None = None,
+        markup: bool = True,
+    ) -> None:
+        """What has been done, over the screen; brackets in a file's name stay what they are."""
+        text = escape(message) if markup else message
+        super().notify(text, title=title, severity=severity, timeout=timeout, markup=markup)
 
     def get_default_screen(self) -> Screen[None]:
         """MILL CONTOUR."""

@@ -479,7 +479,7 @@ class FileActions(App[int]):
         result = await self._written(proof.document, path)
         if isinstance(result, Saved):
             proof.saved(result.document)
-            self.notify(result.notice.text, timeout=4, markup=False)
+            self.notify(result.notice.text, timeout=4)
         return isinstance(result, Saved)
 
     async def output_named(self, text: str, suffix: str, file: Path | None) -> Path:
@@ -569,7 +569,7 @@ class FileActions(App[int]):
         if self.document.file.path is not None:
             self.keep_settings(self.settings.using(self.document.file.path))
         self.quiet()
-        self.notify(result.notice.text, timeout=4, markup=False)
+        self.notify(result.notice.text, timeout=4)
         return True
 
     @property

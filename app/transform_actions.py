@@ -42,7 +42,7 @@ class TransformActions(App[int]):
         number = self.session.place.block
         edited = transform.transform_block(self.session.program, number, motion)
         if self.apply(edited, f"{label} {number}"):
-            self.notify(f"{label} {number}. Ctrl+Z brings it back.", timeout=4, markup=False)
+            self.notify(f"{label} {number}. Ctrl+Z brings it back.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:

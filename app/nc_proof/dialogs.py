@@ -10,11 +10,12 @@ from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.content import Content
 from textual.screen import ModalScreen
-from textual.widgets import OptionList, Static
+from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Compared, Question, compare
 from app.widgets.option_rows import OptionRows
+from app.widgets.plain import PlainText
 
 
 class ChooseControl(ModalScreen[str]):
@@ -67,7 +68,7 @@ class CompareControls(ModalScreen[str]):
     def compose(self) -> ComposeResult:
         """The list, empty until the controls have answered."""
         with Vertical(id="compare-box", classes="wide-box"):
-            yield Static("Every control is running the program ...", id="compare-wait")
+            yield PlainText("Every control is running the program ...", id="compare-wait")
             yield OptionRows(id="compared")
 
     def on_mount(self) -> None:

@@ -28,6 +28,7 @@ from app.session.words import counted
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows
+from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolTable
@@ -108,12 +109,12 @@ class ProofScreen(BaseScreen):
         """Titles, listing, drawing, findings."""
         with Vertical(id="proof-title"):
             with Horizontal(classes="head"):
-                yield Label("NC PROOF", classes="head-label")
-                yield Label(id="proof-control", classes="head-kind", markup=False)
-                yield Label(id="proof-file", classes="head-note", markup=False)
+                yield PlainLabel("NC PROOF", classes="head-label")
+                yield PlainLabel(id="proof-control", classes="head-kind")
+                yield PlainLabel(id="proof-file", classes="head-note")
             with Horizontal(classes="head"):
-                yield Static(id="proof-outcome", markup=False)
-                yield Label(id="proof-tools", classes="head-note", markup=False)
+                yield PlainText(id="proof-outcome")
+                yield PlainLabel(id="proof-tools", classes="head-note")
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")

@@ -10,9 +10,10 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.screen import ModalScreen
-from textual.widgets import Input, Label, OptionList, Static
+from textual.widgets import Input, OptionList, Static
 
 from app.widgets.option_rows import OptionRows
+from app.widgets.plain import PlainLabel, PlainText
 from core.program.calculator import Case, Quantity, Refusal, calculate, field_text, outputs_for
 from core.program.fields import Field
 from core.units import Unit
@@ -41,10 +42,10 @@ class Calculator(ModalScreen[str]):
         with Vertical(id="question"):
             for quantity in self.case.inputs:
                 with Horizontal(classes="field"):
-                    yield Label(quantity.label, classes="label", markup=False)
+                    yield PlainLabel(quantity.label, classes="label")
                     yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
             yield OptionRows(id="answers")
-            yield Static(id="number-trouble", markup=False)
+            yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
         """The title, and what the texts of last time come to."""

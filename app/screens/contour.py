@@ -38,6 +38,7 @@ from app.widgets.field import LISTED, ChoiceField, NumberField
 from app.widgets.findings_list import FindingsList
 from app.widgets.form import Form
 from app.widgets.picture import Picture
+from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import Case, Verdict
@@ -171,15 +172,15 @@ class ContourScreen(FormScreen):
             with Vertical(id="form", classes="panel") as form:
                 form.border_title = "MILL CONTOUR"
                 with Horizontal(id="block", classes="head"):
-                    yield Label("BLOCK", classes="head-label")
-                    yield Label(id="block-number", classes="head-value", markup=False)
-                    yield Label("MILL CONTOUR", classes="head-kind")
-                    yield Label(id="file", classes="head-note", markup=False)
+                    yield PlainLabel("BLOCK", classes="head-label")
+                    yield PlainLabel(id="block-number", classes="head-value")
+                    yield PlainLabel("MILL CONTOUR", classes="head-kind")
+                    yield PlainLabel(id="file", classes="head-note")
                 with Horizontal(id="segment-line", classes="head"):
-                    yield Label("SEGMENT", id="segment-label", classes="head-label")
+                    yield PlainLabel("SEGMENT", id="segment-label", classes="head-label")
                     yield SegmentField(SEGMENT, str(session.place.segment), id=SEGMENT)
-                    yield Label(id="segment-kind", classes="head-kind", markup=False)
-                    yield Label(id="segment-count", classes="head-note", markup=False)
+                    yield PlainLabel(id="segment-kind", classes="head-kind")
+                    yield PlainLabel(id="segment-count", classes="head-note")
                 with Vertical(id="fields"):
                     yield self._made_form(session)
             yield Verdict(id="verdict", classes="panel")
@@ -674,7 +675,7 @@ class ContourScreen(FormScreen):
         session, place = self.current_session, self.current_session.place
         label = f"DELETE SEGMENT {place.segment}, block {place.block}"
         if self.host.apply(delete_segment(session.program, place), label):
-            self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3, markup=False)
+            self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
 
     def action_recalculate(self) -> None:
         """The calculated look-ahead comes back."""

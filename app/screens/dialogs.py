@@ -14,11 +14,12 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.screen import ModalScreen
 from textual.widget import Widget
-from textual.widgets import Input, Label, OptionList, Static
+from textual.widgets import Input, OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.widgets.field import LineInput
 from app.widgets.option_rows import OptionRows
+from app.widgets.plain import PlainLabel, PlainText
 from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16
@@ -58,7 +59,7 @@ class Question(ModalScreen[str]):
     def compose(self) -> ComposeResult:
         """A framed box: the loss, then one answer a line."""
         with Vertical(id="question", classes="-wide" if self.details else ""):
-            yield Static("\n".join((*self.lines, *self.details)), id="loss", markup=False)
+            yield PlainText("\n".join((*self.lines, *self.details)), id="loss")
             yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
 
     def on_mount(self) -> None:
@@ -145,7 +146,7 @@ class Phrase(ModalScreen[str]):
     def compose(self) -> ComposeResult:
         """A framed box: what is asked, then the line to type in."""
         with Vertical(id="question"):
-            yield Static("\n".join(self.lines), id="loss", markup=False)
+            yield PlainText("\n".join(self.lines), id="loss")
             yield LineInput(id="phrase")
 
     def on_mount(self) -> None:
@@ -201,12 +202,12 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
     def compose(self) -> ComposeResult:
         """A framed box: what is done, then a line a number."""
         with Vertical(id="question"):
-            yield Static("\n".join(self.lines), id="loss", markup=False)
+            yield PlainText("\n".join(self.lines), id="loss")
             for number, entry in enumerate(self.entries):
                 with Horizontal(classes="field"):
-                    yield Label(entry.label, classes="label", markup=False)
+                    yield PlainLabel(entry.label, classes="label")
                     yield LineInput(entry.text, id=f"number-{number}", classes="number")
-            yield Static(id="number-trouble", markup=False)
+            yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
         """The title."""
@@ -288,7 +289,7 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
     def compose(self) -> ComposeResult:
         """A framed list."""
         with Vertical(id="question"):
-            yield Static("Space marks, Enter takes what is marked.", id="loss", markup=False)
+            yield PlainText("Space marks, Enter takes what is marked.", id="loss")
             yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
 
     def on_mount(self) -> None:

@@ -20,6 +20,7 @@ from app.session.session import Session
 from app.session.words import place
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList, heading
+from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Case, chips
 from core.program.edit import FormPlace, pick_joint
@@ -97,10 +98,10 @@ class DrawScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """Title, chips, the drawing, and on a wide terminal the findings beside it."""
         with Horizontal(classes="head"):
-            yield Label("BLOCK", classes="head-label")
-            yield Label(id="draw-block", classes="head-value", markup=False)
-            yield Label(id="draw-segment", classes="head-kind", markup=False)
-        yield Label(id="draw-chips", markup=False)
+            yield PlainLabel("BLOCK", classes="head-label")
+            yield PlainLabel(id="draw-block", classes="head-value")
+            yield PlainLabel(id="draw-segment", classes="head-kind")
+        yield PlainLabel(id="draw-chips")
         with Horizontal(id="draw-body"):
             with Vertical(id="draw-picture"):
                 yield FullDrawing(id="full-drawing")

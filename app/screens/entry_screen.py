@@ -9,11 +9,12 @@ from textual import on
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.widgets import Input, Label
+from textual.widgets import Input
 
 from app.screens.base import BaseScreen
 from app.session.messages import Tone
 from app.widgets.field import LineInput
+from app.widgets.plain import PlainLabel
 
 
 class EntryScreen(BaseScreen):
@@ -35,10 +36,10 @@ class EntryScreen(BaseScreen):
         """Title, entry, the rest."""
         with Vertical(id="entry-form", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label(self.TITLE, classes="head-title", markup=False)
+                yield PlainLabel(self.TITLE, classes="head-title")
                 yield from self.compose_head()
             with Horizontal(id="entry-line", classes="field"):
-                yield Label(self.LABEL, classes="label", markup=False)
+                yield PlainLabel(self.LABEL, classes="label")
                 yield LineInput(self._text, id="entry", select_on_focus=True)
             yield from self.compose_rest()
 

@@ -11,11 +11,12 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, VerticalScroll
 from textual.content import Content
-from textual.widgets import Label, Static
+from textual.widgets import Static
 
 from app.screens.base import BaseScreen
 from app.screens.topics import topic_of
 from app.session.messages import Sentence
+from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.program.fields import Field, range_of
 from core.units import Kind, Unit
@@ -83,9 +84,9 @@ class HelpScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """The text, which scrolls."""
         with Horizontal(classes="head"):
-            yield Label("HELP", classes="head-title")
+            yield PlainLabel("HELP", classes="head-title")
         with VerticalScroll(id="help-text"):
-            yield Static(id="help-lines", markup=False)
+            yield PlainText(id="help-lines")
 
     @on(events.Resize)
     def _fill(self) -> None:

@@ -34,6 +34,7 @@ from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
+from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
@@ -78,7 +79,7 @@ class HomeScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """The folder, its programs, the drawing of the one with the cursor."""
         with Vertical(id="files", classes="panel -bare"):
-            yield Static(id="folder", classes="head", markup=False)
+            yield PlainText(id="folder", classes="head")
             yield DataTable(id="programs", cursor_type="row")
         yield Drawing(id="preview")
 

@@ -35,6 +35,7 @@ from app.session.session import Session
 from app.session.words import length, place
 from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import Drawing
+from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.controls.program_text import quoted
 from core.draw.characters import Mode
@@ -174,13 +175,13 @@ class ImportScreen(BaseScreen):
         """Title, list, what is to be said of the row with the cursor, the drawing."""
         with Vertical(id="import", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label("IMPORT", classes="head-label")
-                yield Label(id="import-file", classes="head-kind", markup=False)
+                yield PlainLabel("IMPORT", classes="head-label")
+                yield PlainLabel(id="import-file", classes="head-kind")
             yield ContourTable(id="contours")
             with Horizontal(id="filter-line", classes="field"):
-                yield Label("FILTER", classes="label")
+                yield PlainLabel("FILTER", classes="label")
                 yield Input(id="filter", compact=True)
-            yield Static(id="import-about", markup=False)
+            yield PlainText(id="import-about")
         yield ContoursDrawing(id="import-drawing")
 
     def on_mount(self) -> None:
@@ -705,7 +706,7 @@ class ImportScreen(BaseScreen):
         self.host.move(FormPlace(first))
         self.host.action_contour()
         which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
-        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4, markup=False)
+        self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4)
         notes = [note for block in blocks for note in block.notes]
         if notes:
             rest = f" {len(notes) - MAX_NOTES} more notes." if len(notes) > MAX_NOTES else ""

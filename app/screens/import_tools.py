@@ -15,6 +15,7 @@ from app.documents.tool_tables import merged, read_table, tool_line
 from app.screens.dialogs import Answer, Question
 from app.screens.entry_screen import EntryScreen
 from app.session.messages import Sentence, Tone
+from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from core.finding import Finding, Severity
 from core.program.file.read import StoreError
@@ -42,8 +43,8 @@ class ImportToolsScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """The unit, then the faults."""
-        yield Static(id="table-unit", markup=False)
-        yield Static(id="table-faults", markup=False)
+        yield PlainText(id="table-unit")
+        yield PlainText(id="table-faults")
 
     def on_mount(self) -> None:
         """The unit."""
@@ -78,7 +79,7 @@ class ImportToolsScreen(EntryScreen):
         ask = Question("IMPORT?", list(changes(program, table.tools)), [Answer("IMPORT")], "GO BACK")
         if await self.app.push_screen_wait(ask) == "IMPORT":
             self.host.apply(merged(program, table.tools), "IMPORT TOOL TABLE")
-            self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4, markup=False)
+            self.notify(f"Imported {len(table.tools)} tools. Ctrl+Z brings the old ones back.", timeout=4)
             self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:

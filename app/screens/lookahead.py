@@ -16,6 +16,7 @@ from app.session.messages import Sentence
 from app.session.session import Session
 from app.session.words import length, segment_numbers
 from app.widgets.drawing import Drawing
+from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks
 from core.program.edit import FormPlace, recalculate_lookahead, type_field
@@ -48,7 +49,7 @@ class LookaheadScreen(BaseScreen):
     def compose_body(self) -> ComposeResult:
         """A title, the table, the drawing of the chosen value."""
         with Vertical(id="lookahead", classes="panel -bare"):
-            yield Static(id="lookahead-title", classes="head", markup=False)
+            yield PlainText(id="lookahead-title", classes="head")
             yield DataTable(id="values", cursor_type="row")
         yield Drawing(id="value-path")
 

@@ -9,7 +9,6 @@ from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.widgets import Label
 
 from app.screens.dialogs import Answer, Question
 from app.screens.form_screen import FormScreen
@@ -18,6 +17,7 @@ from app.session.messages import Sentence
 from app.session.session import Session
 from app.widgets.field import Cell, ChoiceField
 from app.widgets.form import Form
+from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
 from core.program.edit import Edited, set_parameter, set_path_choice, set_setup, set_unit
 from core.program.fields import PARAMETERS, SETUP, Field, default_value, read_typed
@@ -52,7 +52,7 @@ class SettingsForm(FormScreen):
         """A title and the form."""
         with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label(self.NAME, classes="head-title", markup=False)
+                yield PlainLabel(self.NAME, classes="head-title")
             yield Form(self._cells(self.host.session), id="settings-form", classes="fields")
 
     def on_mount(self) -> None:

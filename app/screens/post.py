@@ -12,7 +12,7 @@ from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
 from textual.message import Message
-from textual.widgets import Label, OptionList, Static
+from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.screens.dialogs import Phrase
@@ -23,6 +23,7 @@ from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, 
 from app.session.session import Session
 from app.session.work import Work
 from app.widgets.option_rows import OptionRows
+from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
@@ -71,7 +72,7 @@ class PostScreen(EntryScreen):
 
     def compose_head(self) -> ComposeResult:
         """The unit of the file, for whoever loads it at the machine."""
-        yield Label(UNITS[self.current_session.program.unit], classes="head-unit", markup=False)
+        yield PlainLabel(UNITS[self.current_session.program.unit], classes="head-unit")
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
@@ -80,8 +81,8 @@ class PostScreen(EntryScreen):
             id="post-controls",
         )
         with Horizontal(id="post-answer"):
-            yield Static(id="post-findings", markup=False)
-            yield Static(id="post-preview", markup=False)
+            yield PlainText(id="post-findings")
+            yield PlainText(id="post-preview")
 
     def on_mount(self) -> None:
         """The path of the tool's center is chosen."""
@@ -228,6 +229,6 @@ class PostScreen(EntryScreen):
         if written is None:
             return
         lines = made.text.count("\n")
-        self.notify(f"Posted: {written}, {lines} lines.", timeout=5, markup=False)
+        self.notify(f"Posted: {written}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

@@ -20,6 +20,7 @@ from app.session.guide import on_program
 from app.session.messages import Sentence
 from app.session.session import Session
 from app.widgets.drawing import Drawing
+from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
@@ -68,9 +69,9 @@ class ProgramScreen(BaseScreen):
         """A title, the table of blocks, the drawing."""
         with Vertical(id="program", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label("PROGRAM", classes="head-label")
-                yield Label(id="block-count", classes="head-kind", markup=False)
-                yield Label(id="program-file", classes="head-note", markup=False)
+                yield PlainLabel("PROGRAM", classes="head-label")
+                yield PlainLabel(id="block-count", classes="head-kind")
+                yield PlainLabel(id="program-file", classes="head-note")
             yield DataTable(id="blocks", cursor_type="row")
         yield Drawing(id="block-drawing")
 
@@ -175,7 +176,7 @@ class ProgramScreen(BaseScreen):
         """Delete the block with the cursor."""
         at = self.chosen
         if self.host.apply(delete_block(self.current_session.program, at), f"DELETE BLOCK {at}"):
-            self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3, markup=False)
+            self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)
 
     def action_copy_block(self) -> None:
         """A copy of the block with the cursor, after it."""

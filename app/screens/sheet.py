@@ -17,6 +17,7 @@ from app.screens.entry_screen import EntryScreen
 from app.session.messages import Sentence
 from app.session.posting import setup_sheet
 from app.session.session import Session
+from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from core.program.model import Program
 
@@ -44,7 +45,7 @@ class SheetScreen(EntryScreen):
     def compose_rest(self) -> ComposeResult:
         """The sheet, which scrolls."""
         with VerticalScroll(id="sheet", can_focus=False):
-            yield Static(id="sheet-text", markup=False)
+            yield PlainText(id="sheet-text")
 
     def action_scroll(self, by: int) -> None:
         """A page of the sheet down or up."""
@@ -83,7 +84,7 @@ class SheetScreen(EntryScreen):
         written = await self.host.write(path, made)
         if written is None:
             return
-        self.notify(f"Setup sheet: {written}", timeout=4, markup=False)
+        self.notify(f"Setup sheet: {written}", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:

@@ -9,13 +9,14 @@ from typing import Any, ClassVar, Final
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical, VerticalScroll
-from textual.widgets import Label, Static
+from textual.widgets import Static
 
 from app.screens.form_screen import FormScreen
 from app.screens.values import cell_of, unusable
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.widgets.field import Cell, ChoiceField, NumberField, State
+from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.fields import TOOL, Field, read_typed
@@ -93,14 +94,14 @@ class ToolsScreen(FormScreen):
         """A title, the headings, the rows, and where the tool is used."""
         with Vertical(id="tools", classes="panel -bare"):
             with Horizontal(classes="head"):
-                yield Label("TOOL SETUP", classes="head-title")
+                yield PlainLabel("TOOL SETUP", classes="head-title")
             with Horizontal(id="tool-headings"):
                 for field in TOOL:
-                    yield Label(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}", markup=False)
+                    yield PlainLabel(HEADINGS.get(field.name, field.label), classes=f"tool-{field.name}")
             with VerticalScroll(id="tool-rows", can_focus=False):
                 yield from self._rows(self.host.session)
-                yield Static(EMPTY, id="no-tools", markup=False)
-        yield Static(id="tool-use", markup=False)
+                yield PlainText(EMPTY, id="no-tools")
+        yield PlainText(id="tool-use")
 
     def _rows(self, session: Session) -> list[ToolRow]:
         return [ToolRow(_cells(tool, row, session)) for row, tool in enumerate(session.program.tools)]
@@ -228,7 +229,7 @@ class ToolsScreen(FormScreen):
         if tool is not None and self.host.apply(
             delete_tool(self.current_session.program, tool.number), f"DELETE TOOL {tool.number}"
         ):
-            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3, markup=False)
+            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
 
     def action_leave(self) -> None:
         """The old value back; at rest the screen before."""

@@ -18,7 +18,9 @@ from textual.markup import escape
 from textual.message import Message
 from textual.reactive import Reactive
 from textual.strip import Strip
-from textual.widgets import Input, Label, Select, Static
+from textual.widgets import Input, Label, Select
+
+from app.widgets.plain import PlainLabel, PlainText
 
 MAX_TYPED: int = 200
 """Characters a field takes; more is a key that got stuck."""
@@ -255,11 +257,11 @@ class ChoiceField(Select[str], inherit_bindings=False):
         return next((choice for choice in order if choice.startswith(spelled)), None)
 
 
-class FieldLabel(Static):
+class FieldLabel(PlainText):
     """A field's label at the left of its room and its tag at the right; one widget, since most fields have no tag."""
 
     def __init__(self, cell: Cell) -> None:
-        super().__init__(classes="label", markup=False)
+        super().__init__(classes="label")
         self.cell = cell
 
     def show(self, cell: Cell) -> None:
@@ -296,7 +298,7 @@ class FieldRow(Horizontal):
         cell = self.cell
         yield FieldLabel(cell)
         if cell.state is State.READ_ONLY:
-            yield Label(cell.text, classes="value", markup=False)
+            yield PlainLabel(cell.text, classes="value")
         elif cell.choices or cell.folds:
             yield ChoiceField(cell.name, cell.choices, cell.text, prompt=cell.full, blank=cell.folds)
         else:

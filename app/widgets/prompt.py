@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from textual.widgets import Static
-
 from app.session.messages import Sentence, Tone
+from app.widgets.plain import PlainText
 
 
-class Prompt(Static):
+class Prompt(PlainText):
     """Two lines above the status line."""
 
     def __init__(self) -> None:
-        super().__init__("", id="prompt", markup=False)
+        super().__init__(id="prompt")
         self.sentence = Sentence("")
 
     def show(self, sentence: Sentence) -> None:

@@ -12,7 +12,8 @@ from textual.app import ComposeResult
 from textual.containers import Vertical
 from textual.content import Content
 from textual.message import Message
-from textual.widgets import Static
+
+from app.widgets.plain import PlainText
 
 LONGEST_LINE = 14
 """Characters of a label that stand on one line; a longer one is broken after its first word."""
@@ -46,7 +47,7 @@ class Softkey:
     idle: str = ""
 
 
-class SoftkeyLabel(Static):
+class SoftkeyLabel(PlainText):
     """One softkey as it is shown; a click presses it."""
 
     class Pressed(Message):
@@ -112,8 +113,8 @@ class Softkeys(Vertical):
         """Eight labels, then the rest."""
         yield from self._labels
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
-        yield Static(Text("\n").join(more), id="more", markup=False)
-        yield Static(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend", markup=False)
+        yield PlainText(Text("\n").join(more), id="more")
+        yield PlainText(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend")
 
     def on_mount(self) -> None:
         """Show the keys as they are."""

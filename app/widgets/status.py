@@ -16,6 +16,7 @@ from textual.widgets import Label
 
 from app.documents.patience import within
 from app.session.session import Session
+from app.widgets.plain import PlainLabel
 from core.units import Unit
 
 MINUTE = 60.0
@@ -45,9 +46,9 @@ class Status(Horizontal):
 
     def compose(self) -> ComposeResult:
         """Three labels."""
-        yield Label("", id="units", markup=False)
-        yield Label("", id="undo", markup=False)
-        yield Label("", id="clock", markup=False)
+        yield PlainLabel("", id="units")
+        yield PlainLabel("", id="undo")
+        yield PlainLabel("", id="clock")
 
     def on_mount(self) -> None:
         """Read the clock from now on."""

@@ -20,6 +20,7 @@ from textual.widgets import Static
 
 from app.documents.survey import Outcome
 from app.session.words import length, segment_numbers, shortened
+from app.widgets.plain import PlainText
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit, sentence
 
@@ -119,8 +120,8 @@ class Verdict(Vertical):
 
     def compose(self) -> ComposeResult:
         """The strip and the chips."""
-        yield Static(id="strip", markup=False)
-        yield Static(id="chips", markup=False)
+        yield PlainText(id="strip")
+        yield PlainText(id="chips")
 
     def watch_case(self) -> None:
         """Another path."""
