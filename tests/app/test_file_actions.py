@@ -42,14 +42,16 @@ def folder(tmp_path, monkeypatch):
 
 @asynccontextmanager
 async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIterator[Operator]:
+    """The program started on a file; without a name on HOME, and asking where work was left that has none."""
     service = DocumentService(state=folder / "own", **options)
-    opened = service.open(folder / name)
+    opened = service.open(folder / name) if name else service.new(offers=True)
     assert isinstance(opened, Opened)
     app = CutcompApp(
         session_of(opened.document),
         surroundings=SURROUNDINGS,
         service=service,
         opened=opened,
+        home=not name,
         settings_file=SettingsFile(folder / "settings.toml", Settings()),
     )
     async with app.run_test(size=(80, 24)) as pilot:
@@ -92,37 +94,16 @@ async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo
         assert one.session.history.undo_count == 1
 
 
-@asynccontextmanager
-async def at_home(folder: Path, **options) -> AsyncIterator[Operator]:
-    """The program as it starts without a file: HOME, and a question where work was left that has no name."""
-    service = DocumentService(state=folder / "own", **options)
-    opened = service.new(offers=True)
-    app = CutcompApp(
-        session_of(opened.document),
-        surroundings=SURROUNDINGS,
-        service=service,
-        opened=opened,
-        home=True,
-        settings_file=SettingsFile(folder / "settings.toml", Settings()),
-    )
-    async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
-        yield one
-        await one.settle()
-    service.stop()
-
-
 @pytest.mark.parametrize(
     ("key", "left"), [("escape", 1), ("d", 0)], ids=["asked again at the next start", "kept as a backup"]
 )
 async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key, left):
-    async with at_home(folder, me=DEAD) as one:
+    async with at_work(folder, "", me=DEAD) as one:
         await one.press("f3", "'2", "enter")
         [journal] = (folder / "own").glob("unnamed-*")
         kept = journal.read_bytes()
     journal.write_bytes(kept)
-    async with at_home(folder) as one:
+    async with at_work(folder, "") as one:
         assert isinstance(one.app.screen, Question)
         await one.press("f3", "f1")
         assert isinstance(one.app.screen, Question), "no softkey of the screen behind it answers"
@@ -130,7 +111,7 @@ async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key
         assert isinstance(one.app.screen, HomeScreen)
         await one.press("f3")
         assert one.session.program.unit is Unit.MM
-    async with at_home(folder) as one:
+    async with at_work(folder, "") as one:
         assert sum(isinstance(screen, Question) for screen in one.app.screen_stack) == left
 
 
@@ -148,14 +129,14 @@ async def test_a_drawing_goes_to_the_open_program_or_begins_one(folder, answer, 
 
 async def test_a_drawing_begins_a_program_where_nothing_was_typed_yet(folder):
     (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
-    async with at_home(folder) as one:
+    async with at_work(folder, "") as one:
         await one.press("s", "enter")
         assert isinstance(one.app.screen, ImportScreen)
 
 
 async def test_an_nc_program_in_the_list_opens_under_proof(folder):
     (folder / "job.nc").write_text("G20 G17 G90\nT1 M6\nG0 X1\nM30\n")
-    async with at_home(folder) as one:
+    async with at_work(folder, "") as one:
         assert isinstance(one.app.screen, HomeScreen)
         await one.press("j")
         assert one.app.screen.chosen is not None

@@ -120,7 +120,7 @@ class Fanuc(VectorQueue, Control):
     alarms = ALARMS
     machine: MacroMachine
 
-    def __init__(self, log: Log, rules: VectorRules = VectorRules()) -> None:  # noqa: B008  frozen
+    def __init__(self, log: Log, rules: VectorRules) -> None:
         super().__init__(log, rules)
         self.side: Side | None = None
         self.number = 0

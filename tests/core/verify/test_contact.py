@@ -77,9 +77,10 @@ def test_in_a_slot_as_wide_as_the_cutter_one_wall_is_passed_the_right_way() -> N
 
 def test_a_move_that_gouges_the_wall_nearest_to_it_is_told_as_a_gouge_alone() -> None:
     slot = lines((0, 0), (10, 0), (10, 1.5), (0, 1.5))
-    verdict = judge(slot, Side.LEFT, 1.0, lines((9, 1), (1, 1)))
-    assert verdict.gouges[0].depth == pytest.approx(0.5)
-    assert verdict.backwards == ()
+    for path in (lines((9, 1), (1, 1)), lines((1, 1), (9, 1))):
+        verdict = judge(slot, Side.LEFT, 1.0, path)
+        assert verdict.gouges[0].depth == pytest.approx(0.5)
+        assert verdict.backwards == ()
 
 
 def test_nothing_is_told_of_what_cannot_be_judged() -> None:
