@@ -173,10 +173,12 @@ class Listed:
 def programs_of(folder: Path) -> tuple[Listed, ...]:
     """What a folder holds that can be opened, the examples, and kept copies; OSError where it cannot be read."""
     inside = within(FOLDER, lambda: tuple(_inside(folder)))
-    programs = (each for each in inside if not each.folder)
+    parts = tuple(example_programs())
+    # in their own folder the examples stand once, as examples
+    programs = (each for each in inside if not each.folder and each.path not in {part.path for part in parts})
     folders = (each for each in inside if each.folder)
     copies = within(FOLDER, lambda: tuple(_copies(folder)))
-    return (*programs, *example_programs(), *folders, *copies)
+    return (*programs, *parts, *folders, *copies)
 
 
 def _copies(folder: Path) -> Iterator[Listed]:

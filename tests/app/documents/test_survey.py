@@ -10,6 +10,7 @@ import pytest
 
 from app.documents import survey
 from app.documents.journal_file import SUFFIX, journal_path
+from app.documents.programs import examples
 from app.documents.survey import Outcome, facts_of, programs_of
 from tests.app.documents.typist import ELSEWHERE, started
 
@@ -107,3 +108,10 @@ def test_drawings_and_nc_programs_of_a_folder_are_listed_behind_its_programs(par
     (part.parent / "f.nc").mkdir()
     listed = [(each.name, each.kind) for each in programs_of(part.parent) if not (each.folder or each.example)]
     assert listed == [(part.stem, ""), ("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program")]
+
+
+def test_in_the_folder_of_the_examples_each_is_listed_once() -> None:
+    listed = [each for each in programs_of(examples()) if each.program]
+    assert listed
+    assert all(each.example for each in listed)
+    assert len({each.path for each in listed}) == len(listed)
