@@ -676,7 +676,11 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """NC PROOF on a text, with the control, the tools and the unit that were asked for at the start."""
         from app.nc_proof.screen import ProofScreen
 
-        self.push_screen(ProofScreen(document, self.keep_nc, asked))
+        self.push_screen(ProofScreen(document, self.keep_nc, asked, self.settings.control))
+
+    def keep_control(self, control: str) -> None:
+        """NC programs are run on this control from now on."""
+        self.keep_settings(replace(self.settings, control=control))
 
     @property
     def proof(self) -> ProofScreen | None:

@@ -521,8 +521,12 @@ class FileActions(App[int]):
     @work(group="question", description="close")
     async def _close_nc(self, document: NcDocument) -> None:
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
-            await self.close_documents([self.proof.document])
+            document = self.proof.document
+            await self.close_documents([document])
             await self.run_action("app.back")
+            if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
+                # started on an NC text: a form in which nothing was typed is not where its reader comes from
+                self.show_folder(document.file.path.absolute().parent)
 
     async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
         """Save a document, asking what is to be asked; None where it was not saved."""

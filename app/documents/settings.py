@@ -25,7 +25,10 @@ THEMES: Final = ("dark", "light")
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """`recent` are absolute paths, the last used first; `characters`, `theme` and `folder` are empty until chosen."""
+    """`recent` are absolute paths, the last used first; the texts are empty until something is chosen.
+
+    `control` is the one that NC programs are run on, by its full name.
+    """
 
     recent: tuple[str, ...] = ()
     characters: str = ""
@@ -33,6 +36,7 @@ class Settings:
     unit: Unit = Unit.IN
     folder: str = ""
     mouse: bool = False
+    control: str = ""
 
     def using(self, file: Path) -> Settings:
         """After a file was opened or saved; a name that no settings file can hold is not remembered."""
@@ -64,6 +68,7 @@ def parsed(text: str) -> Settings:
         Unit(unit) if unit in tuple(Unit) else Unit.IN,
         held["folder"] if _usable(held.get("folder")) else "",
         held.get("mouse") is True,
+        held["control"] if isinstance(held.get("control"), str) else "",
     )
 
 
@@ -82,6 +87,7 @@ def written(settings: Settings) -> str:
         f"theme = {_quoted(settings.theme)}",
         f"folder = {_quoted(settings.folder)}",
         f"mouse = {str(settings.mouse).lower()}",
+        f"control = {_quoted(settings.control)}",
         f"recent = [\n{recent}]",
     )
     return "\n".join(lines) + "\n"

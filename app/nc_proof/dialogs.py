@@ -14,7 +14,7 @@ from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Compared, Question, compare
-from app.widgets.option_rows import OptionRows
+from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainText
 
 
@@ -32,13 +32,7 @@ class ChooseControl(ModalScreen[str]):
         from core.controls.registry import choices
 
         with Vertical(id="controls-box", classes="wide-box"):
-            yield OptionRows(
-                *(
-                    Option(Content.assemble(f"{choice.name:<19}", (choice.about, "$c-label")), id=choice.control)
-                    for choice in choices()
-                ),
-                id="controls",
-            )
+            yield OptionRows(*control_rows(choices()), id="controls")
 
     def on_mount(self) -> None:
         """The cursor on the control in use."""
@@ -88,7 +82,8 @@ class CompareControls(ModalScreen[str]):
         for answer in event.answers:
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else "$c-good"
             lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome, role))]
-            lines += [Content.styled(f"    {answer.parts}", "$c-label")] if answer.parts else []
+            more = answer.why_said or answer.parts
+            lines += [Content.styled(f"    {more}", "$c-label")] if more else []
             rows.add_option(Option(Content("\n").join(lines), id=answer.control))
         rows.highlighted = 0
         rows.focus()

@@ -102,14 +102,22 @@ def compare(question: Question) -> tuple[Answer, ...]:
 
     library = FolderLibrary(question.folder)
     asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library)
-    return answer_all(question.text.data, asked)
+    return answer_all(question.text.data, asked, question.control)
 
 
-def likely_control(text: NcText) -> str:
-    """The control a text is most likely for: Klartext by its first words, else LinuxCNC, whose rules are checked."""
+def likely_control(text: NcText, usual: str = "") -> str:
+    """The control a text is most likely for: Klartext by its first words, else the usual one of whoever asks.
+
+    Where there is none, or it reads Klartext alone, LinuxCNC, whose rules are checked.
+    """
+    from core.controls.registry import is_klartext, resolve
+
     rows = range(min(MAX_GUESS_LINES, len(text)))
     first = next((line for row in rows if (line := text.text(row)).strip()), "")
-    return "klartext" if _KLARTEXT.match(first) else "linuxcnc"
+    if _KLARTEXT.match(first):
+        return "klartext"
+    known = resolve(usual)
+    return known if isinstance(known, str) and not is_klartext(known) else "linuxcnc"
 
 
 def first_tool(text: NcText) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -56,7 +56,10 @@ _NUMBERED: Final = re.compile(r"\s*(\d{1,4})\s*=(.*)")
 
 
 class ProofScreen(BaseScreen):
-    """One NC text under proof; `keep` puts its edits on the disk, `save` writes it."""
+    """One NC text under proof; `keep` puts its edits on the disk.
+
+    It runs on the control that was `asked` for, else on the `usual` one where that reads the text.
+    """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -89,11 +92,13 @@ class ProofScreen(BaseScreen):
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 
-    def __init__(self, document: NcDocument, keep: Callable[[NcDocument], None], asked: Asked | None = None) -> None:
+    def __init__(
+        self, document: NcDocument, keep: Callable[[NcDocument], None], asked: Asked | None = None, usual: str = ""
+    ) -> None:
         super().__init__()
         self.document, self._keep = document, keep
         text = document.text
-        control = likely_control(text)
+        control = likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
         self.question = Question(text, control, ToolTable(), folder=folder)
         self.tool = first_tool(text)
@@ -301,9 +306,10 @@ class ProofScreen(BaseScreen):
             return Content("running ...")
         answer = self.result.answer
         role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated else "$c-good"
-        contours = "no contour" if not answer.stretches else counted(answer.stretches, "contour")
-        moves = counted(answer.count, "move")
-        text = f"{answer.outcome}; {moves}" if answer.stretches == 1 else f"{answer.outcome}; {moves}, {contours}"
+        text = f"{answer.outcome}; {counted(answer.count, 'move')}"
+        # what comes before an alarm is not the whole program
+        if answer.stretches != 1 and answer.stopped_at is None:
+            text += f", {counted(answer.stretches, 'contour') if answer.stretches else 'no contour'}"
         if not self.result.judged:
             role, text = "$c-warn", "being judged ..."
         return Content.styled(f"{text}{'' if self.result.question is self.question else ' ...'}", role)
@@ -317,7 +323,12 @@ class ProofScreen(BaseScreen):
         at = findings.highlighted
         findings.clear_options()
         findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in found])
-        findings.highlighted = None if not found else min(at or 0, len(found) - 1)
+        here = [index for index, finding in enumerate(found) if finding.line == self.document.row + 1]
+        findings.highlighted = at if at in here else self._gravest(here or range(len(found)))
+
+    def _gravest(self, among: Sequence[int]) -> int | None:
+        """The first of the gravest findings of these; None for none."""
+        return min(among, key=lambda index: ORDER.index(self.result_findings[index].severity), default=None)
 
     def _line(self, finding: Finding, error: str, warning: str) -> Content:
         sign = {Severity.ERROR: error, Severity.WARNING: warning}.get(finding.severity, "i")
@@ -332,7 +343,7 @@ class ProofScreen(BaseScreen):
             return
         here = [at for at, finding in enumerate(self.result.findings) if finding.line == self.document.row + 1]
         if here and findings.highlighted not in here:
-            findings.highlighted = min(here, key=lambda at: ORDER.index(self.result_findings[at].severity))
+            findings.highlighted = self._gravest(here)
 
     @property
     def result_findings(self) -> tuple[Finding, ...]:
@@ -423,6 +434,7 @@ class ProofScreen(BaseScreen):
         """Choose the control from a list."""
         control = await self.app.push_screen_wait(ChooseControl(self.question.control))
         if control and self.take_lines():
+            self.host.keep_control(control)
             self._ask(replace(self.question, control=control))
 
     @work(exclusive=True, group="question")

@@ -105,6 +105,9 @@ class Host(Protocol):
     def now(self) -> datetime:
         """The time of day, in its zone."""
 
+    def keep_control(self, control: str) -> None:
+        """NC programs are run on this control from now on."""
+
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 

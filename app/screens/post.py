@@ -13,7 +13,6 @@ from textual.containers import Horizontal
 from textual.content import Content
 from textual.message import Message
 from textual.widgets import OptionList, Static
-from textual.widgets.option_list import Option
 
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
@@ -22,7 +21,7 @@ from app.session.messages import Sentence, Tone
 from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
 from app.session.work import Work
-from app.widgets.option_rows import OptionRows
+from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
@@ -76,10 +75,7 @@ class PostScreen(EntryScreen):
 
     def compose_rest(self) -> ComposeResult:
         """The controls, what stands against posting, the text."""
-        yield OptionRows(
-            *(Option(Content.assemble(f"{name:<19}", (words, "$c-label")), id=name) for name, words in choices()),
-            id="post-controls",
-        )
+        yield OptionRows(*control_rows(choices()), id="post-controls")
         with Horizontal(id="post-answer"):
             yield PlainText(id="post-findings")
             yield PlainText(id="post-preview")

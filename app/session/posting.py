@@ -15,6 +15,7 @@ from core.progress import Progress, silent
 from core.units import located_sentence, sentence
 
 if TYPE_CHECKING:
+    from core.controls.control_names import ControlChoice
     from core.output.nc import Refusal
 
 CENTER_PATH: Final = "center path"
@@ -33,12 +34,14 @@ class NcText:
     overridable: bool = False
 
 
-def choices() -> tuple[tuple[str, str], ...]:
-    """Name and description of each choice: the center path, and every control that posts."""
+def choices() -> tuple[ControlChoice, ...]:
+    """The center path, and every control that posts."""
+    # the controls are not needed by the first paint
+    from core.controls.control_names import ControlChoice
     from core.controls.registry import choices as controls
 
-    own = ((choice.control, choice.about) for choice in controls())
-    return ((CENTER_PATH, "without G41 or G42: for any control"), *own)
+    about = "without G41 or G42: for any control"
+    return (ControlChoice(CENTER_PATH, CENTER_PATH, "", about), *controls())
 
 
 def nc_text(

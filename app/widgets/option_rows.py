@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 from rich.segment import Segment
 from rich.style import Style
+from textual.content import Content
 from textual.strip import Strip
 from textual.widgets import OptionList
 from textual.widgets.option_list import Option
+
+if TYPE_CHECKING:
+    from core.controls.control_names import ControlChoice
 
 REVERSED = Style(reverse=True, underline=False)
 
@@ -47,3 +54,12 @@ class OptionRows(OptionList):
         """A page down, where there is one."""
         if self.scrollable_content_region:
             super().action_page_down()  # type: ignore[no-untyped-call]
+
+
+def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:
+    """A row for each control: its name, then what it is in a column of its own."""
+    width = max(len(choice.name) for choice in choices) + 2
+    return [
+        Option(Content.assemble(f"{choice.name:<{width}}", (choice.about, "$c-label")), id=choice.control)
+        for choice in choices
+    ]

@@ -52,16 +52,21 @@ class OtherLanguage:
 
 
 def compare(
-    text: bytes, tools: ToolTable, unit: Unit | None = None, library: ProgramLibrary = NO_LIBRARY
+    text: bytes,
+    tools: ToolTable,
+    unit: Unit | None = None,
+    library: ProgramLibrary = NO_LIBRARY,
+    reference: str = "",
 ) -> tuple[Compared | OtherLanguage, ...]:
     """The program on every control, in the registry's order; `unit` where it names none, inches if none is given.
 
-    A control of another language gets the contour as the first control that runs the program to its end reads it, or
-    as one that stops for the tool's radius would with a thinner tool.
+    The `reference`, by its full name, comes before the others, which are compared with it if it runs the program.  A
+    control of another language gets the contour as the first control that runs the program to its end reads it, or as
+    one that stops for the tool's radius would with a thinner tool.
     """
     first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []
-    for control in compared():
+    for control in dict.fromkeys((*filter(None, (reference,)), *compared())):
         if not reads(control, text):
             rows.append(OtherLanguage(control))
             continue

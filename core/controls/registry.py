@@ -95,7 +95,7 @@ def choices() -> tuple[ControlChoice, ...]:
             full := _joined(inside, variant),
             shown_name(full),
             entry.title,
-            f"{entry.about}; {entry.variants[variant]}" if variant else entry.about,
+            f"{entry.variants[variant]}; {entry.about}" if variant else entry.about,
         )
         for inside, entry in CONTROL_NAMES.items()
         for variant in CONTROLS[inside].variants

@@ -169,9 +169,13 @@ def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answ
     return _answer(done, results, _foreign(done.control, text), "", shop=False)
 
 
-def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
-    """Every control's answer, and where its path leaves that of the first one that runs the program."""
-    return tuple(_compared(row, asked, text) for row in compare(text, asked.tools, asked.unit, asked.library))
+def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, ...]:
+    """Every control's answer, and where its path leaves that of the `reference`, which comes first.
+
+    Without one, or where it does not run the program, that of the first control that does.
+    """
+    rows = compare(text, asked.tools, asked.unit, asked.library, reference)
+    return tuple(_compared(row, asked, text) for row in rows)
 
 
 def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
@@ -196,7 +200,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
     by = shown_name(row.by)
     said = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
     told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
-    parts = f"by the contour{'; ' if parts else ''}{parts}"
+    parts = f"the contour alone{'; ' if parts else ''}{parts}"
     found = _answer(row.run, row.results, told, parts, shop=asked.shop)
     return replace(found, parting=row.parts, parting_of=row.of)
 

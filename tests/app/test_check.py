@@ -79,7 +79,7 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert rows["rosettacnc:easy"].strip() == "runs"
     assert "differs from rosettacnc:easy from line 14, by 3.075 at line 14" in rows["rosettacnc:normal"]
     assert rows["heidenhain"].split("  ", 1)[0] == "runs"
-    assert "by the contour" in rows["heidenhain"]
+    assert "the contour alone" in rows["heidenhain"]
 
 
 def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest.CaptureFixture[str]) -> None:

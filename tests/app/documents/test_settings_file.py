@@ -10,7 +10,9 @@ from core.units import Unit
 
 
 def test_settings_come_back_as_they_were_written(tmp_path):
-    settings = Settings((str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True)
+    settings = Settings(
+        (str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True, control="fanuc:b"
+    )
     assert parsed(written(settings)) == settings
 
 
@@ -29,7 +31,7 @@ def test_a_file_of_an_earlier_version_is_read():
 
 
 @pytest.mark.parametrize(
-    "text", ['unit = "FURLONG"\n', "recent = 3\n", 'recent = ["not/absolute"]\n', 'theme = "pink"\n']
+    "text", ['unit = "FURLONG"\n', "recent = 3\n", 'recent = ["not/absolute"]\n', 'theme = "pink"\n', "control = 3\n"]
 )
 def test_what_is_of_no_use_is_passed_over(text):
     assert parsed(text) == Settings()

@@ -10,13 +10,17 @@ from textual.widgets import Label, OptionList, Static
 from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
+from app.documents.nc_text import NcText
 from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
+from app.nc_proof.runs import likely_control
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
+from app.screens.home import HomeScreen
 from core.controls.control_tools import CutterTool, ToolTable
+from core.finding import Severity
 from core.pipeline.checking import Asked
 from core.units import Unit
 from tests.app.widget_pilot import SURROUNDINGS, Operator
@@ -118,7 +122,9 @@ async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with at_proof(tmp_path) as one:
-        await one.press("f8", "ctrl+s", "'new", "enter")
+        await one.press("f8")
+        assert isinstance(one.app.screen, HomeScreen)
+        await one.press("escape", "ctrl+s", "'new", "enter")
         assert [file.suffix for file in tmp_path.glob("new*")] == [".toml"]
         assert not one.app.document.unsaved
 
@@ -160,6 +166,32 @@ async def test_an_edited_line_is_on_the_disk_when_the_cursor_has_left_it(tmp_pat
         assert not (tmp_path / ".p.nc.cutcomp-journal").exists()
 
 
+async def test_the_gravest_finding_is_in_view_until_the_cursor_stands_on_another(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        listed = one.proof.query_one("#proof-findings", OptionList)
+        lines = [finding.line for finding in one.proof.result_findings]
+        weights = [finding.severity for finding in one.proof.result_findings]
+        assert weights[0] is not Severity.ERROR
+        assert listed.highlighted == weights.index(Severity.ERROR)
+        await one.press("n", ">")
+        await one.settle()
+        assert one.line == lines[listed.highlighted]
+
+
+async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
+    async with at_proof(tmp_path) as one:
+        assert one.proof.question.control == "linuxcnc"
+        await one.press("c", "home", "enter")
+        await one.settle()
+        chosen = one.proof.question.control
+        assert chosen == one.app.settings.control != "linuxcnc"
+        text = one.proof.document.text
+    assert likely_control(text, chosen) == chosen
+    assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
+    assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
+
+
 async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
     async with at_proof(tmp_path) as one:
         await with_tool(one)
@@ -168,8 +200,12 @@ async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
         await one.settle()
         rows = one.app.screen.query_one("#compared", OptionList)
         assert rows.option_count >= 8
-        taken = rows.get_option_at_index(0).id
-        await one.press("enter")
+        assert rows.get_option_at_index(0).id == "linuxcnc"
+        words = {option.id: str(option.prompt) for option in rows.options}
+        assert any("differs from linuxcnc" in each for each in words.values())
+        assert "Write T and the number." in words["threeblock"]
+        taken = rows.get_option_at_index(1).id
+        await one.press("down", "enter")
         await one.settle()
         assert one.proof.question.control == taken
 

@@ -47,6 +47,18 @@ def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
     assert other.why == "no control that reads this program can run it to the end"
 
 
+@pytest.mark.parametrize("reference", ["fanuc:b", "fanuc:b-arc"])
+def test_the_others_are_compared_with_the_reference(reference: str) -> None:
+    program = b"G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n"
+    rows = compare(program, end_mills({1: 0.5}), reference=reference)
+    assert rows[0].control == reference
+    assert {row.control for row in rows} == {*compared(), reference}
+    others = [row for row in rows[1:] if isinstance(row, Compared)]
+    assert len(others) > 5
+    assert all(row.of == reference for row in others)
+    assert any(row.parts for row in others)
+
+
 def test_two_paths_part_at_the_entry() -> None:
     easy = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
     normal = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
