@@ -97,6 +97,17 @@ class Terminal:
         pid, status = os.waitpid(self.pid, os.WNOHANG)
         return None if pid == 0 else os.waitstatus_to_exitcode(status)
 
+    def status(self, longest: float = 20.0) -> int:
+        """The exit status of a program that is leaving; AssertionError with the screen if it goes on."""
+        begun = time.monotonic()
+        while time.monotonic() - begun < longest:
+            if self.read(quiet=0.02, longest=0.05).count == 0:
+                # a terminal whose program is leaving is closed before the program has ended
+                time.sleep(0.01)
+            if (ended := self.ended()) is not None:
+                return ended
+        raise AssertionError(f"still running:\n{self.text}")
+
 
 @contextlib.contextmanager
 def running(

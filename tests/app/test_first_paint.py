@@ -78,11 +78,7 @@ def told(script: str, tmp_path: Path, *arguments: str) -> list[str]:
     out = tmp_path / "told.txt"
     with running([sys.executable, "-c", script, *arguments, str(out)]) as terminal:
         terminal.read(quiet=10.0)
-        status = terminal.ended()
-        while status is None:
-            terminal.read(quiet=0.05, longest=0.05)
-            status = terminal.ended()
-    assert status == 0, terminal.text
+        assert terminal.status(longest=60.0) == 0
     return out.read_text().splitlines()
 
 

@@ -15,7 +15,7 @@ from app.documents.left_overs import read
 from app.terminal.signals import GRACE
 from core.program.history import History
 from core.program.model import Number
-from tests.app.test_safety_terminal import PROGRAM, status
+from tests.app.test_safety_terminal import PROGRAM
 from tests.terminal import Terminal, running
 
 PATIENCE = 3.0
@@ -62,7 +62,7 @@ def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) 
         typed(terminal)
         assert termios.tcgetattr(terminal.fd) != before
         os.kill(terminal.pid, number)
-        assert status(terminal, PATIENCE) == 128 + number
+        assert terminal.status(PATIENCE) == 128 + number
         assert termios.tcgetattr(terminal.fd) == before
         end = bytes(terminal.seen[-400:])
         assert b"\x1b[?1049l" in end, "the screen from before"
@@ -76,7 +76,7 @@ def test_a_signal_with_everything_saved_leaves_nothing(part: Path) -> None:
         terminal.send(b"7\t\x13")
         terminal.until("Saved")
         os.kill(terminal.pid, signal.SIGTERM)
-        assert status(terminal, PATIENCE) == 143
+        assert terminal.status(PATIENCE) == 143
     assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
     assert load(part).blocks[0].tool == Number(7.0)
 

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -16,16 +15,6 @@ from core.program.model import Number
 from tests.terminal import Terminal, cutcomp, running
 
 PROGRAM = cutcomp()
-
-
-def status(terminal: Terminal, longest: float = 10.0) -> int:
-    """The exit status; AssertionError if the program goes on."""
-    begun = time.monotonic()
-    while time.monotonic() - begun < longest:
-        terminal.read(quiet=0.02, longest=0.05)
-        if (ended := terminal.ended()) is not None:
-            return ended
-    raise AssertionError(f"still running:\n{terminal.text}")
 
 
 def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
@@ -40,14 +29,14 @@ def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
         terminal.send(b"7\t\x13")
         terminal.until("Saved")
         terminal.send(b"\x11")
-        assert status(terminal) == 0
+        assert terminal.status() == 0
     assert load(part).blocks[0].tool == Number(7.0)
 
 
 @pytest.mark.parametrize("term", ["dumb", ""])
 def test_a_terminal_without_a_cursor_is_refused_with_a_sentence(term: str) -> None:
     with running(PROGRAM, environment={"TERM": term}) as terminal:
-        assert status(terminal) == 2
+        assert terminal.status() == 2
         assert terminal.text.startswith(f"cutcomp: the terminal says TERM={term}, which cannot place a cursor.")
 
 
@@ -62,7 +51,7 @@ def test_without_a_terminal_there_is_a_sentence() -> None:
 def test_errors_into_a_file_are_no_terminal(tmp_path: Path) -> None:
     """The screens are painted on standard error."""
     with running(["sh", "-c", f"exec {' '.join(PROGRAM)} 2> {tmp_path / 'errors'}"]) as terminal:
-        assert status(terminal) == 2
+        assert terminal.status() == 2
     assert (tmp_path / "errors").read_text().startswith("cutcomp: the screens need a terminal")
 
 
@@ -110,7 +99,7 @@ def test_a_fault_of_our_own_ends_with_a_status_and_keeps_the_work(tmp_path: Path
         terminal.send(b"7\t")
         terminal.until("undo 1")
         terminal.send(b"\x19")
-        assert status(terminal) not in (0, None)
+        assert terminal.status() not in (0, None)
     assert [one.name for one in tmp_path.iterdir()] == [".part.toml.cutcomp-journal"]
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("Block 1: TOOL 7, was 1.")
@@ -127,7 +116,7 @@ def test_text_of_a_file_never_moves_the_cursor_of_the_terminal(tmp_path: Path) -
         terminal.until("pa[2Jrt")
         terminal.until("2[2J5")
     with running([*PROGRAM, "path", str(part)]) as terminal:
-        assert status(terminal) in (0, 1)
+        assert terminal.status() in (0, 1)
         assert "\x1b" not in terminal.text
     part.write_text("format = 2\n")
     done = subprocess.run([*PROGRAM, "path", str(part)], capture_output=True, text=True, check=False)

@@ -70,28 +70,49 @@ def test_the_hostile_program_is_one() -> None:
     assert not harmless(EVIL)
 
 
-KEYS = (
-    *(b"\t" * 4, b"\x1b[1;5H1\r\t?", b"\x1b", b"\x1b[6~\t\t", b"\x1b[6~\t"),
-    *(b"\x1bOS\t", b"\x1b8", b"\x1b[15~\t", b"\x1b8", b"\x1b[17~", b"\x1b[17~\t\t", b"\x1b8", b"\x1b[18~", b"\x1b8"),
-    *(b"\x1b[20~", b"\x1b[20~", b"\x1b[21~", b"\x1b[21~", b"\x13", b"\x1b8", b"\x0f", b"\x1b8"),
-    *(b"\x1b[1;5H\t9\r", b"\x1a", b"\x1b[19~", b"\x1bOR", b"\x1b8", b"\x11"),
+BACK = b"\x1b8"
+FORM = "MILL CONTOUR"
+STEPS = (
+    (b"\t\t\t\t", "cannot be read"),
+    (b"\x1b[1;5H1\r\t?", "HELP"),
+    (b"\r", FORM),
+    (b"\x1b[6~\t\t", "LINE"),
+    (b"\x1b[6~\t", "ARC"),
+    (b"\x1bOS", "PROGRAM PARAMETERS"),
+    (b"\t", "cannot be read"),
+    (BACK, FORM),
+    (b"\x1b[15~", "PART SETUP"),
+    (b"\t", "cannot be read"),
+    (BACK, FORM),
+    (b"\x1b[17~", "TOOL SETUP"),
+    (b"\t\t", "cannot be read"),
+    (BACK, FORM),
+    (b"\x1b[18~", "DRAW "),
+    (BACK, FORM),
+    (b"\x1b[20~", "Up and down choose a segment."),
+    (b"\x1b[20~", "Enter a segment number"),
+    (b"\x1b[21~", "Up and down show the places"),
+    (b"\x1b[21~", "Enter a segment number"),
+    (BACK, "1 block"),
+    (b"\x1bOR", "NC file name"),
+    (BACK, "1 block"),
+    (b"\x0f", "CUTCOMP"),
 )
-"""Through every screen of a program, and out."""
+"""Through every screen of a program: what is typed, and what is on the screen then."""
 
 
 def test_every_screen(part: Path) -> None:
     """What the program sends is looked through for what the file holds."""
     with running(cutcomp(str(part)), cwd=str(part.parent)) as terminal:
-        terminal.until("MILL CONTOUR", longest=20.0)
-        for key in KEYS:
-            terminal.send(key)
+        terminal.until(FORM, longest=60.0)
+        for keys, text in STEPS:
+            terminal.send(keys)
+            terminal.until(text, longest=60.0)
             terminal.read(quiet=0.05, longest=0.5)
-        for _ in range(600):
-            terminal.read(quiet=0.1, longest=0.2)
-            if (ended := terminal.ended()) is not None:
-                break
+        terminal.send(b"\x11")
+        ended = terminal.status(longest=60.0)
         sent = bytes(terminal.seen).decode()
-    assert ended == 0, "it has failed, or the last key, which leaves it, never came to its turn"
+    assert ended == 0
     assert sent.count("[/q]") > 10, "nothing of it was shown"
     assert [evil for evil in (*ESCAPES, "\x7f", "\u202e", "\u2028", "\u009b") if evil in sent] == []
 

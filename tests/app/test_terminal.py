@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,18 +31,6 @@ def on_example(folder: Path, name: str = "overrun-square", more: Mapping[str, st
         terminal.until("MILL CONTOUR", longest=30.0)
         terminal.until("best", longest=30.0)
         yield terminal
-
-
-def status(terminal: Terminal) -> int:
-    """The exit status of a program that is leaving."""
-    begun = time.monotonic()
-    while time.monotonic() - begun < 20.0:
-        if terminal.read(quiet=0.02, longest=0.02).count == 0:
-            # a terminal whose program is leaving is closed before the program has ended
-            time.sleep(0.01)
-        if (ended := terminal.ended()) is not None:
-            return ended
-    raise AssertionError(f"it did not end:\n{terminal.text}")
 
 
 def function_keys() -> dict[str, tuple[bytes, int]]:
@@ -121,13 +108,13 @@ def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
         terminal.send(b"\t9\r\x11")
         terminal.until("QUIT?")
         terminal.send(b"d")
-        assert status(terminal) == 0
+        assert terminal.status() == 0
 
 
 def test_a_file_that_cannot_be_used_is_one_sentence_and_status_2(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_text("format = 1\nunits = 'IN'\nshape = 3\n")
     own = {"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}
     with running(cutcomp(str(tmp_path / "bad.toml")), environment=own) as terminal:
-        assert status(terminal) == 2
+        assert terminal.status() == 2
         assert "line 3" in terminal.text
         assert "shape" in terminal.text

@@ -12,7 +12,7 @@ import pytest
 
 from app.documents.files import load
 from core.program.model import Number
-from tests.app.test_safety_terminal import PROGRAM, status
+from tests.app.test_safety_terminal import PROGRAM
 from tests.terminal import Terminal, running
 
 PATIENCE = 60.0
@@ -31,7 +31,7 @@ def operator(part: Path, login: str) -> Iterator[Terminal]:
 def killed(terminal: Terminal) -> None:
     """kill -9, waited for: a dead one that nobody has waited for counts as running."""
     os.kill(terminal.pid, signal.SIGKILL)
-    status(terminal, PATIENCE)
+    terminal.status(PATIENCE)
 
 
 def tool(terminal: Terminal, number: str, undo: int) -> None:
@@ -44,7 +44,7 @@ def saved(terminal: Terminal) -> None:
     terminal.send(b"\x13")
     terminal.until("Saved", longest=PATIENCE)
     terminal.send(b"\x11")
-    assert status(terminal, PATIENCE) == 0
+    assert terminal.status(PATIENCE) == 0
 
 
 def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(part: Path) -> None:
