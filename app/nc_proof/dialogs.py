@@ -36,8 +36,8 @@ class ChooseControl(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """The cursor on the control in use."""
-        self.query_exactly_one("#controls-box").border_title = "CONTROL"
-        controls = self.query_exactly_one("#controls", OptionList)
+        self.query_one("#controls-box").border_title = "CONTROL"
+        controls = self.query_one("#controls", OptionList)
         rows = [row for row in range(controls.option_count) if controls.get_option_at_index(row).id == self.here]
         controls.highlighted = rows[0] if rows else 0
 
@@ -67,7 +67,7 @@ class CompareControls(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """Ask all controls."""
-        self.query_exactly_one("#compare-box").border_title = "COMPARE CONTROLS"
+        self.query_one("#compare-box").border_title = "COMPARE CONTROLS"
         self._compare()
 
     @work(thread=True, exclusive=True, group="compare")
@@ -77,8 +77,8 @@ class CompareControls(ModalScreen[str]):
     @on(Compared)
     def _compared(self, event: Compared) -> None:
         event.stop()
-        self.query_exactly_one("#compare-wait").display = False
-        rows = self.query_exactly_one("#compared", OptionList)
+        self.query_one("#compare-wait").display = False
+        rows = self.query_one("#compared", OptionList)
         for answer in event.answers:
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else "$c-good"
             lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome, role))]

@@ -128,7 +128,7 @@ class ProofScreen(BaseScreen):
     def on_mount(self) -> None:
         """The text, the cursor where it was, and the first run."""
         self.show_text()
-        self.query_exactly_one(Listing).go_to_row(self.document.row)
+        self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
         self._ask(self.question)
 
@@ -136,14 +136,14 @@ class ProofScreen(BaseScreen):
 
     def show_text(self) -> None:
         """The document's lines in the listing, the cursor in its row."""
-        listing = self.query_exactly_one(Listing)
+        listing = self.query_one(Listing)
         row = listing.row
         listing.load_text("\n".join(self.document.text.texts))
         listing.go_to_row(row)
 
     def take_lines(self) -> bool:
         """Take what was typed in the listing; False where the file's encoding cannot hold it."""
-        listing = self.query_exactly_one(Listing)
+        listing = self.query_one(Listing)
         text = self.document.text.with_texts(listing.document.lines)
         if text is self.document.text:
             return True
@@ -179,7 +179,7 @@ class ProofScreen(BaseScreen):
         row = changes[-1].row if changes else 0
         self._change(text, row)
         self.show_text()
-        self.query_exactly_one(Listing).go_to_row(row)
+        self.query_one(Listing).go_to_row(row)
         self.say(done)
 
     def saved(self, document: NcDocument) -> None:
@@ -192,7 +192,7 @@ class ProofScreen(BaseScreen):
 
     def action_edit(self) -> None:
         """Type in the listing, or only read it."""
-        listing = self.query_exactly_one(Listing)
+        listing = self.query_one(Listing)
         if self.document.file.holder is not None:
             self.say("Somebody else has this file open. SAVE AS (Ctrl+K) makes a copy of your own.", Tone.WARNING)
             return
@@ -206,7 +206,7 @@ class ProofScreen(BaseScreen):
 
     def action_leave(self) -> None:
         """Out of editing, out of the large drawing, out of the findings, then out of the screen."""
-        listing = self.query_exactly_one(Listing)
+        listing = self.query_one(Listing)
         if not listing.read_only:
             self.action_edit()
         elif self.has_class("-large"):
@@ -225,10 +225,10 @@ class ProofScreen(BaseScreen):
     def _moved(self, event: Listing.SelectionChanged) -> None:
         """A line is taken when the cursor leaves it; the cutter goes to the line's end."""
         event.stop()
-        row = self.query_exactly_one(Listing).row
+        row = self.query_one(Listing).row
         if row != self.document.row:
             self.quiet()
-            if not self.query_exactly_one(Listing).read_only:
+            if not self.query_one(Listing).read_only:
                 self.take_lines()
             self.document = self.document.edited(self.document.text, row)
             self._draw()
@@ -279,7 +279,7 @@ class ProofScreen(BaseScreen):
             if finding.line is not None:
                 known = marks.get(finding.line, Severity.INFO)
                 marks[finding.line] = min(known, finding.severity, key=ORDER.index)
-        self.query_exactly_one(Listing).marks = marks
+        self.query_one(Listing).marks = marks
         self._show_findings()
         self._show_titles()
         self._draw()
@@ -291,13 +291,13 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
-        self.query_exactly_one("#proof-control", Label).update(shown_control(self.question.control))
-        self.query_exactly_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
+        self.query_one("#proof-control", Label).update(shown_control(self.question.control))
+        self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
         name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
-        self.query_exactly_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
-        self.query_exactly_one("#proof-outcome", Static).update(self._outcome())
+        self.query_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
+        self.query_one("#proof-outcome", Static).update(self._outcome())
 
     def _outcome(self) -> Content:
         if self.stopped:
@@ -317,7 +317,7 @@ class ProofScreen(BaseScreen):
     # ---- findings
 
     def _show_findings(self) -> None:
-        findings, marks = self.query_exactly_one("#proof-findings", OptionList), MARKS[self.host.characters]
+        findings, marks = self.query_one("#proof-findings", OptionList), MARKS[self.host.characters]
         found = () if self.result is None else self.result.findings
         findings.border_title = f"FINDINGS  {len(found)}" if found else "FINDINGS  none"
         at = findings.highlighted
@@ -338,7 +338,7 @@ class ProofScreen(BaseScreen):
 
     def _show_finding_of_row(self) -> None:
         """The gravest finding of the line with the cursor is in hand."""
-        findings = self.query_exactly_one("#proof-findings", OptionList)
+        findings = self.query_one("#proof-findings", OptionList)
         if self.result is None or findings.has_focus:
             return
         here = [at for at, finding in enumerate(self.result.findings) if finding.line == self.document.row + 1]
@@ -353,7 +353,7 @@ class ProofScreen(BaseScreen):
     def action_finding(self, by: int) -> None:
         """The next finding after the line with the cursor, or the one before it."""
         lines = [(finding.line or 0, at) for at, finding in enumerate(self.result_findings)]
-        findings = self.query_exactly_one("#proof-findings", OptionList)
+        findings = self.query_one("#proof-findings", OptionList)
         at = findings.highlighted
         row = self.document.row + 1
         here = (row, at) if at is not None and lines and lines[at][0] == row else (row, -1 if by > 0 else len(lines))
@@ -365,9 +365,9 @@ class ProofScreen(BaseScreen):
 
     def _take_finding(self, at: int) -> None:
         finding = self.result_findings[at]
-        self.query_exactly_one("#proof-findings", OptionList).highlighted = at
+        self.query_one("#proof-findings", OptionList).highlighted = at
         if finding.line is not None:
-            self.query_exactly_one(Listing).go_to_row(finding.line - 1)
+            self.query_one(Listing).go_to_row(finding.line - 1)
         self.call_after_refresh(self.say, sentence(finding, self.unit))
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
@@ -379,12 +379,12 @@ class ProofScreen(BaseScreen):
     @on(OptionList.OptionSelected, "#proof-findings")
     def _finding_selected(self, event: OptionList.OptionSelected) -> None:
         event.stop()
-        self.query_exactly_one(Listing).focus()
+        self.query_one(Listing).focus()
 
     def action_other_panel(self) -> None:
         """The cursor to the findings, or back to the listing."""
-        listing = self.query_exactly_one(Listing)
-        other = self.query_exactly_one("#proof-findings", OptionList)
+        listing = self.query_one(Listing)
+        other = self.query_one("#proof-findings", OptionList)
         (other if listing.has_focus and self.result_findings else listing).focus()
 
     # ---- the drawing
@@ -396,7 +396,7 @@ class ProofScreen(BaseScreen):
         from core.pipeline.nc_proof import scene_at_line
         from core.pipeline.plot import SceneSubject
 
-        drawing = self.query_exactly_one("#proof-drawing", Drawing)
+        drawing = self.query_one("#proof-drawing", Drawing)
         drawing.characters, drawing.heading = self.host.characters, f"LINE {self.document.row + 1}"
         scene = scene_at_line(self.result.scene, self.result.proof, self.document.row + 1)
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
@@ -405,7 +405,7 @@ class ProofScreen(BaseScreen):
         """Enlarge or shrink on the cutter."""
         from core.pipeline.nc_proof import cutter_at_line
 
-        drawn = self.query_exactly_one("#proof-drawing", Drawing).drawn
+        drawn = self.query_one("#proof-drawing", Drawing).drawn
         if drawn is None or self.result is None:
             return
         at, _ = cutter_at_line(self.result.proof, self.document.row + 1)
@@ -419,11 +419,11 @@ class ProofScreen(BaseScreen):
 
     def action_large(self) -> None:
         """The drawing on the whole width, or beside the listing, which takes no keys while it is out of sight."""
-        listing, large = self.query_exactly_one(Listing), not self.has_class("-large")
+        listing, large = self.query_one(Listing), not self.has_class("-large")
         if not listing.read_only:
             self.action_edit()
         self.set_class(large, "-large")
-        listing.can_focus = self.query_exactly_one("#proof-findings").can_focus = not large
+        listing.can_focus = self.query_one("#proof-findings").can_focus = not large
         if not large:
             listing.focus()
 
@@ -484,7 +484,7 @@ class ProofScreen(BaseScreen):
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""
-        return Sentence(READING if self.query_exactly_one(Listing).read_only else EDITING)
+        return Sentence(READING if self.query_one(Listing).read_only else EDITING)
 
     def help_lines(self) -> tuple[str, ...]:
         """What the screen is for."""

@@ -261,7 +261,7 @@ class BaseScreen(Screen[None]):
         if self.in_view and session is not self.session:
             self.session = session
             self.show_session(session)
-            self.query_exactly_one(Status).show(session)
+            self.query_one(Status).show(session)
             self.refresh_frame()
 
     def follow_shown(self, shown: Session) -> None:
@@ -274,8 +274,8 @@ class BaseScreen(Screen[None]):
         prompt = self.said or self.too_small() or self.prompt_text()
         if self.host.guided and self.said is None and prompt.tone is not Tone.ERROR:
             prompt = Sentence(f"GUIDE  {self.guide_text()}")
-        self.query_exactly_one(Prompt).show(prompt)
-        self.query_exactly_one(Softkeys).refresh_keys()
+        self.query_one(Prompt).show(prompt)
+        self.query_one(Softkeys).refresh_keys()
 
     def guide_text(self) -> str:
         """The next step of the guided first part on this screen."""
@@ -294,7 +294,7 @@ class BaseScreen(Screen[None]):
     def show_work(self, work: Work | None) -> None:
         """How far long work is, on the status line; a screen that is being made or taken down has none."""
         if self.stands:
-            self.query_exactly_one(Status).show_work("" if work is None else work.text)
+            self.query_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:
         """That the terminal is smaller than any screen is made for; all keys act all the same."""

@@ -49,7 +49,7 @@ class Calculator(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """The title, and what the texts of last time come to."""
-        self.query_exactly_one("#question").border_title = f"{self.case.name}: {self.field.label}"
+        self.query_one("#question").border_title = f"{self.case.name}: {self.field.label}"
         self._show()
 
     @on(Input.Changed)
@@ -62,7 +62,7 @@ class Calculator(ModalScreen[str]):
         """The answers of what is typed, or why there is none."""
         results = calculate(self.case, self.typed, self.unit)
         refused = isinstance(results, Refusal)
-        self.query_exactly_one("#number-trouble", Static).update(results.text if isinstance(results, Refusal) else "")
+        self.query_one("#number-trouble", Static).update(results.text if isinstance(results, Refusal) else "")
         answers = () if isinstance(results, Refusal) else results.answers
         rows = [
             (quantity, field_text(answer[quantity.name], self.unit), number)
@@ -71,7 +71,7 @@ class Calculator(ModalScreen[str]):
             if quantity.name in answer and not self.typed.get(quantity.name, "").strip()
         ]
         self._texts = [text for _, text, _ in rows]
-        options = self.query_exactly_one(OptionList)
+        options = self.query_one(OptionList)
         options.clear_options()
         of = f" of {len(answers)}" if len(answers) > 1 else ""
         options.add_options([f" {row.label:<18}{text:>14}   {number if of else ''}{of}" for row, text, number in rows])
@@ -96,7 +96,7 @@ class Calculator(ModalScreen[str]):
         elif after and not self.case.optional:
             after[0].focus()
         else:
-            self.query_exactly_one(OptionList).focus()
+            self.query_one(OptionList).focus()
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:

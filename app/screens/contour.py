@@ -229,7 +229,7 @@ class ContourScreen(FormScreen):
 
     async def _mount_form(self, form: Form) -> None:
         """A new form, and the cursor on its field: the next key comes when it stands."""
-        await self.query_exactly_one("#fields").mount(form)
+        await self.query_one("#fields").mount(form)
         self._offer_letters(self.current_session)
         self.focus_field(self.current_session.cursor.field or "")
         self.refresh_frame()
@@ -252,17 +252,17 @@ class ContourScreen(FormScreen):
             "segment-count": f"of {last}" if last else "",
         }
         for name, text in texts.items():
-            label = self.query_exactly_one(f"#{name}", Label)
+            label = self.query_one(f"#{name}", Label)
             if str(label.content) != text:
                 label.update(text)
-        self.query_exactly_one(f"#{SEGMENT}", SegmentField).show(str(segment))
+        self.query_one(f"#{SEGMENT}", SegmentField).show(str(segment))
 
     def follow_shown(self, shown: Session) -> None:
         """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
         if not self.in_view:
             return
         self._show_tried(shown)
-        block, unit, verdict = shown.derived_block, shown.program.unit, self.query_exactly_one(Verdict)
+        block, unit, verdict = shown.derived_block, shown.program.unit, self.query_one(Verdict)
         characters = self.host.characters
         before = verdict.case
         if not block.known and before is not None and before.block.number == block.number and before.block.known:
@@ -270,7 +270,7 @@ class ContourScreen(FormScreen):
         verdict.characters = characters
         verdict.case = Case(block, shown.lookahead_table, unit)
         self.entries = block_findings(block, shown.lookahead_table, unit)
-        findings = self.query_exactly_one(FindingsList)
+        findings = self.query_one(FindingsList)
         findings.characters, findings.entries = characters, self.entries
         self._show_lists(shown)
         if block.known or before is not None:
@@ -280,7 +280,7 @@ class ContourScreen(FormScreen):
     def show_work(self, work: Work | None) -> None:
         """How far it is also stands in the title of the verdict, which is the last one until it is done."""
         super().show_work(work)
-        verdict, shown = self.query_exactly_one(Verdict), self.host.shown
+        verdict, shown = self.query_one(Verdict), self.host.shown
         if verdict.case is not None and not shown.derived_block.known:
             stopped = self.host.stopped is shown.program
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
@@ -295,7 +295,7 @@ class ContourScreen(FormScreen):
             self._tried = trial
 
     def _show_lists(self, shown: Session) -> None:
-        segments = self.query_exactly_one(SegmentList)
+        segments = self.query_one(SegmentList)
         if segments.display:
             segments.show(shown, self.host.characters)
 
@@ -309,7 +309,7 @@ class ContourScreen(FormScreen):
         in_hand = self.in_hand
         if in_hand is None and not shown.place.segment and places:
             in_hand = 0
-        self.query_exactly_one(Picture).show(shown, places, in_hand, self.host.characters)
+        self.query_one(Picture).show(shown, places, in_hand, self.host.characters)
 
     def action_finding(self, by: int) -> None:
         """Take the next finding in hand, or the one before: the loupe goes there."""
@@ -321,7 +321,7 @@ class ContourScreen(FormScreen):
         here = self.in_hand if self.in_hand is not None else first
         self.in_hand = (0 if by > 0 else len(places) - 1) if here is None else (here + by) % len(places)
         self._show_picture(self.host.shown)
-        self.query_exactly_one(FindingsList).highlighted = self.entries.index(places[self.in_hand])
+        self.query_one(FindingsList).highlighted = self.entries.index(places[self.in_hand])
 
     @on(Drawing.Picked)
     def _picked_in_drawing(self, event: Drawing.Picked) -> None:
@@ -335,7 +335,7 @@ class ContourScreen(FormScreen):
         if near and event.drawing.id == "outline":
             self.in_hand = near[0]
             self._show_picture(self.host.shown)
-            self.query_exactly_one(FindingsList).highlighted = self.entries.index(places[near[0]])
+            self.query_one(FindingsList).highlighted = self.entries.index(places[near[0]])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
             self.go(segment)
 
@@ -349,7 +349,7 @@ class ContourScreen(FormScreen):
         shown = self.has_class(f"-{name}")
         for panel in PANELS:
             self.set_class(panel == name and not shown, f"-{panel}")
-        target = self.query_exactly_one(f"#{name}")
+        target = self.query_one(f"#{name}")
         if shown or not isinstance(target, Widget):
             self.focus_field(SEGMENT)
         else:
@@ -385,7 +385,7 @@ class ContourScreen(FormScreen):
     @on(FindingsList.Stepped)
     def _finding_stepped(self, message: FindingsList.Stepped) -> None:
         message.stop()
-        if not self.query_exactly_one(FindingsList).has_focus:
+        if not self.query_one(FindingsList).has_focus:
             return
         entry = self.entries[message.number]
         places = [each for each in self.entries if each.at is not None]
@@ -412,7 +412,7 @@ class ContourScreen(FormScreen):
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
         """SEGMENT, or a field of the form."""
-        return self.query_exactly_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
+        return self.query_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
 
     def focus_field(self, name: str) -> None:
         """Put the cursor on a field; on SEGMENT where there is none of this name, as of a finding on another screen."""
@@ -497,7 +497,7 @@ class ContourScreen(FormScreen):
     def refresh_frame(self) -> None:
         """SEGMENT gets its > while it has the cursor."""
         super().refresh_frame()
-        label = self.query_exactly_one("#segment-label", Label)
+        label = self.query_one("#segment-label", Label)
         text = "SEGMENT >" if isinstance(self.current, SegmentField) else "SEGMENT"
         if str(label.content) != text:
             label.update(text, layout=False)

@@ -64,9 +64,9 @@ class Question(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """The safe answer is chosen."""
-        self.query_exactly_one("#question").border_title = self.question
+        self.query_one("#question").border_title = self.question
         words = [answer.word for answer in self.answers]
-        self.query_exactly_one(OptionList).highlighted = words.index(self.safe)
+        self.query_one(OptionList).highlighted = words.index(self.safe)
 
     @property
     def _box(self) -> Widget | None:
@@ -92,7 +92,7 @@ class Question(ModalScreen[str]):
         box = self._box
         if box is None:
             return
-        loss = box.query_exactly_one("#loss", Static)
+        loss = box.query_one("#loss", Static)
         frame = box.region.height - box.size.height
         room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
         shown = list(self.details)
@@ -151,7 +151,7 @@ class Phrase(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """The title."""
-        self.query_exactly_one("#question").border_title = self.question
+        self.query_one("#question").border_title = self.question
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
@@ -211,7 +211,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
 
     def on_mount(self) -> None:
         """The title."""
-        self.query_exactly_one("#question").border_title = self.question
+        self.query_one("#question").border_title = self.question
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
@@ -236,7 +236,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
         self.dismiss(tuple(value for value in values if isinstance(value, float)))
 
     def _say(self, text: str) -> None:
-        self.query_exactly_one("#number-trouble", Static).update(text)
+        self.query_one("#number-trouble", Static).update(text)
 
     def action_none(self) -> None:
         """Go back."""
@@ -259,8 +259,8 @@ class ChooseLine(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
-        self.query_exactly_one("#question").border_title = self.question
-        self.query_exactly_one(OptionList).highlighted = 0 if self.rows else None
+        self.query_one("#question").border_title = self.question
+        self.query_one(OptionList).highlighted = 0 if self.rows else None
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
@@ -294,8 +294,8 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
-        self.query_exactly_one("#question").border_title = self.question
-        self.query_exactly_one(OptionList).highlighted = 0 if self.rows else None
+        self.query_one("#question").border_title = self.question
+        self.query_one(OptionList).highlighted = 0 if self.rows else None
 
     def _words(self, row: int) -> Content:
         result, words = self.rows[row]
@@ -303,7 +303,7 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
 
     def action_mark(self) -> None:
         """Mark the row with the cursor, or take its mark off."""
-        answers = self.query_exactly_one(OptionList)
+        answers = self.query_one(OptionList)
         if (row := answers.highlighted) is not None:
             self.chosen ^= {self.rows[row][0]}
             answers.replace_option_prompt_at_index(row, self._words(row))

@@ -110,7 +110,7 @@ class DrawScreen(BaseScreen):
     @property
     def drawing(self) -> Drawing:
         """The drawing."""
-        return self.query_exactly_one("#full-drawing", FullDrawing)
+        return self.query_one("#full-drawing", FullDrawing)
 
     def show_session(self, session: Session) -> None:
         """The block with the cursor as it is now, in the same window."""
@@ -119,16 +119,14 @@ class DrawScreen(BaseScreen):
 
         block, unit = session.derived_block, session.program.unit
         self.entries = block_findings(block, session.lookahead_table, unit)
-        self.query_exactly_one(FindingsList).entries = self.entries
+        self.query_one(FindingsList).entries = self.entries
         if self.at is not None and self.at >= len(self.entries):
             self.at = None
         segment = session.place.segment
-        self.query_exactly_one("#draw-block", Label).update(str(block.number))
-        self.query_exactly_one("#draw-segment", Label).update(
-            f"DRAW   segment {segment}" if segment else "DRAW   START"
-        )
+        self.query_one("#draw-block", Label).update(str(block.number))
+        self.query_one("#draw-segment", Label).update(f"DRAW   segment {segment}" if segment else "DRAW   START")
         case = Case(block, session.lookahead_table, unit)
-        self.query_exactly_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters]))
+        self.query_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters]))
         before = self._subject
         near, view = (None, None) if before is None else (before.near, before.view)
         self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))
@@ -158,12 +156,12 @@ class DrawScreen(BaseScreen):
         if self._subject is not None and entry.at is not None:
             self._draw(replace(self._subject, near=entry.at, view=None))
         self._head()
-        self.query_exactly_one(FindingsList).highlighted = number
+        self.query_one(FindingsList).highlighted = number
         self.say(entry.text)
 
     @on(FindingsList.Stepped)
     def _stepped(self, event: FindingsList.Stepped) -> None:
-        if self.query_exactly_one(FindingsList).has_focus and event.number != self.at:
+        if self.query_one(FindingsList).has_focus and event.number != self.at:
             self._take(event.number)
 
     @on(FindingsList.Chosen)

@@ -54,11 +54,11 @@ class EntryScreen(BaseScreen):
     @property
     def text(self) -> str:
         """The name as it is typed."""
-        return self.query_exactly_one("#entry", Input).value.strip()
+        return self.query_one("#entry", Input).value.strip()
 
     @text.setter
     def text(self, text: str) -> None:
-        self.query_exactly_one("#entry", Input).value = text
+        self.query_one("#entry", Input).value = text
 
     @abstractmethod
     def entered(self, text: str) -> None:
@@ -72,7 +72,7 @@ class EntryScreen(BaseScreen):
         """A sentence on the prompt line; a name that was refused is selected: the next character replaces it."""
         super().say(text, tone)
         if tone is Tone.ERROR:
-            self.query_exactly_one("#entry", Input).select_all()
+            self.query_one("#entry", Input).select_all()
 
     @on(Input.Submitted, "#entry")
     def _submitted(self, event: Input.Submitted) -> None:

@@ -58,7 +58,7 @@ class FormScreen(BaseScreen):
 
     def form(self) -> Form:
         """The form that is shown."""
-        return self.query_exactly_one(Form)
+        return self.query_one(Form)
 
     @abstractmethod
     def fields(self) -> tuple[Field, ...]:

@@ -94,7 +94,7 @@ class HelpScreen(BaseScreen):
         self.call_after_refresh(self._show)
 
     def _show(self) -> None:
-        lines = self.query_exactly_one("#help-lines", Static)
+        lines = self.query_one("#help-lines", Static)
         lines.update(self._text(max(lines.size.width, 2 * NAME_WIDTH)))
 
     def _text(self, width: int) -> Content:
@@ -106,7 +106,7 @@ class HelpScreen(BaseScreen):
 
     def action_page_down(self) -> None:
         """The next page of the text."""
-        self.query_exactly_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
+        self.query_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
 
     def prompt_text(self) -> Sentence:
         """How to read on."""

@@ -85,7 +85,7 @@ class HomeScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """The columns and the files."""
-        table = self.query_exactly_one("#programs", DataTable)
+        table = self.query_one("#programs", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width, key=label)
         super().on_mount()
@@ -110,10 +110,10 @@ class HomeScreen(BaseScreen):
             self.trouble = f"{short_path(folder)} cannot be shown: {_why_not(error)}"
             self.listed = tuple(example_programs())
         self.folder = folder
-        self.query_exactly_one("#folder", Static).update(
+        self.query_one("#folder", Static).update(
             Content.assemble((" CUTCOMP ", "bold reverse"), f"  {folder}   {self._counts()}")
         )
-        table = self.query_exactly_one("#programs", DataTable)
+        table = self.query_one("#programs", DataTable)
         table.clear()
         for each in self.listed:
             table.add_row(*self._cells(each), key=str(each.path))
@@ -161,7 +161,7 @@ class HomeScreen(BaseScreen):
         if not self.stands or self.facts.get(event.facts.path) == event.facts:
             return
         self.facts[event.facts.path] = event.facts
-        table = self.query_exactly_one("#programs", DataTable)
+        table = self.query_one("#programs", DataTable)
         each = next((each for each in self.listed if each.path == event.facts.path), None)
         if each is not None:
             for (label, _), cell in zip(COLUMNS, self._cells(each), strict=True):
@@ -171,7 +171,7 @@ class HomeScreen(BaseScreen):
     @property
     def chosen(self) -> Listed | None:
         """The line with the cursor."""
-        row = self.query_exactly_one("#programs", DataTable).cursor_row
+        row = self.query_one("#programs", DataTable).cursor_row
         return self.listed[row] if row < len(self.listed) else None
 
     @on(DataTable.RowHighlighted)
@@ -203,7 +203,7 @@ class HomeScreen(BaseScreen):
         """The drawing of a file, unless the cursor has left it by now."""
         if not self.stands or self.chosen is None or self.chosen.path != path:
             return
-        drawing = self.query_exactly_one("#preview", Drawing)
+        drawing = self.query_one("#preview", Drawing)
         drawing.heading, drawing.subject = heading, subject
 
     # ---- keys
@@ -234,7 +234,7 @@ class HomeScreen(BaseScreen):
         letter = (event.character or "").lower()
         if not letter.isalnum() or not self.listed:
             return
-        table = self.query_exactly_one("#programs", DataTable)
+        table = self.query_one("#programs", DataTable)
         order = [(table.cursor_row + 1 + step) % len(self.listed) for step in range(len(self.listed))]
         row = next((row for row in order if self.listed[row].name.lower().startswith(letter)), None)
         if row is not None:

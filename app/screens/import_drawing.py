@@ -309,12 +309,12 @@ class ImportScreen(BaseScreen):
     @property
     def table(self) -> ContourTable:
         """The list."""
-        return self.query_exactly_one(ContourTable)
+        return self.query_one(ContourTable)
 
     @property
     def picture(self) -> ContoursDrawing:
         """The drawing."""
-        return self.query_exactly_one(ContoursDrawing)
+        return self.query_one(ContoursDrawing)
 
     @property
     def contour(self) -> Contour | None:
@@ -342,7 +342,7 @@ class ImportScreen(BaseScreen):
         listed = self.listed
         if listed is None:
             return
-        text = self.query_exactly_one("#filter", Input).value
+        text = self.query_one("#filter", Input).value
         contours = matching(listed.contours, text, self.unit) if text.strip() else listed.contours
         rows: list[Row] = []
         for row in rows_of(contours):
@@ -359,11 +359,11 @@ class ImportScreen(BaseScreen):
             words += f"  {self.options.unit}{source}  layers {count} of {most}"
         if self.marked:
             words += f"  {len(self.marked)} marked"
-        self.query_exactly_one("#import-file", Label).update(words)
+        self.query_one("#import-file", Label).update(words)
 
     def _show_row(self) -> None:
         """What is to be said of the row with the cursor, and its drawing."""
-        self.query_exactly_one("#import-about", Static).update(Content("\n").join(self._about()))
+        self.query_one("#import-about", Static).update(Content("\n").join(self._about()))
         self.refresh_frame()
         if self._timer is not None:
             self._timer.stop()
@@ -452,7 +452,7 @@ class ImportScreen(BaseScreen):
     def action_filter(self) -> None:
         """Type what a row must hold: a layer, a kind, a length, a size."""
         self.add_class("-filtering")
-        self.query_exactly_one("#filter", Input).focus()
+        self.query_one("#filter", Input).focus()
         self.refresh_frame()
 
     @on(Input.Changed, "#filter")
@@ -635,7 +635,7 @@ class ImportScreen(BaseScreen):
 
     def action_leave(self) -> None:
         """Stop what is being worked out, else out of the large drawing, out of the filter, out of the screen."""
-        filter_text = self.query_exactly_one("#filter", Input)
+        filter_text = self.query_one("#filter", Input)
         if self._working:
             self._stopped = True
         elif self.has_class("-large"):
@@ -727,7 +727,7 @@ class ImportScreen(BaseScreen):
 
     def _filter_prompt(self) -> Sentence:
         """What the filter holds back, and how all rows come back."""
-        text = self.query_exactly_one("#filter", Input).value.strip()
+        text = self.query_one("#filter", Input).value.strip()
         if text and self.listed is not None and not matching(self.listed.contours, text, self.unit):
             return Sentence(
                 f"No chain has '{quoted(text)}' in its layer, kind, length or size. Esc shows all.", Tone.WARNING

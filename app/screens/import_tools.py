@@ -53,7 +53,7 @@ class ImportToolsScreen(EntryScreen):
 
     def _show_unit(self) -> None:
         name = "INCH" if self.unit is Unit.IN else "MM"
-        self.query_exactly_one("#table-unit", Static).update(Content(f" TABLE UNITS: {name}"))
+        self.query_one("#table-unit", Static).update(Content(f" TABLE UNITS: {name}"))
 
     def action_other_unit(self) -> None:
         """The table's lengths are in the other unit."""
@@ -66,7 +66,7 @@ class ImportToolsScreen(EntryScreen):
 
     @work(exclusive=True, group="question")
     async def _import(self, text: str) -> None:
-        program, faults = self.current_session.program, self.query_exactly_one("#table-faults", Static)
+        program, faults = self.current_session.program, self.query_one("#table-faults", Static)
         try:
             table = read_table(typed(text), self.unit, program.unit)
         except StoreError as error:

@@ -55,17 +55,17 @@ class LookaheadScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """The columns."""
-        values = self.query_exactly_one("#values", DataTable)
+        values = self.query_one("#values", DataTable)
         for label, width in COLUMNS:
             values.add_column(label, width=width)
         super().on_mount()
 
     def show_session(self, session: Session) -> None:
         """A row a value; the cursor begins on the value that is advised, else on the one in force."""
-        table, values = session.lookahead_table, self.query_exactly_one("#values", DataTable)
+        table, values = session.lookahead_table, self.query_one("#values", DataTable)
         block = session.derived_block
         title = f"BLOCK {block.number}  LOOKAHEAD TABLE   {block.lookahead.tag} {block.lookahead.value} in force"
-        self.query_exactly_one("#lookahead-title", Static).update(title, layout=False)
+        self.query_one("#lookahead-title", Static).update(title, layout=False)
         at = values.cursor_row if values.row_count else None
         values.clear()
         if table is None:
@@ -83,7 +83,7 @@ class LookaheadScreen(BaseScreen):
     def row(self) -> Row | None:
         """The value with the cursor and what it does."""
         table = self.current_session.lookahead_table
-        return None if table is None else table.rows[self.query_exactly_one("#values", DataTable).cursor_row]
+        return None if table is None else table.rows[self.query_one("#values", DataTable).cursor_row]
 
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
@@ -94,7 +94,7 @@ class LookaheadScreen(BaseScreen):
         # shapely and numpy are not needed by the first paint
         from core.pipeline.plot import Subject
 
-        drawing, session = self.query_exactly_one(Drawing), self.current_session
+        drawing, session = self.query_one(Drawing), self.current_session
         if row is None:
             drawing.subject = None
             return

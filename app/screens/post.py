@@ -82,10 +82,10 @@ class PostScreen(EntryScreen):
 
     def on_mount(self) -> None:
         """The path of the tool's center is chosen."""
-        controls = self.query_exactly_one("#post-controls", OptionList)
+        controls = self.query_one("#post-controls", OptionList)
         controls.border_title = "CONTROL"
         controls.highlighted = 0
-        self.query_exactly_one("#post-preview").border_title = "NC FILE"
+        self.query_one("#post-preview").border_title = "NC FILE"
         super().on_mount()
 
     def show_session(self, session: Session) -> None:
@@ -105,11 +105,11 @@ class PostScreen(EntryScreen):
     @on(OptionList.OptionSelected, "#post-controls")
     def _control_taken(self, event: OptionList.OptionSelected) -> None:
         event.stop()
-        self.query_exactly_one("#entry").focus()
+        self.query_one("#entry").focus()
 
     def action_controls(self) -> None:
         """The cursor to the list of controls."""
-        self.query_exactly_one("#post-controls").focus()
+        self.query_one("#post-controls").focus()
 
     def _make(self, program: Program) -> None:
         self.made, self.stopped, self._program = None, False, program
@@ -154,9 +154,9 @@ class PostScreen(EntryScreen):
         lines, preview = self._findings(), ""
         if self.made is not None:
             preview = "\n".join(self.made.text.splitlines()[:PREVIEW_LINES])
-        self.query_exactly_one("#post-preview", Static).display = bool(preview)
-        self.query_exactly_one("#post-preview", Static).update(Content(preview))
-        self.query_exactly_one("#post-findings", Static).update(Content("\n").join(lines))
+        self.query_one("#post-preview", Static).display = bool(preview)
+        self.query_one("#post-preview", Static).update(Content(preview))
+        self.query_one("#post-findings", Static).update(Content("\n").join(lines))
         self.refresh_frame()
 
     def _findings(self) -> list[Content]:

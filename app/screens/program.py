@@ -77,21 +77,21 @@ class ProgramScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """The columns."""
-        table = self.query_exactly_one("#blocks", DataTable)
+        table = self.query_one("#blocks", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width)
         super().on_mount()
 
     def show_session(self, session: Session) -> None:
         """One row a block."""
-        table, marks = self.query_exactly_one("#blocks", DataTable), MARKS[self.host.characters]
+        table, marks = self.query_one("#blocks", DataTable), MARKS[self.host.characters]
         table.clear()
         for block in session.derived.blocks:
             table.add_row(*_row(block, marks))
         table.move_cursor(row=session.place.block - 1)
         count = len(session.program.blocks)
-        self.query_exactly_one("#block-count", Label).update(f"{count} block{'s' if count != 1 else ''}")
-        self.query_exactly_one("#program-file", Label).update(session.file_label)
+        self.query_one("#block-count", Label).update(f"{count} block{'s' if count != 1 else ''}")
+        self.query_one("#program-file", Label).update(session.file_label)
         self._draw()
         if all(block.known for block in session.derived.blocks):
             self._time(session.derived)
@@ -109,7 +109,7 @@ class ProgramScreen(BaseScreen):
         self.times = event.blocks
         count = len(event.derived.blocks)
         words = f"{count} block{'s' if count != 1 else ''}   {event.total}"
-        self.query_exactly_one("#block-count", Label).update(words)
+        self.query_one("#block-count", Label).update(words)
         self._draw()
 
     def guide_text(self) -> str:
@@ -136,7 +136,7 @@ class ProgramScreen(BaseScreen):
     @property
     def chosen(self) -> int:
         """The number of the block with the cursor."""
-        return self.query_exactly_one("#blocks", DataTable).cursor_row + 1
+        return self.query_one("#blocks", DataTable).cursor_row + 1
 
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
@@ -149,7 +149,7 @@ class ProgramScreen(BaseScreen):
         # numpy and shapely are not needed by the first paint
         from core.pipeline.plot import Subject
 
-        session, drawing = self.current_session, self.query_exactly_one("#block-drawing", Drawing)
+        session, drawing = self.current_session, self.query_one("#block-drawing", Drawing)
         if self.chosen > len(session.derived.blocks):
             return
         block = session.derived.block(self.chosen)

@@ -49,7 +49,7 @@ class SheetScreen(EntryScreen):
 
     def action_scroll(self, by: int) -> None:
         """A page of the sheet down or up."""
-        sheet = self.query_exactly_one("#sheet", VerticalScroll)
+        sheet = self.query_one("#sheet", VerticalScroll)
         (sheet.scroll_page_down if by > 0 else sheet.scroll_page_up)(animate=False)
 
     def show_session(self, session: Session) -> None:
@@ -63,7 +63,7 @@ class SheetScreen(EntryScreen):
 
     def _show(self, text: str) -> None:
         if self.stands:
-            self.query_exactly_one("#sheet-text", Static).update(Content(text))
+            self.query_one("#sheet-text", Static).update(Content(text))
 
     def action_ending(self, ending: str) -> None:
         """Give the name another ending."""

@@ -154,13 +154,13 @@ class ToolsScreen(FormScreen):
         else:
             for row, (shown, tool) in enumerate(zip(rows, session.program.tools, strict=True)):
                 shown.show(_cells(tool, row, session))
-        self.query_exactly_one("#no-tools").display = not session.program.tools
+        self.query_one("#no-tools").display = not session.program.tools
         self._show_use()
 
     async def _rebuild(self) -> None:
         """More tools, or fewer."""
         row = self.row
-        table = self.query_exactly_one("#tool-rows")
+        table = self.query_one("#tool-rows")
         await self.query(ToolRow).remove()
         await table.mount_all(self._rows(self.current_session), before=0)
         self._focus_row(min(row, len(self.current_session.program.tools) - 1))
@@ -209,7 +209,7 @@ class ToolsScreen(FormScreen):
     def _show_use(self) -> None:
         tool, program = self.tool, self.current_session.program
         text = "" if tool is None else "\n".join((_use(program, tool.number), *_faults(tool, program.unit)))
-        panel = self.query_exactly_one("#tool-use", Static)
+        panel = self.query_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
 

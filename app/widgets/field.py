@@ -324,11 +324,11 @@ class FieldRow(Horizontal):
         if cell.visible is not before.visible:
             self._stand(cell)
         if cell.tag != before.tag:
-            self.query_exactly_one(FieldLabel).show(cell)
+            self.query_one(FieldLabel).show(cell)
         match self.input:
             case NumberField() as field:
                 field.show(cell.text, cell.full)
             case ChoiceField() as field:
                 field.show(cell.text, cell.choices, cell.full)
             case None if cell.text != before.text:
-                self.query_exactly_one(".value", Label).update(cell.text, layout=False)
+                self.query_one(".value", Label).update(cell.text, layout=False)

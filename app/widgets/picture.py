@@ -35,8 +35,8 @@ class Picture(Horizontal):
 
     def on_mount(self) -> None:
         """The titles that stay."""
-        self.query_exactly_one("#outline", Drawing).heading = "PART"
-        self.query_exactly_one("#whole", Drawing).heading = "DRAWING  whole part"
+        self.query_one("#outline", Drawing).heading = "PART"
+        self.query_one("#whole", Drawing).heading = "DRAWING  whole part"
 
     def show(self, session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str) -> None:
         """Draw the block with the cursor; the loupe is on the finding in hand, or on the segment where that is None.
@@ -53,9 +53,9 @@ class Picture(Horizontal):
             "loupe": Subject(block, unit, segment, near=near),
         }
         for name, subject in subjects.items():
-            drawing = self.query_exactly_one(f"#{name}", Drawing)
+            drawing = self.query_one(f"#{name}", Drawing)
             drawing.subject = subject
-        loupe = self.query_exactly_one("#loupe", Drawing)
+        loupe = self.query_one("#loupe", Drawing)
         loupe.heading = title
         loupe.set_class(kind is Kind.GOUGE, "-gouge")
         loupe.set_class(kind is Kind.UNCUT, "-uncut")

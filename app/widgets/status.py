@@ -64,7 +64,7 @@ class Status(Horizontal):
         self._show("clock", self.surroundings.clock())
         room = "" if free is None else f"Free: {size_text(free)}"
         self._show("units", self._work or f"Prog Units: {self._unit}   {room}".rstrip())
-        self.query_exactly_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
+        self.query_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
     def show(self, session: Session) -> None:
         """The units, and how much can be undone."""
@@ -77,7 +77,7 @@ class Status(Horizontal):
         unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
         if unit != self._unit:
             self._unit = unit
-            self.query_exactly_one("#units").set_class(new, "-new")
+            self.query_one("#units").set_class(new, "-new")
             self.read_machine()
 
     def show_work(self, text: str) -> None:
@@ -89,7 +89,7 @@ class Status(Horizontal):
     def _show(self, name: str, text: str) -> None:
         if self._texts.get(name) != text:
             self._texts[name] = text
-            self.query_exactly_one(f"#{name}", Label).update(text, layout=False)
+            self.query_one(f"#{name}", Label).update(text, layout=False)
 
 
 def size_text(size: int) -> str:

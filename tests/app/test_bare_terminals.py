@@ -170,7 +170,7 @@ async def test_without_colors_the_answer_with_the_cursor_is_reversed() -> None:
     async with app.run_test(size=(80, 24)) as pilot:
         await pilot.press("tab", "7", "enter", "ctrl+q")
         await pilot.pause()
-        answers = app.screen.query_exactly_one("#answers", OptionRows)
+        answers = app.screen.query_one("#answers", OptionRows)
         rows = answers.render_lines(Region(0, 0, answers.size.width, answers.size.height))
         told = [any(style is not None and style.reverse for _, style, _ in row) for row in rows]
         assert told == [row == answers.highlighted for row in range(len(rows))]

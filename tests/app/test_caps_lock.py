@@ -40,6 +40,6 @@ async def test_capitals_go_from_finding_to_finding_on_draw():
     async with operator("pocket") as one:
         await one.press("f7", "N")
         assert isinstance(one.screen, DrawScreen)
-        first = one.screen.query_exactly_one(Drawing).heading
+        first = one.screen.query_one(Drawing).heading
         await one.press("N")
-        assert one.screen.query_exactly_one(Drawing).heading != first
+        assert one.screen.query_one(Drawing).heading != first

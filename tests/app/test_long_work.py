@@ -47,7 +47,7 @@ class Slow:
 
 
 def status(one: Operator) -> str:
-    return str(one.screen.query_exactly_one(Status).query_exactly_one("#units").render())
+    return str(one.screen.query_one(Status).query_one("#units").render())
 
 
 async def seen(one: Operator, text: str) -> None:
@@ -61,7 +61,7 @@ async def test_a_long_derivation_tells_how_far_it_is_and_escape_stops_it(monkeyp
         slow = Slow(monkeypatch, app_module, "derived")
         await one.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
         await seen(one, "working 40 %, Esc stops")
-        verdict = one.screen.query_exactly_one("#verdict")
+        verdict = one.screen.query_one("#verdict")
         assert "working 40 %" in str(verdict.border_title)
         await one.press("escape")
         assert slow.stopped
@@ -116,7 +116,7 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
         assert slow.stopped
         # more becomes known of the same program
         one.screen.show_session(one.session)
-        assert "Stopped. Enter makes the NC text." in str(one.screen.query_exactly_one("#post-findings").render())
+        assert "Stopped. Enter makes the NC text." in str(one.screen.query_one("#post-findings").render())
         slow.go.set()
         await one.press("enter")
         await one.pilot.pause(0.2)
@@ -142,5 +142,5 @@ async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(mon
         await seen(one, "working 20 %")
         await one.press("escape")
         assert slow.stopped
-        assert "stopped" in str(one.screen.query_exactly_one("#proof-outcome").render())
+        assert "stopped" in str(one.screen.query_one("#proof-outcome").render())
         assert type(one.screen).__name__ == "ProofScreen"

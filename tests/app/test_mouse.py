@@ -34,10 +34,10 @@ async def test_softkeys_fields_and_list_rows_take_clicks():
 
 async def test_a_click_in_the_drawing_goes_to_the_nearest_segment():
     async with operator() as one:
-        await click_at(one, one.screen.query_exactly_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
+        await click_at(one, one.screen.query_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
         assert one.session.place.segment == 3
         await one.press("f7")
-        await click_at(one, one.screen.query_exactly_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
+        await click_at(one, one.screen.query_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
         assert one.session.place.segment == 1
 
 
@@ -46,7 +46,7 @@ async def test_a_click_on_the_number_of_a_finding_takes_it_in_hand():
         assert isinstance(one.screen, ContourScreen)
         place = one.screen.entries[2].at
         assert place is not None
-        await click_at(one, one.screen.query_exactly_one("#outline", Drawing), place)
+        await click_at(one, one.screen.query_one("#outline", Drawing), place)
         assert one.screen.in_hand == 2
         assert one.session.place.segment == 0
 

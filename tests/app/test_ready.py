@@ -27,7 +27,7 @@ async def said(one: Operator, widget: str) -> str:
     """What a part of the screen says once everything is worked out."""
     await one.app.workers.wait_for_complete()
     await one.settle()
-    return str(one.screen.query_exactly_one(widget, Static).content)
+    return str(one.screen.query_one(widget, Static).content)
 
 
 @pytest.mark.parametrize(

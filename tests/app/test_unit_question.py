@@ -116,14 +116,14 @@ async def test_a_usual_part_is_posted_without_a_question() -> None:
 @pytest.mark.parametrize(("unit", "word"), [(Unit.IN, "I N C H"), (Unit.MM, "M M")])
 async def test_the_unit_stands_large_where_a_program_begins_and_where_it_is_posted(unit: Unit, word: str) -> None:
     async with operator(Program(unit=unit, blocks=(Block(),))) as one:
-        units = one.screen.query_exactly_one("#units", Label)
+        units = one.screen.query_one("#units", Label)
         assert word in str(units.content)
         assert units.has_class("-new")
     async with operator(plate(40, 30, 5, unit)) as one:
-        assert word not in str(one.screen.query_exactly_one("#units", Label).content)
+        assert word not in str(one.screen.query_one("#units", Label).content)
         one.app.action_post()
         await one.settle()
-        assert str(one.screen.query_exactly_one(".head-unit", Label).content) == word
+        assert str(one.screen.query_one(".head-unit", Label).content) == word
 
 
 def test_the_command_asks_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -146,7 +146,7 @@ async def test_the_post_screen_names_the_lookahead_that_is_clean() -> None:
         await one.settle()
         await one.app.workers.wait_for_complete()
         await one.settle()
-        assert f"Block 1: {GOUGED}" in str(one.screen.query_exactly_one("#post-findings", Static).content)
+        assert f"Block 1: {GOUGED}" in str(one.screen.query_one("#post-findings", Static).content)
 
 
 def test_the_sheet_names_the_lookahead_that_is_clean_and_asks_for_the_unit() -> None:

@@ -26,8 +26,10 @@ from app.widgets.prompt import Prompt
 from app.widgets.status import Surroundings
 from core.program.model import Program
 
-QUIET_ROUNDS = 3
+QUIET_ROUNDS = 4
 """So many rounds in which nobody has anything to do end a wait: what is left for after a repaint comes in the next."""
+ROUND = 0.005
+"""Seconds of a round; Textual repaints every 0.008 seconds where there is something to repaint."""
 PATIENCE = 0.5
 """Seconds."""
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
@@ -53,7 +55,6 @@ class Operator:
     async def press(self, *keys: str) -> None:
         """Keys one after the other, as the driver hands them on; "'1.25" is typed letter by letter."""
         order = KeyOrder(self.app)
-        await self.pilot.pause(0)
         for key in keys:
             for one in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(one))
@@ -73,9 +74,9 @@ class Operator:
             others = len(self.app.workers) > len(working) and not isinstance(self.app.screen, ModalScreen)
             if working:
                 await self.app.workers.wait_for_complete(working)
-            elif others and (others := monotonic() < patience):
-                await sleep(0.001)
-            await self.pilot.pause(0)
+            else:
+                others = others and monotonic() < patience
+            await sleep(ROUND)
             rounds = 0 if working or others or self._messages() else rounds + 1
 
     def _messages(self) -> bool:
@@ -96,7 +97,7 @@ class Operator:
     @property
     def prompt(self) -> str:
         """The sentence on the prompt line."""
-        return self.screen.query_exactly_one(Prompt).sentence.text
+        return self.screen.query_one(Prompt).sentence.text
 
     @property
     def at(self) -> str:

@@ -60,7 +60,7 @@ async def test_a_cursor_out_of_sight_is_found() -> None:
     async with operator("pocket") as at:
         await at.press("f6")
         assert list(monkey.form_troubles(at.app)) == []
-        at.screen.query_exactly_one("#tool-rows").display = False
+        at.screen.query_one("#tool-rows").display = False
         await at.settle()
         assert any("the cursor is nowhere" in text for text in monkey.form_troubles(at.app))
         while at.session.program.tools:

@@ -15,7 +15,7 @@ class Shown(App[None]):
 
 async def test_a_line_that_was_painted_before_its_finding_came_is_marked():
     async with Shown().run_test() as pilot:
-        listing = pilot.app.query_exactly_one(Listing)
+        listing = pilot.app.query_one(Listing)
         listing.load_text("G1\nX1\nX2")
         await pilot.pause()
 

@@ -20,12 +20,12 @@ async def at_x_end(one: Operator) -> None:
 
 
 def answers(one: Operator) -> list[str]:
-    options = one.app.screen.query_exactly_one("#answers", OptionList)
+    options = one.app.screen.query_one("#answers", OptionList)
     return [" ".join(str(options.get_option_at_index(at).prompt).split()) for at in range(options.option_count)]
 
 
 def trouble(one: Operator) -> str:
-    return str(one.app.screen.query_exactly_one("#number-trouble", Static).render())
+    return str(one.app.screen.query_one("#number-trouble", Static).render())
 
 
 async def test_a_point_on_a_bolt_circle_goes_into_x_end_and_y_end():

@@ -26,4 +26,4 @@ async def test_a_terminal_of_ascii_gets_ascii_on_every_screen(action):
 async def test_another_set_is_taken_up_at_once_where_it_is_chosen():
     async with operator() as one:
         await one.press("f7", "m")
-        assert one.screen.query_exactly_one("#full-drawing", Drawing).characters == "block"
+        assert one.screen.query_one("#full-drawing", Drawing).characters == "block"

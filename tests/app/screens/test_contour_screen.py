@@ -86,7 +86,7 @@ async def test_walking_shows_the_form_of_each_kind_of_segment():
         kinds = []
         for _ in range(5):
             await one.press("right")
-            kinds.append(str(one.screen.query_exactly_one("#segment-kind").render()))
+            kinds.append(str(one.screen.query_one("#segment-kind").render()))
         assert kinds == ["LINE", "ARC", "LINE", "BLEND ARC", "LINE"]
         assert one.at == "segment"
 
@@ -162,14 +162,14 @@ async def test_a_larger_terminal_brings_the_segment_list_up_with_its_rows():
     async with operator() as one:
         await one.pilot.resize_terminal(132, 43)
         await one.settle()
-        assert one.screen.query_exactly_one("#segments", DataTable).row_count == 12
+        assert one.screen.query_one("#segments", DataTable).row_count == 12
 
 
 async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
     async with operator("notch") as one:
         await one.press("f10")
         assert one.prompt.startswith("Up and down show the places of the findings.")
-        shown = "".join(str(option.prompt) for option in one.screen.query_exactly_one("#findings", OptionList).options)
+        shown = "".join(str(option.prompt) for option in one.screen.query_one("#findings", OptionList).options)
         assert shown.count("Corner too tight") == 1
 
 
@@ -178,7 +178,7 @@ async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
         await one.press(*["down"] * 7)
         assert one.at == "z_bottom"
         await one.pilot.pause(0.3)
-        assert one.screen.query_exactly_one("#desk").region.contains_region(one.screen.focused.region)
+        assert one.screen.query_one("#desk").region.contains_region(one.screen.focused.region)
 
 
 @pytest.mark.parametrize("keys", [("7", "escape"), ("4", "tab")], ids=["taken back", "the same"])
@@ -214,7 +214,7 @@ async def test_a_number_tried_out_on_another_screen_is_none_of_the_form_that_is_
 async def test_a_finding_on_a_field_of_another_screen_puts_the_cursor_on_segment():
     async with operator() as one:
         await one.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
-        entry = next(each for each in one.screen.query_exactly_one(FindingsList).entries if each.field == "work_offset")
+        entry = next(each for each in one.screen.query_one(FindingsList).entries if each.field == "work_offset")
         one.app.go_to(entry)
         await one.settle()
         assert (one.session.place.segment, one.at) == (0, "segment")

@@ -36,7 +36,7 @@ async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setu
             await one.press("tab")
             speed = next(each for each in one.screen.query(NumberField) if each.name == "speed@0")
             assert speed.styles.color.hex == one.app.theme_variables["c-err"].upper()
-            use = str(one.screen.query_exactly_one("#tool-use", Static).content)
+            use = str(one.screen.query_one("#tool-use", Static).content)
             assert f"ERR SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
             await one.press("shift+tab")
         await one.press("'3000", "enter")
@@ -47,9 +47,9 @@ async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_
     async with operator() as one:
         await one.press("'7", "enter", "tab", "delete", "down", "delete", "enter")
         assert one.session.block.segments[6].y_end is None
-        title = str(one.screen.query_exactly_one("#verdict").border_title)
+        title = str(one.screen.query_one("#verdict").border_title)
         assert "segments 1-6 only" in title
-        chips = str(one.screen.query_exactly_one("#chips").render())
+        chips = str(one.screen.query_one("#chips").render())
         assert "GOUGE" in chips
         await one.press("f10")
         assert isinstance(one.screen, ContourScreen)

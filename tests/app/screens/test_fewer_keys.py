@@ -104,7 +104,7 @@ async def test_a_new_line_becomes_another_kind_by_its_letter():
         await type_keys(one, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
         assert "A ARC, B BLEND ARC, C CHAMFER" in one.prompt
         await type_keys(one, ("a",))
-        assert (one.at, str(one.screen.query_exactly_one("#segment-kind").render())) == ("direction", "ARC")
+        assert (one.at, str(one.screen.query_one("#segment-kind").render())) == ("direction", "ARC")
         assert len(one.session.block.segments) == 1
 
 

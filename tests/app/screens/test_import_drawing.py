@@ -96,17 +96,17 @@ class Importer(Operator):
 
     @property
     def rows(self) -> list[list[str]]:
-        table = self.importing.query_exactly_one(ContourTable)
+        table = self.importing.query_one(ContourTable)
         return [[cell.plain.strip() for cell in table.get_row_at(row)] for row in range(table.row_count)]
 
     @property
     def said(self) -> str:
-        prompt = self.importing.query_exactly_one(Prompt)
+        prompt = self.importing.query_one(Prompt)
         return f"{prompt.sentence.tone}: {prompt.sentence.text}"
 
     @property
     def about(self) -> str:
-        return str(self.importing.query_exactly_one("#import-about").render())
+        return str(self.importing.query_one("#import-about").render())
 
 
 @asynccontextmanager
@@ -135,7 +135,7 @@ async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_
         ]
         assert "start X 20.000 Y 0.000  mid longest side  CW  LEFT" in one.about
         assert "largest gap none" in one.about
-        title = str(one.importing.query_exactly_one("#import-file").render())
+        title = str(one.importing.query_one("#import-file").render())
         assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
         await one.press("down")
         assert one.importing.picture.heading == "chain 2  HOLE"
@@ -399,7 +399,7 @@ async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
         assert one.importing.table.size.height >= 7
         assert one.importing.picture.display is (size[0] >= 80)
         await one.press("f7")
-        assert one.importing.picture.outer_size.width == one.importing.query_exactly_one("#desk").size.width
+        assert one.importing.picture.outer_size.width == one.importing.query_one("#desk").size.width
         await one.press("f7", "f1")
         await one.taken()
 
@@ -412,7 +412,7 @@ async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
     async with app.run_test(size=(80, 24)) as pilot:
         one = Importer(app, pilot)
         await one.settle()
-        table = app.screen.query_exactly_one("#programs", DataTable)
+        table = app.screen.query_one("#programs", DataTable)
         assert [str(cell) for cell in table.get_row_at(0)] == ["plate.dxf", "", "", "", "drawing"]
         await one.press("enter")
         await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))

@@ -26,7 +26,7 @@ def golden(number: str) -> Program:
 
 
 def header(one: Operator) -> str:
-    return str(one.screen.query_exactly_one("#segment-kind").render())
+    return str(one.screen.query_one("#segment-kind").render())
 
 
 async def to(one: Operator, segment: int, field: str) -> None:
@@ -247,7 +247,7 @@ async def test_a_typed_angle_of_one_segment_is_taken_without_an_end():
 
 def part_drawn(one: Operator, style: Style) -> int:
     """Cells of the loupe in the looks of a style."""
-    drawn = one.screen.query_exactly_one("#loupe", Drawing).drawn
+    drawn = one.screen.query_one("#loupe", Drawing).drawn
     return 0 if drawn is None else int((drawn.picture.styles == style.value).sum())
 
 
@@ -269,7 +269,7 @@ async def test_solutions_that_are_not_taken_are_dotted_while_the_cursor_is_on_th
             await one.press("space")
             await drawn(one)
             assert part_drawn(one, Style.UNTAKEN) > 4
-            shown = one.screen.query_exactly_one("#loupe", Drawing).drawn
+            shown = one.screen.query_one("#loupe", Drawing).drawn
             assert shown is not None
             pictures.append(shown.picture.rows)
         assert pictures[0] != pictures[1]
@@ -286,10 +286,10 @@ async def test_an_undetermined_run_is_sketched_as_far_as_headings_and_centers_ar
         assert one.session.derived_block.solved.runs[0].taken is None
         assert part_drawn(one, Style.SURFACE) > 8
         await to(one, 2, "x_center")
-        before = one.screen.query_exactly_one("#loupe", Drawing).drawn
+        before = one.screen.query_one("#loupe", Drawing).drawn
         await one.press("delete", "'7", "'0")
         await drawn(one)
-        after = one.screen.query_exactly_one("#loupe", Drawing).drawn
+        after = one.screen.query_one("#loupe", Drawing).drawn
         assert before is not None
         assert after is not None
         assert before.picture.rows != after.picture.rows
