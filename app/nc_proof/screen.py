@@ -30,6 +30,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
+from app.widgets.status import Status
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolTable
 from core.finding import Finding, Severity
@@ -298,6 +299,7 @@ class ProofScreen(BaseScreen):
         name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
         self.query_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
         self.query_one("#proof-outcome", Static).update(self._outcome())
+        self.show_state()
 
     def _outcome(self) -> Content:
         if self.stopped:
@@ -481,6 +483,13 @@ class ProofScreen(BaseScreen):
 
     def show_session(self, session: Session) -> None:
         """Nothing of the contour program stands here."""
+
+    def show_state(self) -> None:
+        """The unit of the NC text, and its edits."""
+        text = self.document.text
+        unit = "..." if self.result is None else str(self.unit)
+        saved = self.document.file.path is not None
+        self.query_one(Status).show(unit, len(text.past), len(text.future), unsaved=text.unsaved, saved=saved)
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""

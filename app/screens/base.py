@@ -261,8 +261,12 @@ class BaseScreen(Screen[None]):
         if self.in_view and session is not self.session:
             self.session = session
             self.show_session(session)
-            self.query_one(Status).show(session)
+            self.show_state()
             self.refresh_frame()
+
+    def show_state(self) -> None:
+        """The unit, and what is saved and undone, on the status line."""
+        self.query_one(Status).show_program(self.current_session)
 
     def follow_shown(self, shown: Session) -> None:
         """Show what half-typed numbers would do, where that is shown at all."""

@@ -66,15 +66,19 @@ class Status(Horizontal):
         self._show("units", self._work or f"Prog Units: {self._unit}   {room}".rstrip())
         self.query_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
-    def show(self, session: Session) -> None:
-        """The units, and how much can be undone."""
+    def show_program(self, session: Session) -> None:
+        """The state of the contour program; the unit stands out until it has a segment."""
         undo, redo = session.history.undo_count, session.history.redo_count
-        texts = ["not saved" if session.unsaved else "saved" if session.file else ""]
+        new = not any(block.segments for block in session.program.blocks)
+        unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
+        self.show(unit, undo, redo, unsaved=session.unsaved, saved=session.file is not None, new=new)
+
+    def show(self, unit: str, undo: int, redo: int, *, unsaved: bool, saved: bool, new: bool = False) -> None:
+        """The unit, whether everything is in the file, and how much can be undone and redone."""
+        texts = ["not saved" if unsaved else "saved" if saved else ""]
         texts += [f"undo {undo}"] if undo else []
         texts += [f"redo {redo}"] if redo else []
         self._show("undo", "   ".join(text for text in texts if text))
-        new = not any(block.segments for block in session.program.blocks)
-        unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
         if unit != self._unit:
             self._unit = unit
             self.query_one("#units").set_class(new, "-new")

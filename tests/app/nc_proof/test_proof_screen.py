@@ -19,6 +19,7 @@ from app.nc_proof.runs import likely_control
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
+from app.widgets.status import Status
 from core.controls.control_tools import CutterTool, ToolTable
 from core.finding import Severity
 from core.pipeline.checking import Asked
@@ -233,3 +234,16 @@ async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_p
         assert "runs" in one.outcome
         assert one.proof.result is not None
         assert one.proof.result.proof.run.moves.points[-1, 0] == 5.0
+
+
+async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
+    async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as one:
+        status = one.proof.query_one(Status)
+        assert "Prog Units: MM" in str(status.query_one("#units", Label).content)
+        await one.press("enter", "x", "down", "escape")
+        await one.settle()
+        assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
+        await one.press("ctrl+z", "ctrl+y")
+        assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
+        await one.press("ctrl+z")
+        assert str(status.query_one("#undo", Label).content) == "saved   redo 1"
