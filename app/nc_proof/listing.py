@@ -43,6 +43,10 @@ class Listing(TextArea, inherit_bindings=False):
         )
         self.cursor_blink = False
 
+    def on_resize(self) -> None:
+        """The line with the cursor stays in view."""
+        self.call_after_refresh(self.scroll_cursor_visible)
+
     def watch_marks(self) -> None:
         """Lines that Textual keeps as they were painted are painted anew."""
         self.notify_style_update()

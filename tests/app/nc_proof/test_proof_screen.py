@@ -247,3 +247,13 @@ async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
         await one.press("ctrl+z")
         assert str(status.query_one("#undo", Label).content) == "saved   redo 1"
+
+
+async def test_the_line_with_the_cursor_stays_in_view_in_a_smaller_terminal(tmp_path):
+    async with at_proof(tmp_path, b"G21\n" + b"G0 X1\n" * 10 + b"M2\n") as one:
+        await one.press(*("down",) * 11)
+        listing = one.proof.query_one(Listing)
+        assert listing.scroll_y == 0
+        await one.pilot.resize_terminal(60, 20)
+        await one.settle()
+        assert listing.scroll_y <= one.line - 1 < listing.scroll_y + listing.scrollable_content_region.height
