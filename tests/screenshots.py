@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.picture import save_picture
-from tests.terminal import running
+from tests.terminal import cutcomp, running
 
-FOLDER = Path(__file__).parent.parent / "screenshots"
+ROOT = Path(__file__).parent.parent
+FOLDER = ROOT / "screenshots"
 F7 = b"\x1b7"
 
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture: the example it shows, the keys that lead there, a text seen there, and the terminal's size."""
+    """One picture: what is shown, the text that it begins with, the keys that lead on, a text seen there, and the
+    terminal's size."""
 
     name: str
-    example: str
+    arguments: tuple[str, ...]
     keys: tuple[bytes, ...] = ()
     text: str = "best"
+    start: str = "best"
     size: tuple[int, int] = (80, 24)
     environment: dict[str, str] = field(default_factory=lambda: {"COLORTERM": "truecolor"})
 
@@ -30,14 +32,16 @@ DOWN = b"\x1b[B"
 TO_LOOKAHEAD = b"\t" * 11
 
 PAGE_DOWN = b"\x1b[6~"
-GOUGE = ("notch", (PAGE_DOWN, PAGE_DOWN), "POINT X")
-SEGMENT = ("pocket", (b"8\r",), "DIRECTION")
-DRAW = ("pocket", (b"8\r", F7), "CHARACTERS")
-TABLE = ("notch", (TO_LOOKAHEAD, b" ", DOWN), "LOOKAHEAD TABLE")
+POCKET, NOTCH = ("--example", "pocket"), ("--example", "notch")
+GOUGE = (NOTCH, (PAGE_DOWN, PAGE_DOWN), "POINT X")
+SEGMENT = (POCKET, (b"8\r",), "DIRECTION")
+DRAW = (POCKET, (b"8\r", F7), "CHARACTERS")
+TABLE = (NOTCH, (TO_LOOKAHEAD, b" ", DOWN), "LOOKAHEAD TABLE")
+BRACKET = ("proof", "--control", "fanuc", "--tool", "3=.5", "tests/data/nc/fanuc-bracket.nc")
 WIDE = (132, 43)
 SHOTS = (
-    Shot("start", "pocket"),
-    Shot("start-wide", "pocket", size=WIDE),
+    Shot("start", POCKET),
+    Shot("start-wide", POCKET, size=WIDE),
     Shot("segment", *SEGMENT),
     Shot("segment-wide", *SEGMENT, size=WIDE),
     Shot("gouge", *GOUGE),
@@ -46,19 +50,21 @@ SHOTS = (
     Shot("draw-wide", *DRAW, size=WIDE),
     Shot("lookahead-table", *TABLE),
     Shot("lookahead-table-wide", *TABLE, size=WIDE),
+    Shot("nc-proof", BRACKET, (DOWN * 9,), "LINE 10", start="runs"),
+    Shot("compare-controls", BRACKET, (b"v",), "heidenhain", start="runs"),
     Shot("no-color", *GOUGE, environment={"NO_COLOR": "1"}),
     Shot("sixteen-colors", *GOUGE, environment={"TERM": "xterm"}),
     Shot("ascii", *GOUGE, environment={"TERM": "vt100", "LC_ALL": "C"}),
-    Shot("widest", "pocket", (b"3\r\t",), "XY LENGTH", size=(200, 60)),
+    Shot("widest", POCKET, (b"3\r\t",), "XY LENGTH", size=(200, 60)),
 )
 
 
 def take(shot: Shot) -> None:
     """Run the program, press the keys, save the screen."""
     columns, rows = shot.size
-    arguments = [sys.executable, "-m", "app", "--example", shot.example]
-    with running(arguments, columns=columns, rows=rows, environment=shot.environment) as terminal:
-        terminal.until("best", longest=60.0)
+    command = cutcomp(*shot.arguments)
+    with running(command, columns=columns, rows=rows, environment=shot.environment, cwd=str(ROOT)) as terminal:
+        terminal.until(shot.start, longest=60.0)
         for key in shot.keys:
             terminal.read(quiet=1.0)
             terminal.send(key)
