@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 from textual import on, work
 from textual.binding import Binding, BindingType
 from textual.command import CommandPalette
-from textual.events import Key
+from textual.events import AppBlur, Key
 from textual.filter import LineFilter
 from textual.markup import escape
 from textual.notifications import SeverityLevel
@@ -174,6 +174,10 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
             elif document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
             self.tell_and_ask(self._opened)
+
+    def on_app_blur(self, event: AppBlur) -> None:
+        """A look at another window takes nothing: a field keeps the cursor and what is half-typed in it."""
+        event.prevent_default()
 
     def _first_painted(self) -> None:
         """The numeric libraries come now: the first paint does without them, and without the garbage collector."""

@@ -227,7 +227,8 @@ def report(segments: int, idleness: float) -> Iterator[str]:
         save(gear(segments), program)
         work = Work(program)
         yield f"{segments} segments, {SIZE[0]}x{SIZE[1]}, 256 colors"
-        yield f"idle                       {idle(work, idleness, whole)} bytes in {idleness:.0f} s"
+        with suppress(Lost):
+            yield f"idle                       {idle(work, idleness, whole)} bytes in {idleness:.0f} s"
         for name, line in LINES.items():
             yield name
             with suppress(Lost):

@@ -27,7 +27,7 @@ LONGEST: Final = 120.0
 """Seconds until a program that still works is given up: a busy machine may be slow."""
 PASSING: Final = re.compile("[▌|] .*(?:Saved|Deleted|Posted|Written)|press the softkey now")
 """A toast, and what Esc says of the digits, go by themselves after a few seconds."""
-FOLDER: Final = re.compile(r"/tmp/[a-z0-9_]+")
+FOLDER: Final = re.compile(r"/tmp/[a-z0-9_]+(/tmp[a-z0-9_]+)?")
 VARYING: Final = re.compile(r"\d{4}-\d\d-\d\d-\d{6}|\d{4}-\d\d-\d\d|\d\d:\d\d|Free: +\d+ [GM]B")
 """What the clock and the disk make different from run to run."""
 

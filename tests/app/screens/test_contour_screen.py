@@ -5,6 +5,7 @@ from __future__ import annotations
 from threading import Event
 
 import pytest
+from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
 from app.screens.palette import Palette
@@ -229,3 +230,17 @@ async def test_the_palette_comes_back_at_once():
         one.app.action_command_palette()
         await one.settle()
         assert isinstance(one.app.screen, Palette)
+
+
+async def test_a_look_at_another_window_takes_nothing_that_is_half_typed():
+    async with operator() as one:
+        await one.press("pagedown", "tab", "'1")
+        one.app.post_message(AppBlur())
+        await one.settle()
+        one.app.post_message(AppFocus())
+        await one.settle()
+        assert one.session.history.undo_count == 0
+        await one.press("'.25")
+        assert one.value("x_end") == "1.25"
+        await one.press("enter")
+        assert one.session.program.blocks[0].segments[0].x_end == Number(1.25)
