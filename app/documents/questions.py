@@ -104,7 +104,8 @@ def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
 def into_which(drawing: Path, document: Document) -> Ask:
     """Whether a drawing's contours go into the open program."""
     lines = (f"Contours of {printable(drawing.name)}:",)
-    answers = (Answer(ADD, f"behind the blocks of {name_of(document)}"), Answer(NEW_PROGRAM, "of this drawing alone"))
+    name = "the open program" if document.file.path is None else name_of(document)
+    answers = (Answer(ADD, f"behind the blocks of {name}"), Answer(NEW_PROGRAM, "of this drawing alone"))
     return Ask("INTO WHICH PROGRAM?", lines, answers, safe=ADD)
 
 

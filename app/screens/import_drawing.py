@@ -419,14 +419,12 @@ class ImportScreen(BaseScreen):
         self.action_take()
 
     def action_mark(self) -> None:
-        """Mark the row with the cursor, or take its mark off; the cursor goes on."""
+        """Mark the row with the cursor, or take its mark off."""
         numbers = set(self.row_numbers)
         self.marked = self.marked - numbers if numbers <= self.marked else self.marked | numbers
         self.table.show_marks(self.marked)
         self._show_title()
         self._show_row()
-        if self.table.has_focus:
-            self.table.action_cursor_down()
 
     def action_unfold(self, wide: bool) -> None:
         """A row of several circles as a row each, or as one again."""

@@ -52,7 +52,7 @@ def picked(terminal: Relayed, name: str) -> None:
     rows = [line[:59] for line in terminal.text.splitlines()[2:9] if line[:6].strip()]
     print("\n".join(rows))
     print(f"  a row on costs {press(terminal, 'down')} bytes, back {press(terminal, 'up')}")
-    press(terminal, "space", "right", "space")
+    press(terminal, "space", "down", "right", "space")
     print(terminal.text.splitlines()[0][:59])
     press(terminal, "enter")
     terminal.until("MILL CONTOUR", longest=LONGEST)

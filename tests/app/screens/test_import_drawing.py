@@ -144,7 +144,7 @@ async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_
 async def test_marked_contours_become_blocks_in_one_edit_that_undo_takes_back(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
         before = one.session.program
-        await one.press("space", "space", "enter")
+        await one.press("space", "down", "space", "enter")
         await one.until(lambda: one.session.program is not before)
         assert [block.cutter_comp for block in one.session.program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
         assert one.session.history.undo_count == 1
