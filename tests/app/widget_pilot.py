@@ -55,6 +55,7 @@ class Operator:
     async def press(self, *keys: str) -> None:
         """Keys one after the other, as the driver hands them on; "'1.25" is typed letter by letter."""
         order = KeyOrder(self.app)
+        await self.pilot.pause(0)
         for key in keys:
             for one in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(one))
