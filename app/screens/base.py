@@ -248,6 +248,7 @@ class BaseScreen(Screen[None]):
     def on_screen_resume(self) -> None:
         """Catch up with what has changed while another screen was in front."""
         self.follow(self.host.session)
+        self.follow_shown(self.host.shown)
         self.show_work(self.host.longest_work)
 
     @property

@@ -9,10 +9,12 @@ from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
 from app.screens.palette import Palette
+from app.session.block_findings import block_findings
 from app.session.derivation import Request, derived
 from app.session.work import Work
 from app.widgets.field import ChoiceField
 from app.widgets.findings_list import FindingsList
+from app.widgets.verdict import Verdict
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
 from core.program.model import Number, Unread
@@ -244,3 +246,20 @@ async def test_a_look_at_another_window_takes_nothing_that_is_half_typed():
         assert one.value("x_end") == "1.25"
         await one.press("enter")
         assert one.session.program.blocks[0].segments[0].x_end == Number(1.25)
+
+
+@pytest.mark.parametrize(
+    ("keys", "back"), [(("f6", "tab", "tab", "'1", "enter"), "f8"), (("f4", "tab", "'.1", "enter"), "escape")]
+)
+async def test_what_was_edited_on_another_screen_shows_in_verdict_and_findings(keys, back):
+    async with operator() as one:
+        before = one.screen.query_one(Verdict).case
+        await one.press(*keys)
+        await one.press(back)
+        assert one.session.history.undo_count == 1
+        verdict = one.screen.query_one(Verdict)
+        assert verdict.case is not before
+        assert verdict.case.block is one.session.derived_block
+        assert one.screen.entries == block_findings(
+            one.session.derived_block, one.session.lookahead_table, one.session.program.unit
+        )
