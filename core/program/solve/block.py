@@ -32,6 +32,9 @@ from core.units import Unit
 NEEDED: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
 """The fields of START that must be typed."""
 
+FINISH_VALUES: Final = ("speed", "feed", "plunge_feed", "coolant")
+"""What TOOL SETUP keeps for a tool; a block has one of each for both of its tools."""
+
 ZERO_IF_BLANK: Final = ("finish_tool", "peck_depth")
 """The fields of START whose blank means 0: no finish tool, full depth in one pass."""
 
@@ -180,7 +183,8 @@ def _start(block: Block, program: Program) -> _Start:
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
     # what was typed and is wrong comes before what is still to be typed: few of them are seen at once
-    trouble = (*tool.findings, *finish.findings, *_depths(known), *_missing(reading), *_empty(block))
+    tools = (*tool.findings, *finish.findings, *_finish_values(block, program))
+    trouble = (*tools, *_depths(known), *_missing(reading), *_empty(block))
     feed = (known.get("plunge_feed"), Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
     coolant = _coolant(block, program)
     return _Start(reading.values, point, known, tool, finish, reading.findings + trouble, feed, coolant)
@@ -207,6 +211,26 @@ def _coolant(block: Block, program: Program) -> tuple[Coolant, Origin | None]:
     if tool is not None and tool.coolant is not None:
         return tool.coolant, Origin.TOOL
     return Coolant.OFF, Origin.USUAL
+
+
+def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
+    """That the finish tool cuts with the block's speed, feeds and coolant where TOOL SETUP has others for it."""
+    called = [typed.value for typed in (block.tool, block.finish_tool) if isinstance(typed, Number)]
+    if len(called) < 2 or called[1] in (0.0, called[0]):
+        return ()
+    tool, finish = (find_tool(program, number) for number in called)
+    if finish is None:
+        return ()
+    used = {name: getattr(block, name, None) or getattr(tool, name, None) for name in FINISH_VALUES}
+    others = [name for name in FINISH_VALUES if getattr(finish, name) not in (None, used[name])]
+    if not others:
+        return ()
+    labels = ", ".join(field_of(Form.TOOL, name).label.partition(" (")[0] for name in others)
+    text = (
+        f"Finish tool {finish.number} cuts with this block's values; TOOL SETUP has another {labels} for it. "
+        f"A block of its own with TOOL {finish.number} takes those."
+    )
+    return (Finding("FINISH_VALUES", Severity.WARNING, text, 0, "finish_tool"),)
 
 
 def _missing(reading: Reading) -> tuple[Finding, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from textual.widgets import Label
 
-from app.widgets.field import ChoiceField
+from app.widgets.field import ChoiceField, NumberField
 from tests.app.widget_pilot import operator
 from tests.core.program.run_files import program_of
 from tests.core.program.test_calculated_runs import case_of, line
@@ -33,3 +33,11 @@ async def test_the_start_of_a_segment_fits_beside_its_label(x: float, y: float):
         value = one.row("START").query_one(".value", Label)
         assert str(value.content) == f"{x:.3f} {y:.3f})"
         assert len(str(value.content)) <= value.size.width
+
+
+async def test_a_metric_feed_fits_into_its_column():
+    async with operator("plate-mm") as one:
+        await one.press("f6")
+        for name, text in (("speed", "20000"), ("feed", "12000.0"), ("plunge_feed", "12000.0")):
+            [field, *_] = [each for each in one.screen.query(NumberField) if (each.name or "").startswith(f"{name}@")]
+            assert len(text) <= field.content_size.width, name

@@ -19,6 +19,7 @@ from core.program.model import (
     ArcSegment,
     BlendSegment,
     Block,
+    Coolant,
     CutterComp,
     LineSegment,
     Number,
@@ -439,3 +440,23 @@ def test_part_setup_too():
         ("OUT_OF_RANGE", "work_offset", None, "PART SETUP: WORK OFFSET must be a whole number from 54 to 59."),
         ("UNREADABLE", "safe_z", None, "PART SETUP: SAFE Z: x cannot be read. Why."),
     ]
+
+
+@pytest.mark.parametrize(
+    ("values", "labels"),
+    [
+        ({}, ""),
+        ({"speed": Number(14000.0), "feed": Number(500.0)}, ""),
+        ({"speed": Number(5000.0)}, "SPEED"),
+        ({"feed": Number(600.0), "coolant": Coolant.FLOOD}, "FEED, COOLANT"),
+    ],
+)
+def test_a_finish_tool_with_values_of_its_own_is_warned_of(values, labels):
+    tools = (
+        Tool(1, diameter=Number(0.5), speed=Number(14000.0), feed=Number(500.0)),
+        replace(Tool(2, diameter=Number(0.25)), **values),
+    )
+    given = replace(program(ALONG, start={"finish_tool": Number(2.0), "speed": None}), tools=tools)
+    found = [one for one in solve_block(given.blocks[0], given).every_finding if one.code == "FINISH_VALUES"]
+    assert [one.severity for one in found] == ([Severity.WARNING] if labels else [])
+    assert all(f"TOOL SETUP has another {labels} for it." in one.text for one in found)
