@@ -640,7 +640,7 @@ class ContourScreen(FormScreen):
             widget.action_step(1)
         elif isinstance(widget, ChoiceField):
             widget.action_spell_or_list()
-        elif widget is not None and widget.name == "lookahead":
+        elif widget is not None and widget.name == "lookahead" and self.take():
             self.app.call_later(self.app.run_action, "app.lookahead")
         elif widget is not None and widget.name in LISTED:
             self._choose_tool(widget.name or "")

@@ -8,6 +8,7 @@ import pytest
 from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
+from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
 from app.session.block_findings import block_findings
 from app.session.derivation import Request, derived
@@ -263,3 +264,14 @@ async def test_what_was_edited_on_another_screen_shows_in_verdict_and_findings(k
         assert one.screen.entries == block_findings(
             one.session.derived_block, one.session.lookahead_table, one.session.program.unit
         )
+
+
+async def test_a_typed_look_ahead_is_taken_before_the_table_offers_others():
+    async with operator("notch") as one:
+        await one.press(*("tab",) * 11, "'12", "space")
+        assert isinstance(one.app.screen, LookaheadScreen)
+        await one.press("home", "enter")
+        taken = one.session.block.lookahead
+        assert taken != Number(12.0)
+        await one.press("tab", "tab")
+        assert one.session.block.lookahead == taken
