@@ -31,6 +31,10 @@ class TransformActions(App[int]):
     def apply(self, edited: Edited, label: str) -> bool:
         """Take an edit, or say why it is refused."""
 
+    @abstractmethod
+    def quiet(self) -> None:
+        """The prompts again, on every screen."""
+
     async def _numbers(self, title: str, line: str, entries: Sequence[NumberEntry]) -> tuple[float, ...]:
         """The numbers that are typed, in program units and degrees; empty for none.  Only in a worker."""
         return await self.push_screen_wait(NumberForm(title, [line], entries, self.session.program.unit))
@@ -63,7 +67,7 @@ class TransformActions(App[int]):
     @work(exclusive=True, group="question")
     async def action_mirror_block(self) -> None:
         """Mirror the block with the cursor in a line."""
-        line = "In the line through X, Y at ANGLE: 90 turns left and right round."
+        line = "In the line through X, Y at ANGLE: 90 swaps left and right."
         numbers = await self._numbers("MIRROR BLOCK", line, (X, Y, ANGLE))
         if numbers:
             x, y, angle = numbers
@@ -97,4 +101,6 @@ class TransformActions(App[int]):
         edited = transform.repeat_segments(
             self.session.program, place.block, int(first), int(last), motion_of(*values), int(copies)
         )
-        self.apply(edited, f"{title}, block {place.block}")
+        if self.apply(edited, f"{title}, block {place.block}"):
+            # what was said of the edit before is over
+            self.quiet()

@@ -8,6 +8,7 @@ import pytest
 from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
+from app.screens.contour import ContourScreen
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
 from app.session.block_findings import block_findings
@@ -261,6 +262,7 @@ async def test_what_was_edited_on_another_screen_shows_in_verdict_and_findings(k
         verdict = one.screen.query_one(Verdict)
         assert verdict.case is not before
         assert verdict.case.block is one.session.derived_block
+        assert isinstance(one.screen, ContourScreen)
         assert one.screen.entries == block_findings(
             one.session.derived_block, one.session.lookahead_table, one.session.program.unit
         )
@@ -275,3 +277,13 @@ async def test_a_typed_look_ahead_is_taken_before_the_table_offers_others():
         assert taken != Number(12.0)
         await one.press("tab", "tab")
         assert one.session.block.lookahead == taken
+
+
+async def test_a_repeated_segment_ends_what_was_said_of_the_undo_before():
+    async with operator("notch") as one:
+        for keys in ((), ("ctrl+z",)):
+            await one.press(*keys)
+            await one.app.run_action("app.repeat_shifted")
+            await one.press(*("enter",) * 5)
+            assert one.session.history.undo_count == 1
+            assert "Undone" not in one.prompt
