@@ -224,7 +224,11 @@ class FileActions(App[int]):
         """Work on a document that was opened, and ask what is to be asked about it."""
         document = opened.document
         if isinstance(document, NcDocument):
-            self.show_nc(document)
+            proof = self.proof
+            if proof is not None and proof.document.file.opening is document.file.opening:
+                proof.show_document(document)
+            else:
+                self.show_nc(document)
         else:
             self.document = document
             self.begin(session_of(document))

@@ -37,7 +37,7 @@ GOUGE = (NOTCH, (PAGE_DOWN, PAGE_DOWN), "POINT X")
 SEGMENT = (POCKET, (b"8\r",), "DIRECTION")
 DRAW = (POCKET, (b"8\r", F7), "CHARACTERS")
 TABLE = (NOTCH, (TO_LOOKAHEAD, b" ", DOWN), "LOOKAHEAD TABLE")
-BRACKET = ("proof", "--control", "fanuc", "--tool", "3=.5", "tests/data/nc/fanuc-bracket.nc")
+BRACKET = ("proof", "--control", "fanuc", "--tool", "3=.5", "tests/data/proof/fanuc-bracket.nc")
 WIDE = (132, 43)
 SHOTS = (
     Shot("start", POCKET),

@@ -142,6 +142,13 @@ class ProofScreen(BaseScreen):
         listing.load_text("\n".join(self.document.text.texts))
         listing.go_to_row(row)
 
+    def show_document(self, document: NcDocument) -> None:
+        """The same file with the work that was left on it; control and tools stay."""
+        self.document = document
+        self.show_text()
+        self.query_one(Listing).go_to_row(document.row)
+        self._ask(replace(self.question, text=document.text))
+
     def take_lines(self) -> bool:
         """Take what was typed in the listing; False where the file's encoding cannot hold it."""
         listing = self.query_one(Listing)

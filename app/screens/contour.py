@@ -154,6 +154,7 @@ class ContourScreen(FormScreen):
 
     def __init__(self) -> None:
         super().__init__()
+        self._followed: Session | None = None
         self._forms: dict[table.Form, Form] = {}
         self._form = table.Form.START
         self._cursor: Cursor | None = None
@@ -259,8 +260,9 @@ class ContourScreen(FormScreen):
 
     def follow_shown(self, shown: Session) -> None:
         """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
-        if not self.in_view:
+        if not self.in_view or shown is self._followed:
             return
+        self._followed = shown
         self._show_tried(shown)
         block, unit, verdict = shown.derived_block, shown.program.unit, self.query_one(Verdict)
         characters = self.host.characters

@@ -69,11 +69,24 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    style, notes = STYLES.get(control), (*_no_work_offset(jobs, control), *_no_coolant(jobs, control))
+    style, notes = STYLES.get(control), _for_the_operator(jobs, unit, control)
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
         notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
     return Posted(written.text, notes=(*notes, *written.notes))
+
+
+def _for_the_operator(jobs: Sequence[Job], unit: Unit, control: str) -> tuple[Finding, ...]:
+    """What has to be looked after at the control."""
+    return (*_no_work_offset(jobs, control), *_no_coolant(jobs, control), *_inch_feed(unit, control))
+
+
+def _inch_feed(unit: Unit, control: str) -> tuple[Finding, ...]:
+    """That controls with Klartext differ in the unit of F in a program in inches."""
+    if unit is not Unit.IN or not is_klartext(control):
+        return ()
+    text = "F is in inches per minute. A control that takes tenths of an inch per minute feeds ten times too slowly."
+    return (Finding("FEED_UNIT", Severity.WARNING, text),)
 
 
 def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
@@ -113,7 +126,7 @@ def _header(
     for job in jobs:
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
-    for note in (*_no_work_offset(jobs, control), *_no_coolant(jobs, control), *notes):
+    for note in (*_for_the_operator(jobs, unit, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
 

@@ -24,6 +24,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.finding import Severity
 from core.pipeline.checking import Asked
 from core.units import Unit
+from tests.app.test_file_actions import DEAD
 from tests.app.widget_pilot import SURROUNDINGS, Operator
 
 PROGRAM = b"G20 G17 F10\r\nG1 X0 Y-1\nG42 D1 X1 Y1;\nX3\nY3\nG40 X0\nM2\n"
@@ -257,3 +258,24 @@ async def test_the_line_with_the_cursor_stays_in_view_in_a_smaller_terminal(tmp_
         await one.pilot.resize_terminal(60, 20)
         await one.settle()
         assert listing.scroll_y <= one.line - 1 < listing.scroll_y + listing.scrollable_content_region.height
+
+
+async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_saved(tmp_path):
+    (tmp_path / "p.nc").write_bytes(PROGRAM)
+    died = DocumentService(state=tmp_path / "own", me=DEAD)
+    opened = died.open(tmp_path / "p.nc")
+    assert isinstance(opened, Opened)
+    text = opened.document.text
+    died.keep(opened.document.edited(text.with_texts(["(LEFT)", *text.texts[1:]]), 0))
+    died.stop()
+    async with at_proof(tmp_path) as one:
+        assert isinstance(one.app.screen, Question)
+        await one.press("r")
+        await one.settle()
+        assert len(one.app.proofs) == 1
+        assert one.proof.query_one(Listing).document.get_line(0) == "(LEFT)"
+        await one.press("ctrl+s")
+        await one.settle()
+        assert (tmp_path / "p.nc").read_bytes().startswith(b"(LEFT)\r\n")
+        await one.press("f8")
+        assert isinstance(one.app.screen, HomeScreen)

@@ -111,7 +111,7 @@ def test_a_whole_program_for_linuxcnc() -> None:
 
 def test_a_whole_program_in_klartext() -> None:
     found = posted("klartext", name="key way/1", part="PART 7")
-    assert found.text.splitlines()[:14] == [
+    assert found.text.splitlines()[:16] == [
         "0 BEGIN PGM key-way-1 INCH",
         "1 ; PROGRAM key way/1",
         "2 ; PART PART 7",
@@ -120,12 +120,14 @@ def test_a_whole_program_in_klartext() -> None:
         "5 ; UNITS INCH",
         "6 ; TOOL 1 DIAMETER 0.5000",
         "7 ; BLOCK 1 MILL CONTOUR CUTTER COMP. RIGHT Z 0.0000 TO -0.2500",
-        "8 TOOL DEF 1 L+0 R+0.25",
-        "9 TOOL CALL 1 Z S300",
-        "10 L Z+1 R0 FMAX M3",
-        "11 L X+0.875 Y-0.375 R0 FMAX",
-        "12 L Z+0.1 R0 FMAX",
-        "13 L Z-0.25 R0 F20",
+        "8 ; NOTE FEED_UNIT F is in inches per minute. A control that takes tenths of",
+        "9 ; an inch per minute feeds ten times too slowly.",
+        "10 TOOL DEF 1 L+0 R+0.25",
+        "11 TOOL CALL 1 Z S300",
+        "12 L Z+1 R0 FMAX M3",
+        "13 L X+0.875 Y-0.375 R0 FMAX",
+        "14 L Z+0.1 R0 FMAX",
+        "15 L Z-0.25 R0 F20",
     ]
 
 
@@ -178,7 +180,7 @@ def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
     assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
     assert note.text == "PART NAME A?B is not in the file: three-block has no comments."
     assert posted("threeblock", part="  ").notes == ()
-    assert posted("klartext", part="A").notes == ()
+    assert [note.code for note in posted("klartext", part="A").notes] == ["FEED_UNIT"]
 
 
 @pytest.mark.parametrize(
