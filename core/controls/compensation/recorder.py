@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import dist
 
 from core.controls.compensation.corner_rules import Joint
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Change, Log, Stretch
 from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.geometry.piece import Point, Side
+from core.tolerance import ON_PATH
 from core.units import Unit
 
 
@@ -56,7 +58,13 @@ class Recorder:
         self.tape.straight(target, 0.0 if element.rapid else element.feed, element.line, rapid=element.rapid)
 
     def arc(self, element: Element, end: Point, center: Point) -> None:
-        """An element's own arc, or its offset, to a point of its plane."""
+        """An element's own arc, or its offset, to a point of its plane.
+
+        A full circle ends where it starts: what rounding has put between its ends would make next to no arc of it.
+        """
+        here = self.here
+        if element.start == element.end and dist(end, here) <= ON_PATH:
+            end = here
         self.arc_about(element, end, center, element.turn, element.end_height)
 
     def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:

@@ -289,3 +289,17 @@ def test_every_control_has_a_name_a_title_and_a_line_for_lists() -> None:
     first = list(dict.fromkeys(choice.name.partition(":")[0] for choice in listed))
     assert first == ["fanuc", "haas", "linuxcnc", "heidenhain", "rosettacnc", "allen-bradley", "three-block"]
     assert next(one.title for one in listed if one.control == "nine-series:a") == "Allen-Bradley 9/Series"
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a", "linuxcnc", "rosettacnc:normal", "nine-series:a"])
+@pytest.mark.parametrize("size", [4.0, 10.0, 16.0])
+def test_a_full_circle_between_tangent_arcs_is_cut_all_around(control: str, size: float) -> None:
+    program = (
+        "G90 G21 G17 G40\nT1 M6\nS2000 M3\nG0 X-60. Y-10.\nG1 Z-5. F200\nG41 D1 X-40. Y-10. F300\n"
+        "G3 X-30. Y0 R10.\nG2 X-30. Y0 I30. J0\nG3 X-40. Y10. R10.\nG1 G40 X-60.\nM30\n"
+    )
+    done = ran(program, control, t1=size)
+    assert done.stopped_at is None
+    (result,) = judge_run(done)
+    assert result.verdict.uncut_length == pytest.approx(0.0, abs=1e-6)
+    assert not result.verdict.gouges
