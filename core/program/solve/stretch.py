@@ -22,7 +22,7 @@ from core.program.solve.reading import Reading
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.element import LONGEST, Element, Parallel, Run
-from core.program.solve.run.limits import with_limit
+from core.program.solve.run.limits import with_fitting_number
 from core.program.solve.run.newton import Picked, picked_answers
 from core.program.solve.run.search import Answer, Search, search
 from core.program.solve.segment import Carried, Draft, Shape, calculate, draft, drafted
@@ -343,7 +343,7 @@ def _taken(
     if found.stuck is not None:
         return None, _why_stuck(contour, run, found.stuck, tried=picked is not None)
     if not answers:
-        return None, with_limit(run, found.findings[0])
+        return None, with_fitting_number(run, found.findings[0])
     choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
     if choice is None and len(answers) == 1:
         return 0, None

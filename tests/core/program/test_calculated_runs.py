@@ -186,6 +186,31 @@ def test_blanking_either_of_two_numbers_that_contradict_mends_it(blank: str) -> 
     assert "CONTRADICTION" not in codes(solved(case_of(line(angle=30), last)))
 
 
+def test_a_contradiction_names_what_the_rest_gives() -> None:
+    """A LENGTH or an XY ANGLE of a golden case's line, a little wrong: the sentence names what blanking it gives."""
+    tested = 0
+    for case in SOLVED:
+        runs = document(case)["runs"]
+        if len(runs) != 1 or len(runs[0]["solutions"]) != 1:
+            continue
+        for solution in runs[0]["solutions"][0]["segments"]:
+            index = solution["segment"] - 1
+            segment = case["segments"][index]
+            for field, wrong in (("angle", 1.0), ("length", 0.5)):
+                if segment["kind"] != "LINE" or {field, f"{field}_inc"} & segment.keys() or field not in solution:
+                    continue
+                surplus = {**segment, field: solution[field] + wrong}
+                others = case["segments"]
+                changed = {**case, "segments": [*others[:index], surplus, *others[index + 1 :]]}
+                label = {"angle": "XY ANGLE", "length": "XY LENGTH"}[field]
+                # another number of the case may be the one that is named
+                begin = f"{label} is {surplus[field]:.3f}, "
+                texts = [text for text in said(changed) if text.startswith(begin)]
+                tested += len(texts)
+                assert all(f"but {solution[field]:.3f} by " in text for text in texts), (case, field, texts)
+    assert tested > 10
+
+
 # corners, choices, relations
 
 

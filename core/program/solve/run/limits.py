@@ -1,14 +1,19 @@
-"""The radius that would fit: where a typed RADIUS leaves a run without answer, the nearest one that does not."""
+"""The number that would fit: where a typed one leaves a run without answer, the one that the rest of it gives.
+
+For a RADIUS that is too small or too large it is the nearest with which the run has an answer.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from math import remainder, tau
 from typing import Final
 
 from core.finding import Finding
 from core.program.solve.run import reasons
 from core.program.solve.run.element import Element, Run
+from core.program.solve.run.proof import ANGLES, measured
 from core.program.solve.run.search import GRAZE_SHIFT, search
 
 TRIED: Final = tuple(1.08**step for step in range(1, 60))
@@ -24,8 +29,14 @@ ABOUT_RADIUS: Final = frozenset(
 
 
 @lru_cache(64)
-def with_limit(run: Run, finding: Finding) -> Finding:
-    """The finding, or that a RADIUS is too small or too large where another one would fit."""
+def with_fitting_number(run: Run, finding: Finding) -> Finding:
+    """The finding with the number that would fit in place of the typed one, where there is one.
+
+    A contradiction found on the way to an answer names a number that was calculated with the wrong one: what the rest
+    of the run gives is known only without that.
+    """
+    if finding.code == "CONTRADICTION":
+        return _by_the_rest(run, finding)
     if finding.code not in ABOUT_RADIUS:
         return finding
     for index, element in enumerate(run.elements):
@@ -34,6 +45,25 @@ def with_limit(run: Run, finding: Finding) -> Finding:
             if limit is not None:
                 return reasons.radius_limit(run, index, limit, least=limit > element.known["radius"])
     return finding
+
+
+def _by_the_rest(run: Run, finding: Finding) -> Finding:
+    """What the typed number that contradicts is in the answer nearest to it that the run has without it."""
+    index = next(index for index, element in enumerate(run.elements) if element.number == finding.segment)
+    element = run.elements[index]
+    name = next((name for name in (finding.field, f"{finding.field}_inc") if name in element.known), None)
+    if name is None:
+        return finding
+    typed = element.known[name]
+    rest = replace(element, typed=tuple(datum for datum in element.typed if datum[0] != name))
+    answers = search(replace(run, elements=(*run.elements[:index], rest, *run.elements[index + 1 :]))).answers
+    values = [value for answer in answers if (value := measured(answer.pieces[index]).get(name)) is not None]
+    if not values:
+        return finding
+    if name in ANGLES:
+        nearest = min(values, key=lambda value: abs(remainder(value - typed, tau)))
+        return reasons.angle_differs(run, index, name, typed, nearest)
+    return reasons.length_differs(run, index, name, typed, min(values, key=lambda value: abs(value - typed)))
 
 
 def _centered(element: Element) -> bool:

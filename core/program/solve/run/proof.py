@@ -37,6 +37,10 @@ ON_GRAZE: Final = 10.0 * ARC_RADII
 """How far an end may move onto a circle that a line only grazes."""
 
 
+ANGLES: Final = ("angle", "start_angle", "sweep")
+"""The names of fields in radians."""
+
+
 def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
     """The chain of a complete branch and what is against it; no chain where an element has no length."""
     run = branch.run
@@ -128,7 +132,7 @@ def _own(run: Run, index: int, element: Element, piece: Piece) -> list[Finding]:
         typed = element.known.get(name)
         if typed is None:
             continue
-        if name in ("angle", "start_angle", "sweep"):
+        if name in ANGLES:
             off = abs(typed - actual) if name == "sweep" else typed - actual
             if not _same_heading(off, _reach(piece)):
                 findings.append(reasons.angle_differs(run, index, name, typed, actual))
