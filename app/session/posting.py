@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.session.words import length, segment_numbers
+from core.finding import Finding, Severity
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent
@@ -65,10 +66,19 @@ def nc_text(
     asked = unit_question(derived)
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
-        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in result.notes)))
+        told = (*_warnings(derived), *result.notes)
+        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in told)))
     against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
     return NcText(against=against, notes=(*remedies, *notes), overridable=overridable)
+
+
+def _warnings(derived: Derived) -> Iterator[Finding]:
+    """What warns of the blocks and does not forbid posting, with the number of its block."""
+    for block in derived.blocks:
+        for finding in block.findings:
+            if finding.severity is Severity.WARNING:
+                yield replace(finding, block=block.number)
 
 
 def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple[str, ...]]:
