@@ -146,14 +146,14 @@ class BaseScreen(Screen[None]):
     """Moving the cursor repaints two fields, not the screen."""
 
     AUTO_FOCUS: ClassVar[str | None] = ""
-    HORIZONTAL_BREAKPOINTS = [  # noqa: RUF012  # Textual declares it so
+    HORIZONTAL_BREAKPOINTS = [  # noqa: RUF012  # Textual's own is no ClassVar, and mypy takes none for it
         (0, "-narrow"),
         (80, "-native"),
         (100, "-medium"),
         (132, "-wide"),
         (190, "-huge"),
     ]
-    VERTICAL_BREAKPOINTS = [(0, "-short"), (28, "-tall")]  # noqa: RUF012  # Textual declares it so
+    VERTICAL_BREAKPOINTS = [(0, "-short"), (28, "-tall")]  # noqa: RUF012  # as above
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark", "question_mark", "Help", show=False, priority=True),
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),

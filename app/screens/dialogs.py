@@ -147,7 +147,7 @@ class Phrase(ModalScreen[str]):
         """A framed box: what is asked, then the line to type in."""
         with Vertical(id="question"):
             yield PlainText("\n".join(self.lines), id="loss")
-            yield LineInput(id="phrase")
+            yield LineInput(id="phrase", compact=True)
 
     def on_mount(self) -> None:
         """The title."""
@@ -206,7 +206,7 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
             for number, entry in enumerate(self.entries):
                 with Horizontal(classes="field"):
                     yield PlainLabel(entry.label, classes="label")
-                    yield LineInput(entry.text, id=f"number-{number}", classes="number")
+                    yield LineInput(entry.text, id=f"number-{number}", classes="number", compact=True)
             yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:

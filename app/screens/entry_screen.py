@@ -40,7 +40,7 @@ class EntryScreen(BaseScreen):
                 yield from self.compose_head()
             with Horizontal(id="entry-line", classes="field"):
                 yield PlainLabel(self.LABEL, classes="label")
-                yield LineInput(self._text, id="entry", select_on_focus=True)
+                yield LineInput(self._text, id="entry", compact=True)
             yield from self.compose_rest()
 
     def compose_head(self) -> ComposeResult:

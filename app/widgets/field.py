@@ -16,7 +16,7 @@ from textual.content import Content
 from textual.geometry import Size
 from textual.markup import escape
 from textual.message import Message
-from textual.reactive import Reactive
+from textual.reactive import Reactive, var
 from textual.strip import Strip
 from textual.widgets import Input, Label, Select
 
@@ -66,9 +66,7 @@ class Cell:
 class LineInput(Input):
     """A line of text whose cursor does not blink: a terminal at rest gets no bytes."""
 
-    def __init__(self, value: str = "", *, compact: bool = True, **options: Any) -> None:  # noqa: ANN401  # those of Input
-        super().__init__(value, compact=compact, **options)
-        self.cursor_blink = False
+    cursor_blink: Reactive[bool] = var(False, init=False)
 
 
 class NumberField(LineInput):
@@ -82,7 +80,7 @@ class NumberField(LineInput):
 
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
         # the style sheet makes it one line high; classes for that and for validity would style each field three times
-        super().__init__(text, compact=False, name=name, id=id, max_length=MAX_TYPED, validate_on=())
+        super().__init__(text, name=name, id=id, max_length=MAX_TYPED, validate_on=())
         self.resting, self.full = text, full or text
         self._untouched = False
         self.softkey_digits = False

@@ -53,7 +53,7 @@ class OptionRows(OptionList):
     def action_page_down(self) -> None:
         """A page down, where there is one."""
         if self.scrollable_content_region:
-            super().action_page_down()  # type: ignore[no-untyped-call]
+            super().action_page_down()  # type: ignore[no-untyped-call]  # as above
 
 
 def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:

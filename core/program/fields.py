@@ -121,7 +121,7 @@ _TANGENT: Final = Field(
     "tangent",
     "TANGENT",
     Kind.CHOICE,
-    "YES: it goes on smoothly from the segment before. Space switches.",
+    "YES: smooth from the segment before. Space switches.",
     choices=("NO", "YES"),
 )
 
