@@ -66,7 +66,7 @@ def compare(
     """
     first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []
-    for control in dict.fromkeys((*filter(None, (reference,)), *compared())):
+    for control in dict.fromkeys((reference, *compared()) if reference else compared()):
         if not reads(control, text):
             rows.append(OtherLanguage(control))
             continue
