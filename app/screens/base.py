@@ -255,7 +255,9 @@ class BaseScreen(Screen[None]):
     def in_view(self) -> bool:
         """It is in front, or only dialogs stand on it; Textual's `is_current` is true of the next screen below too."""
         stack = self.app.screen_stack
-        return self in stack and all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
+        if not self.stands or self not in stack:
+            return False
+        return all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
 
     def follow(self, session: Session) -> None:
         """Show the session, if it is another one than before."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from dataclasses import replace
 from weakref import ref
 
 import pytest
@@ -190,6 +191,20 @@ async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_n
         await one.press("enter")
         await everything(one)
         assert isinstance(one.app.screen, LookaheadScreen)
+
+
+@pytest.mark.parametrize("screen", [DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen])
+async def test_a_screen_that_is_still_being_made_waits_with_what_has_changed(screen):
+    async with operator() as one:
+        opened = screen()
+        pushed = one.app.push_screen(opened)
+        changed = replace(one.session, title="changed")
+        one.app.session = one.app.shown = changed
+        one.app.show_work()
+        await pushed
+        await one.settle()
+        assert opened.session is one.app.session
+        assert one.session.title == "changed"
 
 
 @pytest.mark.parametrize("size", [(60, 20), (80, 24), (100, 30), (132, 43), (200, 60)])
