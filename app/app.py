@@ -680,11 +680,18 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """NC PROOF on a text, with the control, the tools and the unit that were asked for at the start."""
         from app.nc_proof.screen import ProofScreen
 
-        self.push_screen(ProofScreen(document, self.keep_nc, asked, self.settings.control))
+        path, settings = document.file.path, self.settings
+        remembered = "" if path is None else settings.tools_of(path)
+        self.push_screen(ProofScreen(document, self.keep_nc, asked, settings.control, remembered))
 
     def keep_control(self, control: str) -> None:
         """NC programs are run on this control from now on."""
         self.keep_settings(replace(self.settings, control=control))
+
+    def keep_tools(self, file: Path | None, text: str) -> None:
+        """An NC program has these tools from now on."""
+        if file is not None:
+            self.keep_settings(self.settings.with_tools(file, text))
 
     @property
     def proof(self) -> ProofScreen | None:

@@ -17,6 +17,8 @@ from core.program.file.read import StoreError
 from core.units import Unit
 
 MAX_RECENT_FILES: Final = 8
+MAX_TOOLED_FILES: Final = 100
+"""NC programs whose tools are remembered."""
 MAX_SETTINGS_BYTES: Final = 100_000
 CHARACTERS: Final = ("braille", "block", "ascii")
 """The sets of characters that a drawing can be made of."""
@@ -27,7 +29,8 @@ THEMES: Final = ("dark", "light")
 class Settings:
     """`recent` are absolute paths, the last used first; the texts are empty until something is chosen.
 
-    `control` is the one that NC programs are run on, by its full name.
+    `control` is the one that NC programs are run on, by its full name.  `tools` are the diameters given to the tools of
+    NC programs, as `1=0.5in 2=12.0mm` beside the absolute path, the last used first.
     """
 
     recent: tuple[str, ...] = ()
@@ -37,6 +40,19 @@ class Settings:
     folder: str = ""
     mouse: bool = False
     control: str = ""
+    tools: tuple[tuple[str, str], ...] = ()
+
+    def tools_of(self, file: Path) -> str:
+        """The tools that were given to an NC program, empty for none."""
+        return dict(self.tools).get(str(file.absolute()), "")
+
+    def with_tools(self, file: Path, text: str) -> Settings:
+        """After an NC program was given these tools."""
+        name = str(file.absolute())
+        if not name.isprintable():
+            return self
+        others = tuple(each for each in self.tools if each[0] != name)
+        return replace(self, tools=((name, text), *others)[:MAX_TOOLED_FILES])
 
     def using(self, file: Path) -> Settings:
         """After a file was opened or saved; a name that no settings file can hold is not remembered."""
@@ -58,7 +74,7 @@ def settings_file() -> Path:
 def parsed(text: str) -> Settings:
     """Settings from a file's text; what is of no use in it is passed over.  ValueError when it is no TOML."""
     held = tomllib.loads(text)
-    recent, unit = held.get("recent"), held.get("unit")
+    recent, unit, tools = held.get("recent"), held.get("unit"), held.get("tools")
     # older files name the characters `mode`
     characters = held.get("characters", held.get("mode"))
     return Settings(
@@ -69,12 +85,18 @@ def parsed(text: str) -> Settings:
         held["folder"] if _usable(held.get("folder")) else "",
         held.get("mouse") is True,
         held["control"] if isinstance(held.get("control"), str) else "",
+        tuple(filter(_usable_tools, tools.items()))[:MAX_TOOLED_FILES] if isinstance(tools, dict) else (),
     )
 
 
 def _usable(name: object) -> bool:
     """A path as `Settings.using` writes it."""
     return isinstance(name, str) and name.isprintable() and Path(name).is_absolute()
+
+
+def _usable_tools(named: tuple[str, object]) -> bool:
+    """A path and tools as `Settings.with_tools` writes them."""
+    return _usable(named[0]) and isinstance(named[1], str)
 
 
 def written(settings: Settings) -> str:
@@ -89,6 +111,8 @@ def written(settings: Settings) -> str:
         f"mouse = {str(settings.mouse).lower()}",
         f"control = {_quoted(settings.control)}",
         f"recent = [\n{recent}]",
+        "[tools]",
+        *(f"{_quoted(name)} = {_quoted(text)}" for name, text in settings.tools),
     )
     return "\n".join(lines) + "\n"
 

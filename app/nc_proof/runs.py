@@ -12,6 +12,7 @@ from textual.message import Message
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NcText
 from core.progress import Progress, silent
+from core.units import Unit
 
 if TYPE_CHECKING:
     from core.controls.control_tools import ToolTable
@@ -19,11 +20,11 @@ if TYPE_CHECKING:
     from core.finding import Finding
     from core.pipeline.checking import Answer
     from core.pipeline.nc_proof import Proof
-    from core.units import Unit
 
 MAX_GUESS_LINES: Final = 200
 """Lines that are looked at to guess which control a program is for."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
+_REMEMBERED: Final = re.compile(r"(\d{1,4})=(-?\d{1,6}(?:\.\d{1,20})?)(in|mm)?")
 _TOOL: Final = re.compile(r"(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
 
 
@@ -103,6 +104,23 @@ def compare(question: Question) -> tuple[Answer, ...]:
     library = FolderLibrary(question.folder)
     asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library)
     return answer_all(question.text.data, asked, question.control)
+
+
+def tools_text(tools: ToolTable) -> str:
+    """Tools and diameters in a line, `1=0.5in 2=12.0mm`."""
+    return " ".join(f"{tool.number}={tool.diameter!r}{tool.unit or ''}".lower() for tool in tools.tools.values())
+
+
+def read_tools(text: str) -> ToolTable:
+    """The tools in such a line; what is no tool in it is passed over."""
+    # this loads the controls, which the first paint does without
+    from core.controls.control_tools import CutterTool, ToolTable
+
+    found = (_REMEMBERED.fullmatch(word) for word in text.split())
+    tools = ((int(each[1]), float(each[2]), each[3]) for each in found if each)
+    return ToolTable.of(
+        *(CutterTool(number, size, unit=Unit(unit.upper()) if unit else None) for number, size, unit in tools)
+    )
 
 
 def likely_control(text: NcText, usual: str = "") -> str:

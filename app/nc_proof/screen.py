@@ -19,7 +19,7 @@ from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.nc_proof.dialogs import ChooseControl, CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import Question, Ran, Result, first_tool, judge, likely_control, run
+from app.nc_proof.runs import Question, Ran, Result, first_tool, judge, likely_control, read_tools, run, tools_text
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.session.messages import Sentence, Tone
@@ -59,7 +59,8 @@ _NUMBERED: Final = re.compile(r"\s*(\d{1,4})\s*=(.*)")
 class ProofScreen(BaseScreen):
     """One NC text under proof; `keep` puts its edits on the disk.
 
-    It runs on the control that was `asked` for, else on the `usual` one where that reads the text.
+    It runs on the control that was `asked` for, else on the `usual` one where that reads the text; with the tools that
+    it was given the last time, as `remembered`, under those that are asked for.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
@@ -94,17 +95,24 @@ class ProofScreen(BaseScreen):
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^S", "SAVE"), ("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
 
     def __init__(
-        self, document: NcDocument, keep: Callable[[NcDocument], None], asked: Asked | None = None, usual: str = ""
+        self,
+        document: NcDocument,
+        keep: Callable[[NcDocument], None],
+        asked: Asked | None = None,
+        usual: str = "",
+        remembered: str = "",
     ) -> None:
         super().__init__()
         self.document, self._keep = document, keep
         text = document.text
         control = likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
-        self.question = Question(text, control, ToolTable(), folder=folder)
+        self.remembered = read_tools(remembered)
+        self.question = Question(text, control, self.remembered, folder=folder)
         self.tool = first_tool(text)
         if asked is not None:
-            self.question = Question(text, asked.control or control, asked.tools, asked.unit, folder)
+            tools = self.remembered.with_tools(asked.tools)
+            self.question = Question(text, asked.control or control, tools, asked.unit, folder)
             self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
         self.view_of: View | None = None
@@ -132,6 +140,8 @@ class ProofScreen(BaseScreen):
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
         self._ask(self.question)
+        if self.remembered.tools:
+            self.say("The tools are those that this program was given the last time. T changes one.")
 
     # ---- the text
 
@@ -474,7 +484,9 @@ class ProofScreen(BaseScreen):
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool = tool.number
-        self._ask(replace(self.question, tools=self.question.tools.with_tools(ToolTable.of(tool))))
+        tools = self.question.tools.with_tools(ToolTable.of(tool))
+        self.host.keep_tools(self.document.file.path, tools_text(tools))
+        self._ask(replace(self.question, tools=tools))
 
     def action_diameter(self, by: int) -> None:
         """The tool a little smaller or larger: the verdict follows."""

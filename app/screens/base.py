@@ -108,6 +108,9 @@ class Host(Protocol):
     def keep_control(self, control: str) -> None:
         """NC programs are run on this control from now on."""
 
+    def keep_tools(self, file: Path | None, text: str) -> None:
+        """An NC program has these tools from now on."""
+
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 

@@ -13,7 +13,9 @@ def test_settings_come_back_as_they_were_written(tmp_path):
     settings = Settings(
         (str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True, control="fanuc:b"
     )
+    settings = settings.with_tools(tmp_path / 'a "b".nc', "1=0.5in").with_tools(tmp_path / "b.nc", "2=12.0mm")
     assert parsed(written(settings)) == settings
+    assert settings.tools_of(tmp_path / 'a "b".nc') == "1=0.5in"
 
 
 def test_the_last_used_file_comes_first_and_old_ones_are_forgotten(tmp_path):
@@ -31,7 +33,16 @@ def test_a_file_of_an_earlier_version_is_read():
 
 
 @pytest.mark.parametrize(
-    "text", ['unit = "FURLONG"\n', "recent = 3\n", 'recent = ["not/absolute"]\n', 'theme = "pink"\n', "control = 3\n"]
+    "text",
+    [
+        'unit = "FURLONG"\n',
+        "recent = 3\n",
+        'recent = ["not/absolute"]\n',
+        'theme = "pink"\n',
+        "control = 3\n",
+        "tools = 3\n",
+        "[tools]\nx = 3\n",
+    ],
 )
 def test_what_is_of_no_use_is_passed_over(text):
     assert parsed(text) == Settings()

@@ -15,7 +15,7 @@ from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import likely_control
+from app.nc_proof.runs import likely_control, read_tools
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
@@ -192,6 +192,21 @@ async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
     assert likely_control(text, chosen) == chosen
     assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
     assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
+
+
+async def test_a_program_comes_back_with_the_tools_it_was_given_the_last_time(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        await with_tool(one, "2=6mm")
+        known = one.app.settings.tools_of(tmp_path / "p.nc")
+        assert known == "1=0.25in 2=0.23622047244094488in"
+        await one.press("f8")
+        one.app.open_file(tmp_path / "p.nc")
+        await one.settle()
+        assert one.proof.question.tools.tools == read_tools(known).tools
+        assert one.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
+        assert "the last time" in one.prompt
+    assert read_tools("1=.5in 0=x 3=-0.5 x").tools == {3: CutterTool(3, -0.5)}
 
 
 async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
