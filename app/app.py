@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from textual.command import Provider
 
     from app.nc_proof.screen import ProofScreen
+    from app.widgets.status import Status
     from core.advice.lookahead_table import Table
     from core.pipeline.checking import Asked
 
@@ -503,10 +504,12 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self.bring(ProgramScreen)
 
     def action_home(self) -> None:
-        """HOME, the files of a folder."""
+        """HOME, the files of a folder; once more, they are listed anew."""
         from app.screens.home import HomeScreen
 
-        if not isinstance(self.screen, HomeScreen) and self.take_typed():
+        if isinstance(self.screen, HomeScreen):
+            self.screen.list_anew()
+        elif self.take_typed():
             file = self.session.file
             self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
 
@@ -707,15 +710,22 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
         return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
 
+    def show_open_state(self, status: Status) -> None:
+        """The state of what is open: the NC text in NC PROOF, else the contour program."""
+        if self.proofs:
+            self.proofs[-1].show_state_on(status)
+        else:
+            status.show_program(self.session)
+
     def action_nc_proof(self) -> None:
         """Ask for the path of an NC program."""
         self.action_open_path()
 
-    def show_folder(self, folder: Path) -> None:
-        """HOME with the files of a folder."""
+    def show_folder(self, folder: Path, at: Path | None = None) -> None:
+        """HOME with the files of a folder, the cursor on one of them."""
         from app.screens.home import HomeScreen
 
-        self.push_screen(HomeScreen(folder))
+        self.push_screen(HomeScreen(folder, at))
 
 
 def _contour_document(session: Session, service: DocumentService | None, opened: Opened[Any] | None) -> ContourDocument:

@@ -99,8 +99,8 @@ class FileActions(App[int]):
         """An NC PROOF that is open to the front."""
 
     @abstractmethod
-    def show_folder(self, folder: Path) -> None:
-        """HOME with the files of a folder."""
+    def show_folder(self, folder: Path, at: Path | None = None) -> None:
+        """HOME with the files of a folder, the cursor on one of them."""
 
     @abstractmethod
     def show_nc(self, document: NcDocument) -> None:
@@ -530,7 +530,8 @@ class FileActions(App[int]):
             await self.run_action("app.back")
             if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
                 # started on an NC text: a form in which nothing was typed is not where its reader comes from
-                self.show_folder(document.file.path.absolute().parent)
+                path = document.file.path.absolute()
+                self.show_folder(path.parent, path)
 
     async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
         """Save a document, asking what is to be asked; None where it was not saved."""

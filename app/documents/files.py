@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import stat
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -18,12 +19,17 @@ from types import MappingProxyType
 from typing import BinaryIO, Final
 from zlib import adler32, crc32
 
+from app.documents.naming import is_drawing
+from app.documents.nc_text import NC_SUFFIXES
 from core.program.file.read import StoreError, loads_bytes
 from core.program.file.write import dumps
 from core.program.model import Program
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
+SEARCHED_BYTES: Final = 4096
+"""Bytes in which a program says that it is one."""
+_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
 MAX_NAME_BYTES: Final = 200
 """Bytes of a file's name that a hidden name beside it begins with."""
 
@@ -114,7 +120,26 @@ def load(path: str | Path) -> Program:
         data, _ = read_file(path, LARGEST_FILE)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} cannot be read: {why(error)}") from error
-    return loads_bytes(data, str(path))
+    try:
+        return loads_bytes(data, str(path))
+    except StoreError as error:
+        if holds_program(data) or not (kind := _other_file(path)):
+            raise
+        raise StoreError(f"{path} is {kind}") from error
+
+
+def holds_program(data: bytes) -> bool:
+    """Whether the content of a file, or its beginning, is that of one of our own programs."""
+    return _PROGRAM.search(data[:SEARCHED_BYTES]) is not None
+
+
+def _other_file(path: Path) -> str:
+    """What a file is by its name, and what reads it; empty where it may be a contour program."""
+    if is_drawing(path):
+        return "a drawing, not a contour program. cutcomp import makes one of it."
+    if path.suffix.lower() in NC_SUFFIXES:
+        return "an NC program, not a contour program. cutcomp check tells what the controls do with it."
+    return ""
 
 
 def load_from(stream: BinaryIO, name: str) -> Program:
@@ -183,7 +208,7 @@ def _is_program(path: Path) -> bool:
     if path.suffix.lower() == ".toml":
         return True
     try:
-        return read_start(path, 80).startswith(b"format =")
+        return holds_program(read_start(path, SEARCHED_BYTES))
     except (OSError, ValueError):
         return False
 

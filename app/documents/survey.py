@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.document import ContourDocument
-from app.documents.files import load
+from app.documents.files import load, read_start
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from app.documents.lock import alive, user
@@ -28,6 +28,8 @@ MAX_LISTED: Final = 500
 """Files of a folder that are listed; more are reached by typing a path."""
 DRAWING: Final = "drawing"
 NC_PROGRAM: Final = "NC program"
+SHEET_START: Final = b"SETUP SHEET\n"
+"""The first line of a setup sheet's text."""
 
 
 class Outcome(StrEnum):
@@ -200,7 +202,7 @@ def _inside(folder: Path) -> Iterator[Listed]:
         inside = sorted(entries, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
     shown = [each for each in inside if not each.name.startswith(".")]
-    others = [(each, kind) for each in shown if (kind := _kind(each.name)) and not each.is_dir()]
+    others = [(each, kind) for each in shown if (kind := _kind(Path(each.path))) and not each.is_dir()]
     folders = [each for each in shown if each.is_dir()]
     saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
     for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
@@ -212,7 +214,15 @@ def _inside(folder: Path) -> Iterator[Listed]:
         yield Listed(Path(each.path), f"{each.name}/", folder=True)
 
 
-def _kind(name: str) -> str:
-    """What a file is by its name, where it is no contour program."""
-    path = Path(name)
+def _kind(path: Path) -> str:
+    """What a file is by its name, where it is no contour program; a text may be the setup sheet of one."""
+    if path.suffix.lower() == ".txt" and _starts_with(path, SHEET_START):
+        return ""
     return DRAWING if is_drawing(path) else NC_PROGRAM if path.suffix.lower() in NC_SUFFIXES else ""
+
+
+def _starts_with(path: Path, start: bytes) -> bool:
+    try:
+        return read_start(path, len(start)) == start
+    except OSError:
+        return False

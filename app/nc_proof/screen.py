@@ -505,18 +505,29 @@ class ProofScreen(BaseScreen):
 
     def show_state(self) -> None:
         """The unit of the NC text, and its edits."""
+        self.show_state_on(self.query_one(Status))
+
+    def show_state_on(self, status: Status) -> None:
+        """The same on the status line of a screen that lies on this one."""
         text = self.document.text
         unit = "..." if self.result is None else str(self.unit)
         saved = self.document.file.path is not None
-        self.query_one(Status).show(unit, len(text.past), len(text.future), unsaved=text.unsaved, saved=saved)
+        status.show(unit, len(text.past), len(text.future), unsaved=text.unsaved, saved=saved)
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""
         return Sentence(READING if self.query_one(Listing).read_only else EDITING)
 
     def help_lines(self) -> tuple[str, ...]:
-        """What the screen is for."""
-        return ("NC PROOF", "The listing, what the control makes of it, and the findings; Tab changes between them.")
+        """What the screen is for, and its keys."""
+        return (
+            "NC PROOF",
+            "The listing, what the control makes of it, and the findings; Tab changes between them.",
+            "N and P go from finding to finding. Enter edits the listing, Esc ends editing.",
+            "C chooses the control, V compares all controls. The drawing shows the path as far as the line in hand.",
+            "T gives a tool its diameter, < and > make it smaller and larger, and the verdict follows.",
+            "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
+        )
 
 
 def read_tool(text: str, number: int, unit: Unit) -> CutterTool | str:

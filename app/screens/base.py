@@ -111,6 +111,9 @@ class Host(Protocol):
     def keep_tools(self, file: Path | None, text: str) -> None:
         """An NC program has these tools from now on."""
 
+    def show_open_state(self, status: Status) -> None:
+        """The state of what is open: the NC text in NC PROOF, else the contour program."""
+
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 

@@ -9,6 +9,7 @@ from app.screens.entry_screen import EntryScreen
 from app.session.guide import SAVE_NAME
 from app.session.messages import Sentence
 from app.widgets.softkeys import Softkey
+from app.widgets.status import Status
 
 
 class SaveAsScreen(EntryScreen):
@@ -24,6 +25,10 @@ class SaveAsScreen(EntryScreen):
     def entered(self, text: str) -> None:
         """Save under this name."""
         self.host.save_as(text)
+
+    def show_state(self) -> None:
+        """That of what gets the name."""
+        self.host.show_open_state(self.query_one(Status))
 
     def guide_text(self) -> str:
         """A name for the plate."""

@@ -18,6 +18,7 @@ from app.screens.topics import topic_of
 from app.session.messages import Sentence
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
+from app.widgets.status import Status
 from core.program.fields import Field, range_of
 from core.units import Kind, Unit
 
@@ -107,6 +108,10 @@ class HelpScreen(BaseScreen):
     def action_page_down(self) -> None:
         """The next page of the text."""
         self.query_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
+
+    def show_state(self) -> None:
+        """That of the screen below."""
+        self.host.show_open_state(self.query_one(Status))
 
     def prompt_text(self) -> Sentence:
         """How to read on."""

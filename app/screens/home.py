@@ -40,6 +40,8 @@ from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
+LETTERS_TOGETHER: Final = 1.0
+"""Letters with less than so many seconds between them are of one name."""
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
 
 
@@ -69,12 +71,14 @@ class HomeScreen(BaseScreen):
         Softkey("QUIT", "app.quit", "QUIT"),
     )
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, at: Path | None = None) -> None:
         super().__init__()
-        self.folder = folder
+        self.folder, self._at = folder, at
         self.listed: tuple[Listed, ...] = ()
         self.facts: dict[Path, Facts] = {}
         self.trouble = ""
+        self._letters = ""
+        self._last_letter = 0.0
 
     def compose_body(self) -> ComposeResult:
         """The folder, its programs, the drawing of the one with the cursor."""
@@ -89,13 +93,13 @@ class HomeScreen(BaseScreen):
         for label, width in COLUMNS:
             table.add_column(label, width=width, key=label)
         super().on_mount()
-        self.show_folder(self.folder)
+        self.show_folder(self.folder, at=self._at)
 
     def on_screen_resume(self) -> None:
         """Files may have changed while another screen was in front."""
         super().on_screen_resume()
         if self.is_mounted and self.listed:
-            self._survey(self._programs(), dict(self.facts))
+            self.list_anew()
 
     def show_session(self, session: Session) -> None:
         """Nothing of the session stands here."""
@@ -121,6 +125,11 @@ class HomeScreen(BaseScreen):
         table.move_cursor(row=rows[0] if rows else 0)
         self._survey(self._programs(), dict(self.facts))
         self.refresh_frame()
+
+    def list_anew(self) -> None:
+        """The folder as it is now, the cursor on the same file."""
+        chosen = self.chosen
+        self.show_folder(self.folder, at=None if chosen is None else chosen.path)
 
     def _counts(self) -> str:
         """How many files of each kind the folder holds."""
@@ -230,16 +239,25 @@ class HomeScreen(BaseScreen):
         self.show_folder(self.folder.parent, at=self.folder)
 
     def on_key(self, event: events.Key) -> None:
-        """A letter goes to the next name that begins with it."""
+        """Letters go to the next name that begins with them; a letter that fits no such name begins anew."""
         letter = (event.character or "").lower()
-        if not letter.isalnum() or not self.listed:
+        together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
+        if not (letter.isalnum() or (together and letter and letter in "-_.")) or not self.listed:
             return
-        table = self.query_one("#programs", DataTable)
-        order = [(table.cursor_row + 1 + step) % len(self.listed) for step in range(len(self.listed))]
-        row = next((row for row in order if self.listed[row].name.lower().startswith(letter)), None)
-        if row is not None:
+        self._last_letter = event.time
+        if self._jump(together + letter, 0 if together else 1) or self._jump(letter, 1):
             event.stop()
-            table.move_cursor(row=row)
+
+    def _jump(self, letters: str, step: int) -> bool:
+        """The cursor to the next name from `step` lines below it that begins with these letters, if there is one."""
+        table, count = self.query_one("#programs", DataTable), len(self.listed)
+        rows = ((table.cursor_row + step + more) % count for more in range(count))
+        row = next((row for row in rows if self.listed[row].name.lower().startswith(letters)), None)
+        if row is None:
+            return False
+        self._letters = letters
+        table.move_cursor(row=row)
+        return True
 
     def prompt_text(self) -> Sentence:
         """What is wrong with the file under the cursor, else what the keys do."""

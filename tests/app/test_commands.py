@@ -69,6 +69,15 @@ def test_a_drawing_is_written_where_no_other_picture_is_named(tmp_path: Path, na
     assert "<svg" in (tmp_path / name).read_text()
 
 
+@pytest.mark.parametrize(
+    ("name", "what"), [("a.NC", "an NC program"), ("a.h", "an NC program"), ("a.dxf", "a drawing")]
+)
+def test_another_kind_of_file_is_called_by_its_name(tmp_path, capsys, name, what):
+    (tmp_path / name).write_text("%\nM30\n")
+    assert main(["post", str(tmp_path / name)]) == 2
+    assert f"{name} is {what}, not a contour program. cutcomp " in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("command", ["post", "plot", "sheet"])
 def test_a_dash_is_standard_output(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str

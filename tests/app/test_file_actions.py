@@ -165,6 +165,37 @@ async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
         assert one.prompt == "Tool number. Space lists the tools."
 
 
+async def test_letters_that_follow_at_once_are_of_one_name(folder):
+    for name in ("part-b.nc", "part-c.nc", "pin.nc"):
+        (folder / name).write_text("M30\n")
+    async with at_work(folder) as one:
+        await one.press("ctrl+o")
+        home = one.app.screen
+        assert isinstance(home, HomeScreen)
+        await one.press("p", "i")
+        assert home.chosen.name == "pin.nc"
+        home._last_letter = 0.0
+        await one.press(*"part-c")
+        assert home.chosen.name == "part-c.nc"
+        # no name goes on with it, nor begins with it
+        await one.press("z")
+        assert home.chosen.name == "part-c.nc"
+
+
+async def test_home_lists_what_was_written_while_another_screen_was_in_front(folder):
+    async with at_work(folder) as one:
+        await one.press("ctrl+o")
+        home = one.app.screen
+        assert isinstance(home, HomeScreen)
+        (folder / "a.nc").write_text("M30\n")
+        await one.press("ctrl+o")
+        assert "a.nc" in [each.name for each in home.listed]
+        assert home.chosen.path == folder / "part.toml"
+        (folder / "b.nc").write_text("M30\n")
+        await one.press("question_mark", "escape")
+        assert "b.nc" in [each.name for each in home.listed]
+
+
 async def test_a_drawing_that_comes_while_home_is_taken_down_is_dropped(folder, monkeypatch):
     late = []
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
+from datetime import UTC, datetime
 from pathlib import Path
 from threading import Event
 
 import pytest
 
 from app.documents import survey
+from app.documents.files import load
 from app.documents.journal_file import SUFFIX, journal_path
 from app.documents.programs import examples
 from app.documents.survey import Outcome, facts_of, programs_of
+from app.session.posting import setup_sheet
 from tests.app.documents.typist import ELSEWHERE, started
 
 
@@ -106,8 +109,11 @@ def test_drawings_and_nc_programs_of_a_folder_are_listed_behind_its_programs(par
     for name in ("a.NC", "b.dxf", "c.tap", "d.pdf", ".e.nc"):
         (part.parent / name).write_text("M30\n")
     (part.parent / "f.nc").mkdir()
+    (part.parent / "sheet.txt").write_text(setup_sheet(load(part), part.parent / "sheet.txt", datetime.now(UTC)))
+    (part.parent / "x.txt").write_text("G0 X0\nM30\n")
     listed = [(each.name, each.kind) for each in programs_of(part.parent) if not (each.folder or each.example)]
-    assert listed == [(part.stem, ""), ("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program")]
+    others = [("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program"), ("x.txt", "NC program")]
+    assert listed == [(part.stem, ""), *others]
 
 
 def test_in_the_folder_of_the_examples_each_is_listed_once() -> None:

@@ -124,8 +124,10 @@ async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with at_proof(tmp_path) as one:
+        (tmp_path / "a.nc").write_bytes(PROGRAM)
         await one.press("f8")
         assert isinstance(one.app.screen, HomeScreen)
+        assert one.app.screen.chosen.path == tmp_path / "p.nc"
         await one.press("escape", "ctrl+s", "'new", "enter")
         assert [file.suffix for file in tmp_path.glob("new*")] == [".toml"]
         assert not one.app.document.unsaved
@@ -256,6 +258,10 @@ async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
     async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as one:
         status = one.proof.query_one(Status)
         assert "Prog Units: MM" in str(status.query_one("#units", Label).content)
+        await one.press("question_mark")
+        on_help = one.app.screen.query_one(Status)
+        assert "Prog Units: MM" in str(on_help.query_one("#units", Label).content)
+        await one.press("escape")
         await one.press("enter", "x", "down", "escape")
         await one.settle()
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
