@@ -115,7 +115,7 @@ def _block(number: int, code: str) -> Block:
     head = _GLUED_HEAD.match(code, begin) or _HEAD.match(code, begin)
     skip = bool(start and start[1])
     if head is None:
-        return Block(number, code[begin], code[begin:], begin + 1, skip)
+        return Block(number, code[begin], code[begin + 1 :], begin + 2, skip)
     return Block(number, head[0], code[head.end() :], head.end() + 1, skip)
 
 

@@ -39,7 +39,7 @@ def test_a_line_that_ends_in_a_tilde_goes_on_in_the_next() -> None:
 
 
 def test_a_sign_that_begins_nothing_is_a_head_of_its_own() -> None:
-    assert only("  % junk")[:4] == (1, "%", "% JUNK", 3)
+    assert only("  % junk")[:4] == (1, "%", " JUNK", 4)
     assert only("* - TOOL 3").head == "*"
 
 
