@@ -12,7 +12,7 @@ from textual.app import App
 from app.screens.dialogs import NumberEntry, NumberForm
 from app.session.session import Session
 from core.program import transform
-from core.program.edit import Edited
+from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm
 
 X: Final = NumberEntry("X", Kind.LENGTH)
@@ -35,72 +35,82 @@ class TransformActions(App[int]):
     def quiet(self) -> None:
         """The prompts again, on every screen."""
 
-    async def _numbers(self, title: str, line: str, entries: Sequence[NumberEntry]) -> tuple[float, ...]:
-        """The numbers that are typed, in program units and degrees; empty for none.  Only in a worker."""
-        return await self.push_screen_wait(NumberForm(title, [line], entries, self.session.program.unit))
+    async def _edited(
+        self, title: str, line: str, entries: Sequence[NumberEntry], edit: Callable[..., Edited]
+    ) -> Edited | None:
+        """The edit by the numbers that are typed, in program units and degrees; None for none.  Only in a worker."""
+
+        def refusal(*numbers: float) -> str:
+            edited = edit(*numbers)
+            return edited.text if isinstance(edited, Refused) else ""
+
+        form = NumberForm(title, [line], entries, self.session.program.unit, refusal)
+        numbers = await self.push_screen_wait(form)
+        return edit(*numbers) if numbers else None
 
     def _length(self, value: float) -> float:
         return to_mm(value, self.session.program.unit)
 
-    def _block(self, motion: transform.Motion, label: str) -> None:
-        number = self.session.place.block
-        edited = transform.transform_block(self.session.program, number, motion)
-        if self.apply(edited, f"{label} {number}"):
-            self.notify(f"{label} {number}. Ctrl+Z brings it back.", timeout=4)
+    def _shifted(self, x: float, y: float) -> transform.Motion:
+        return transform.moved(self._length(x), self._length(y))
+
+    def _rotated(self, x: float, y: float, angle: float) -> transform.Motion:
+        return transform.rotated((self._length(x), self._length(y)), angle)
+
+    def _mirrored(self, x: float, y: float, angle: float) -> transform.Motion:
+        return transform.mirrored((self._length(x), self._length(y)), angle)
+
+    async def _block(
+        self, title: str, line: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
+    ) -> None:
+        program, number = self.session.program, self.session.place.block
+        edited = await self._edited(
+            title, line, entries, lambda *numbers: transform.transform_block(program, number, motion_of(*numbers))
+        )
+        if edited is not None and self.apply(edited, f"{title} {number}"):
+            self.notify(f"{title} {number}. Ctrl+Z brings it back.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:
         """Move the block with the cursor."""
-        numbers = await self._numbers("SHIFT BLOCK", "How far, in X and Y.", (X, Y))
-        if numbers:
-            self._block(transform.moved(*map(self._length, numbers)), "SHIFT BLOCK")
+        await self._block("SHIFT BLOCK", "How far, in X and Y.", (X, Y), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_rotate_block(self) -> None:
         """Turn the block with the cursor about a point."""
         line = "Counter-clockwise about a point, in degrees."
-        numbers = await self._numbers("ROTATE BLOCK", line, (*CENTER, ANGLE))
-        if numbers:
-            x, y, angle = numbers
-            self._block(transform.rotated((self._length(x), self._length(y)), angle), "ROTATE BLOCK")
+        await self._block("ROTATE BLOCK", line, (*CENTER, ANGLE), self._rotated)
 
     @work(exclusive=True, group="question")
     async def action_mirror_block(self) -> None:
         """Mirror the block with the cursor in a line."""
         line = "In the line through X, Y at ANGLE: 90 swaps left and right."
-        numbers = await self._numbers("MIRROR BLOCK", line, (X, Y, ANGLE))
-        if numbers:
-            x, y, angle = numbers
-            self._block(transform.mirrored((self._length(x), self._length(y)), angle), "MIRROR BLOCK")
+        await self._block("MIRROR BLOCK", line, (X, Y, ANGLE), self._mirrored)
 
     @work(exclusive=True, group="question")
     async def action_repeat_shifted(self) -> None:
         """Repeat segments, each copy moved on."""
-        await self._repeat("REPEAT, SHIFTED", (X, Y), lambda x, y: transform.moved(self._length(x), self._length(y)))
+        await self._repeat("REPEAT, SHIFTED", (X, Y), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_repeat_rotated(self) -> None:
         """Repeat segments, each copy turned on about a point."""
-        await self._repeat(
-            "REPEAT, ROTATED",
-            (*CENTER, ANGLE),
-            lambda x, y, angle: transform.rotated((self._length(x), self._length(y)), angle),
-        )
+        await self._repeat("REPEAT, ROTATED", (*CENTER, ANGLE), self._rotated)
 
     async def _repeat(
         self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
     ) -> None:
-        place = self.session.place
+        program, place = self.session.program, self.session.place
+
+        def repeated(first: float, last: float, *numbers: float) -> Edited:
+            *values, copies = numbers
+            motion = motion_of(*values)
+            return transform.repeat_segments(program, place.block, int(first), int(last), motion, int(copies))
+
         here = str(max(place.segment, 1))
         which = (NumberEntry("FIRST SEGMENT", Kind.COUNT, here), NumberEntry("LAST SEGMENT", Kind.COUNT, here))
         line = "Copies stand after the last of these segments."
-        numbers = await self._numbers(title, line, (*which, *entries, COPIES))
-        if not numbers:
-            return
-        first, last, *values, copies = numbers
-        edited = transform.repeat_segments(
-            self.session.program, place.block, int(first), int(last), motion_of(*values), int(copies)
-        )
-        if self.apply(edited, f"{title}, block {place.block}"):
+        edited = await self._edited(title, line, (*which, *entries, COPIES), repeated)
+        if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
             # what was said of the edit before is over
             self.quiet()

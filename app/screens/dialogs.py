@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import ClassVar
@@ -186,7 +186,7 @@ class NumberEntry:
 class NumberForm(ModalScreen[tuple[float, ...]]):
     """A few numbers; Enter on the last one takes them, the result is empty for none.
 
-    A text that cannot be read keeps the cursor and is said below.
+    A text that cannot be read keeps the cursor and is said below; so is what `refusal` says of the numbers together.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -195,9 +195,17 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
         Binding("up", "app.focus_previous", "Before", show=False),
     ]
 
-    def __init__(self, title: str, lines: Sequence[str], entries: Sequence[NumberEntry], unit: Unit) -> None:
+    def __init__(
+        self,
+        title: str,
+        lines: Sequence[str],
+        entries: Sequence[NumberEntry],
+        unit: Unit,
+        refusal: Callable[..., str] | None = None,
+    ) -> None:
         super().__init__()
         self.question, self.lines, self.entries, self.unit = title, tuple(lines), tuple(entries), unit
+        self.refusal = refusal
 
     def compose(self) -> ComposeResult:
         """A framed box: what is done, then a line a number."""
@@ -233,7 +241,11 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
                 each.focus()
                 self._say(value.reason)
                 return
-        self.dismiss(tuple(value for value in values if isinstance(value, float)))
+        numbers = tuple(value for value in values if isinstance(value, float))
+        if self.refusal is not None and (refused := self.refusal(*numbers)):
+            self._say(refused)
+        else:
+            self.dismiss(numbers)
 
     def _say(self, text: str) -> None:
         self.query_one("#number-trouble", Static).update(text)

@@ -124,6 +124,8 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     Where a copy does not begin at the end of what stands before it, a LINE leads there.
     """
     block = program.blocks[number - 1]
+    if first > last:
+        return Refused(f"The last segment, {last}, is before the first, {first}.")
     if not 1 <= first <= last <= len(block.segments):
         return Refused(f"Segments {first} to {last} do not exist: this block has 1 to {len(block.segments)}.")
     if not 1 <= copies <= MAX_COPIES:

@@ -129,7 +129,9 @@ async def operator(start: str | Program = "pocket", size: tuple[int, int] = (80,
     async with app.run_test(size=size) as pilot:
         one = Operator(app, pilot)
         await one.settle()
-        yield one
-        if app.is_running:
-            # as QUIT does: what comes from threads behind it is for nobody
-            app.exit()
+        try:
+            yield one
+        finally:
+            if app.is_running:
+                # as QUIT does: what comes from threads behind it is for nobody
+                app.exit()

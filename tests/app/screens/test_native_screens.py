@@ -283,6 +283,20 @@ async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
         assert one.session.history.undo_count == 0
 
 
+async def test_numbers_that_do_not_go_together_keep_the_small_form_open():
+    async with operator() as one:
+        await one.app.run_action("app.repeat_shifted")
+        await one.pilot.pause()
+        for number in ("3", "2", "1", "0", "1"):
+            await one.press("home", "delete", *number, "enter")
+        trouble = one.app.screen.query_one("#number-trouble", Static)
+        assert str(trouble.content) == "The last segment, 2, is before the first, 3."
+        await one.press("up", "up", "up", "home", "delete", "3", *("enter",) * 4)
+        await everything(one)
+        assert isinstance(one.app.screen, FormScreen)
+        assert one.session.history.undo_count == 1
+
+
 async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
     async with operator("flange") as one:
         await one.press("tab", "space", "down", "enter")
