@@ -70,7 +70,8 @@ class Operator:
         only `PATIENCE`, and only where no question stands in front.
         """
         rounds, patience = 0, monotonic() + PATIENCE
-        while rounds < QUIET_ROUNDS:
+        # a program that has ended, by a fault too, has nothing to wait for
+        while rounds < QUIET_ROUNDS and self.app.is_running:
             working = [worker for worker in self.app.workers if worker.group in ("derive", "table")]
             others = len(self.app.workers) > len(working) and not isinstance(self.app.screen, ModalScreen)
             if working:
