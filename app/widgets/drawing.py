@@ -1,13 +1,13 @@
 """Drawing: a widget that shows a block's contour, paths and faults in character cells.
 
-Looks are component classes, so colors stand in the style sheet.  The scale bar stands in the frame, where it covers
-nothing of the part.  The picture is made in a worker: a key never waits for it.
+The scale bar stands in the frame, where it covers nothing of the part.  The picture is made in a worker: a key never
+waits for it.
 """
 
 from __future__ import annotations
 
 from itertools import groupby
-from typing import TYPE_CHECKING, ClassVar, Final, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, work
@@ -31,33 +31,34 @@ class Drawable(Protocol):
         """The picture in columns x rows cells; None where there is nothing to be seen."""
 
 
-ROLES: Final = (
-    "background",
-    "axis",
-    "part",
-    "path",
-    "lead",
-    "rough",
-    "deleted",
-    "gouge",
-    "uncut",
-    "cutter",
-    "start",
-    "current",
-    "scale",
-    "message",
-    "number",
-    "gouge-area",
-    "uncut-area",
-    "untaken",
-)
-"""The role of each of core's drawing styles, in their order; its looks are those of the class `drawing--ROLE`."""
+LOOKS: Final = {
+    "background": "$c-label",
+    "axis": "$c-frame",
+    "part": "$c-part",
+    "path": "$c-path",
+    "lead": "$c-path",
+    "rough": "$c-cutter",
+    "deleted": "bold $c-deleted",
+    "gouge": "bold $c-gouge",
+    "uncut": "bold $c-uncut",
+    "cutter": "$c-cutter",
+    "start": "bold $c-begin",
+    "current": "bold $c-focus",
+    "scale": "$c-frame",
+    "message": "$c-label",
+    "number": "$c-label",
+    "gouge-area": "$c-gouge",
+    "uncut-area": "$c-uncut",
+    "untaken": "$c-label",
+}
+"""The looks of core's drawing styles, in their order, by the roles of the theme.
+
+No component classes: Textual would work out eighteen styles anew with each change of a drawing's own.
+"""
 
 
 class Drawing(Widget):
     """A picture of its `subject` with `characters` braille, block or ascii; `heading` stands in its upper frame."""
-
-    COMPONENT_CLASSES: ClassVar[set[str]] = {f"drawing--{role}" for role in ROLES}
 
     subject: reactive[Drawable | None] = reactive(None, repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
@@ -158,8 +159,8 @@ class Drawing(Widget):
         """The picture's rows in the looks of the style sheet."""
         if self.drawn is None:
             return []
-        base = self.rich_style
-        looks = [base + self.get_component_rich_style(f"drawing--{role}", partial=True) for role in ROLES]
+        base, parse = self.visual_style, self.app.stylesheet.parse_style
+        looks = [(base + parse(look)).rich_style for look in LOOKS.values()]
         rows = zip(self.drawn.picture.rows, self.drawn.picture.styles.tolist(), strict=True)
         strips = []
         for text, styles in rows:

@@ -8,7 +8,8 @@ from textual.app import App, ComposeResult
 
 from app.documents.files import load
 from app.documents.programs import example
-from app.widgets.drawing import ROLES, Drawing
+from app.theme import DARK, themes
+from app.widgets.drawing import LOOKS, Drawing
 from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.pipeline.derive import derive
@@ -25,8 +26,13 @@ class Shown(App[None]):
     CSS = """
     Drawing { width: 60; height: 18; border: round white; }
     .hidden { display: none; }
-    .drawing--uncut { color: yellow; }
     """
+
+    def __init__(self) -> None:
+        super().__init__()
+        for theme in themes():
+            self.register_theme(theme)
+        self.theme = DARK
 
     def compose(self) -> ComposeResult:
         yield Drawing(id="part")
@@ -38,9 +44,10 @@ async def settled(app: Shown) -> list[str]:
     return ["".join(part.text for part in drawing.render_line(y)) for y in range(drawing.size.height)]
 
 
-def test_every_style_has_a_role():
-    assert len(ROLES) == len(Style)
-    assert (ROLES[Style.SURFACE], ROLES[Style.UNCUT_AREA], ROLES[Style.NUMBER]) == ("part", "uncut-area", "number")
+def test_every_style_has_a_look():
+    roles = list(LOOKS)
+    assert len(roles) == len(Style)
+    assert (roles[Style.SURFACE], roles[Style.UNCUT_AREA], roles[Style.NUMBER]) == ("part", "uncut-area", "number")
 
 
 async def test_a_subject_is_drawn_with_its_scale_bar_in_the_frame(pocket):
