@@ -13,6 +13,7 @@ from app.screens.contour import ContourScreen
 from app.session.session import Session
 from app.widgets.drawing import Drawing
 from core.draw.scene import Style
+from core.program.edit import FormPlace
 from core.program.model import Number, Program
 from tests.app.widget_pilot import Operator, operator
 from tests.core.program.run_files import program_of
@@ -203,8 +204,9 @@ async def test_each_refusal_stands_on_the_form_as_soon_as_the_last_number_is_typ
     async with operator() as one:
         for code, text, case in KEYED:
             segment, field, value = last_number(case)
-            one.app.begin(Session.of(blanked(program_of(case), segment, field)))
-            await to(one, segment, field)
+            one.app.begin(Session.of(blanked(program_of(case), segment, field)).at(FormPlace(1, segment), field))
+            await one.settle()
+            assert one.at == field
             await one.press(f"'{value:g}", "enter")
             assert text in " ".join(one.prompt.split("\n")), code
             assert one.session.derived_block.solved.runs[0].code == code

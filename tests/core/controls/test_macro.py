@@ -198,6 +198,6 @@ def test_a_loop_of_o_words_that_is_given_up_says_what_to_do() -> None:
 
 def test_a_long_subprogram_may_run_often() -> None:
     body = "\n".join(f"G1 X{index % 7} Y{index}" for index in range(1000))
-    done = ran(f"G20 F9\nM98 P1 L300\nM2\nO1\n{body}\nM99\n", "linuxcnc")
+    done = ran(f"G20 F9\nM98 P1 L201\nM2\nO1\n{body}\nM99\n", "linuxcnc")
     assert done.stopped_at is None
-    assert len(done.moves) == 300_001
+    assert len(done.moves) == 201_001
