@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from textual import on, work
 from textual.app import ComposeResult
@@ -50,10 +50,20 @@ class ChooseControl(ModalScreen[str]):
         self.dismiss("")
 
 
-class CompareControls(ModalScreen[str]):
-    """What every control does with a program; Enter takes one, the result is its full name."""
+class Compare(NamedTuple):
+    """What was chosen of the controls compared: one by its full name, to run on, or to be drawn `beside`."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
+    control: str
+    beside: bool
+
+
+class CompareControls(ModalScreen["Compare | None"]):
+    """What every control does with a program; Enter takes one, Space draws its path beside; None for neither."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape,f8,alt+8", "none", "Go back", show=False),
+        Binding("space", "beside", "Draw beside", show=False),
+    ]
 
     def __init__(self, question: Question) -> None:
         super().__init__()
@@ -67,7 +77,9 @@ class CompareControls(ModalScreen[str]):
 
     def on_mount(self) -> None:
         """Ask all controls."""
-        self.query_one("#compare-box").border_title = "COMPARE CONTROLS"
+        box = self.query_one("#compare-box")
+        box.border_title = "COMPARE CONTROLS"
+        box.border_subtitle = "Enter takes a control, Space draws its path dotted"
         self._compare()
 
     @work(thread=True, exclusive=True, group="compare")
@@ -90,8 +102,14 @@ class CompareControls(ModalScreen[str]):
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
-        self.dismiss(event.option_id or "")
+        self.dismiss(Compare(event.option_id or "", beside=False))
+
+    def action_beside(self) -> None:
+        """Draw the path of the control with the cursor."""
+        rows = self.query_one("#compared", OptionList)
+        if rows.highlighted is not None:
+            self.dismiss(Compare(rows.get_option_at_index(rows.highlighted).id or "", beside=True))
 
     def action_none(self) -> None:
         """Go back."""
-        self.dismiss("")
+        self.dismiss(None)

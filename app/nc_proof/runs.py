@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -11,7 +11,7 @@ from textual.message import Message
 
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NcText
-from core.progress import Progress, silent
+from core.progress import Progress, part, silent
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from core.pipeline.checking import Answer
     from core.pipeline.nc_proof import Proof
 
+RUN_SHARE: Final = 0.5
+"""The part of the work that the run takes; the verdicts take the rest."""
 MAX_GUESS_LINES: Final = 200
 """Lines that are looked at to guess which control a program is for."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
@@ -38,6 +40,8 @@ class Question:
     unit: Unit | None = None
     folder: Path | None = None
     """Where programs that it calls by their numbers are looked for."""
+    beside: str = ""
+    """Another control whose path is drawn too, empty for none."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,6 +64,14 @@ class Result:
 class Ran(Message):
     """A worker has run a text."""
 
+    result: Result
+
+
+@dataclass
+class RanBeside(Message):
+    """A worker has run a text on the control beside, and judged it."""
+
+    question: Question
     result: Result
 
 
@@ -89,6 +101,12 @@ def judge(result: Result, progress: Progress = silent) -> Result:
     return _result(result.question, with_verdicts(result.proof, progress), judged=True)
 
 
+def run_beside(question: Question, progress: Progress = silent) -> Result:
+    """The program on the control beside, judged."""
+    other = replace(question, control=question.beside, beside="")
+    return judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
+
+
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
     from core.pipeline.checking import answered
     from core.pipeline.nc_proof import fixed_scene
@@ -102,7 +120,7 @@ def compare(question: Question) -> tuple[Answer, ...]:
     from core.pipeline.checking import Asked, answer_all
 
     library = FolderLibrary(question.folder)
-    asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library)
+    asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library, names_options=False)
     return answer_all(question.text.data, asked, question.control)
 
 

@@ -19,7 +19,20 @@ from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
 from app.nc_proof.dialogs import ChooseControl, CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import Question, Ran, Result, first_tool, judge, likely_control, read_tools, run, tools_text
+from app.nc_proof.runs import (
+    RUN_SHARE,
+    Question,
+    Ran,
+    RanBeside,
+    Result,
+    first_tool,
+    judge,
+    likely_control,
+    read_tools,
+    run,
+    run_beside,
+    tools_text,
+)
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.session.messages import Sentence, Tone
@@ -47,8 +60,6 @@ READING: Final = (
 EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
 STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
 """How much < and > change a diameter."""
-RUN_SHARE: Final = 0.5
-"""The part of the work that the run takes; the verdicts take the rest."""
 ZOOM: Final = 1.25
 """One press enlarges by this factor."""
 ORDER: Final = tuple(Severity)
@@ -74,6 +85,7 @@ class ProofScreen(BaseScreen):
         Binding("c,C", "control", "Choose control", show=False),
         Binding("t,T", "tool", "Tool diameter", show=False),
         Binding("v,V", "compare", "Compare controls", show=False),
+        Binding("b,B", "beside", "No path beside", show=False),
         Binding("less_than_sign", "diameter(-1)", "Smaller", show=False),
         Binding("greater_than_sign", "diameter(1)", "Larger", show=False),
         Binding("plus,equals_sign", "zoom(1)", "Zoom in", show=False),
@@ -115,6 +127,8 @@ class ProofScreen(BaseScreen):
             self.question = Question(text, asked.control or control, tools, asked.unit, folder)
             self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
+        self.beside: Result | None = None
+        """The run on the control beside, as far as it is known."""
         self.view_of: View | None = None
         self.stopped = False
         self._work: Work | None = None
@@ -132,6 +146,7 @@ class ProofScreen(BaseScreen):
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")
+            yield Drawing(id="proof-beside")
         yield OptionRows(id="proof-findings", classes="panel")
 
     def on_mount(self) -> None:
@@ -255,6 +270,10 @@ class ProofScreen(BaseScreen):
     # ---- the control's run
 
     def _ask(self, question: Question) -> None:
+        if question.beside == question.control:
+            question = replace(question, beside="")
+        if question.beside != self.question.beside:
+            self.beside = None
         self.question, self.stopped = question, False
         if self._work is not None:
             self.host.end_work(self._work)
@@ -264,10 +283,13 @@ class ProofScreen(BaseScreen):
 
     @work(thread=True, exclusive=True, group="proof", description="proof")
     def _run(self, question: Question, work: Work) -> None:
+        own = part(work, 0.0, RUN_SHARE) if question.beside else work
         try:
-            result = run(question, part(work, 0.0, RUN_SHARE))
+            result = run(question, part(own, 0.0, RUN_SHARE))
             self.post_message(Ran(result))
-            self.post_message(Ran(judge(result, part(work, RUN_SHARE, 1.0))))
+            self.post_message(Ran(judge(result, part(own, RUN_SHARE, 1.0))))
+            if question.beside:
+                self.post_message(RanBeside(question, run_beside(question, part(work, RUN_SHARE, 1.0))))
         except Stopped:
             # whoever stopped it shows so
             return
@@ -288,9 +310,8 @@ class ProofScreen(BaseScreen):
         event.stop()
         if not self.stands or event.result.question is not self.question:
             return
-        if event.result.judged and self._work is not None:
-            self.host.end_work(self._work)
-            self._work = None
+        if event.result.judged and not self.question.beside:
+            self._done()
         self.result = event.result
         marks: dict[int, Severity] = {}
         for finding in event.result.findings:
@@ -302,6 +323,20 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self._draw()
 
+    @on(RanBeside)
+    def _ran_beside(self, event: RanBeside) -> None:
+        event.stop()
+        if self.stands and event.question is self.question:
+            self._done()
+            self.beside = event.result
+            self._draw()
+
+    def _done(self) -> None:
+        """The run and all that belongs to it is known."""
+        if self._work is not None:
+            self.host.end_work(self._work)
+            self._work = None
+
     @property
     def unit(self) -> Unit:
         """The program's unit as far as it is known."""
@@ -309,7 +344,8 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
-        self.query_one("#proof-control", Label).update(shown_control(self.question.control))
+        beside = f", dotted {shown_control(self.question.beside)}" if self.question.beside else ""
+        self.query_one("#proof-control", Label).update(f"{shown_control(self.question.control)}{beside}")
         self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
@@ -412,13 +448,21 @@ class ProofScreen(BaseScreen):
         if self.result is None:
             return
         # numpy and shapely are not needed by the first paint
-        from core.pipeline.nc_proof import scene_at_line
+        from core.pipeline.nc_proof import scene_at_line, with_path_beside
         from core.pipeline.plot import SceneSubject
 
+        line, proof, other = self.document.row + 1, self.result.proof, self.beside
         drawing = self.query_one("#proof-drawing", Drawing)
-        drawing.characters, drawing.heading = self.host.characters, f"LINE {self.document.row + 1}"
-        scene = scene_at_line(self.result.scene, self.result.proof, self.document.row + 1)
+        drawing.characters, drawing.heading = self.host.characters, f"LINE {line}"
+        scene = scene_at_line(self.result.scene, proof, line)
+        if other is not None and self.question.beside:
+            control = shown_control(other.question.control)
+            scene = with_path_beside(scene, proof, other.proof)
+            beside = self.query_one("#proof-beside", Drawing)
+            beside.characters, beside.heading = self.host.characters, f"{control}: {other.answer.outcome}"
+            beside.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
+        self.set_class(bool(self.question.beside), "-beside")
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink on the cutter."""
@@ -461,9 +505,22 @@ class ProofScreen(BaseScreen):
         """What every control does; one of them can be taken."""
         if not self.take_lines():
             return
-        control = await self.app.push_screen_wait(CompareControls(self.question))
-        if control:
-            self._ask(replace(self.question, control=control))
+        chosen = await self.app.push_screen_wait(CompareControls(self.question))
+        if chosen is None:
+            return
+        if not chosen.beside:
+            self._ask(replace(self.question, control=chosen.control))
+        elif chosen.control == self.question.control:
+            self.say("The program runs on this control already. Choose another one to be drawn dotted.")
+        else:
+            self._ask(replace(self.question, beside=chosen.control))
+
+    def action_beside(self) -> None:
+        """Draw the path of no other control."""
+        if self.question.beside:
+            self._ask(replace(self.question, beside=""))
+        else:
+            self.say("V, then Space on another control, draws its path dotted beside this one.")
 
     @work(exclusive=True, group="question")
     async def action_tool(self) -> None:
@@ -525,6 +582,7 @@ class ProofScreen(BaseScreen):
             "The listing, what the control makes of it, and the findings; Tab changes between them.",
             "N and P go from finding to finding. Enter edits the listing, Esc ends editing.",
             "C chooses the control, V compares all controls. The drawing shows the path as far as the line in hand.",
+            "In the list of V, Space draws another control's path dotted beside this one; B takes it away.",
             "T gives a tool its diameter, < and > make it smaller and larger, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
         )

@@ -58,7 +58,7 @@ class Asked:
     """What is asked of every program: a control's full name or `all`, the tools, the shop's rules or not.
 
     `unit` counts where a program names none; None is what the control starts in.  `library` finds the programs that a
-    control calls from its memory.
+    control calls from its memory.  What stops for want of a tool's size `names_options` of the command line.
     """
 
     control: str
@@ -66,6 +66,7 @@ class Asked:
     shop: bool
     unit: Unit | None
     library: ProgramLibrary = NO_LIBRARY
+    names_options: bool = True
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -141,7 +142,7 @@ def answer(text: bytes, asked: Asked) -> Answer:
     done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
     row = _answer(done, judge_run(done), _foreign(done.control, text), "", shop=asked.shop)
-    return _with_option(_with_largest_tool(row, done, text, asked))
+    return _with_option(_with_largest_tool(row, done, text, asked), asked)
 
 
 def _with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
@@ -152,9 +153,9 @@ def _with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked)
     return row if fits is None else replace(row, fits=fits, findings=(*row.findings, fits))
 
 
-def _with_option(row: Answer) -> Answer:
+def _with_option(row: Answer, asked: Asked) -> Answer:
     """The answer; what stops a control for want of a tool's size names the option that gives it."""
-    if row.why is None or row.stopped_at is None:
+    if not asked.names_options or row.why is None or row.stopped_at is None:
         return row
     size = _NO_SIZE.search(row.why.text)
     if size is None and not _NO_TOOL.match(row.why.text):
@@ -195,7 +196,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
         compared_row = _answer(row.run, row.results, (), parts, shop=asked.shop)
-        compared_row = _with_option(_with_largest_tool(compared_row, row.run, text, asked))
+        compared_row = _with_option(_with_largest_tool(compared_row, row.run, text, asked), asked)
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
     said = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."

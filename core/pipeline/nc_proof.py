@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,6 +95,13 @@ def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
     circles = () if held is None else (Circle(at, held.radius),)
     marks = (Mark(at, Style.CUTTER, Symbol.CENTER),)
     return Scene((*fixed.layers, *layers), circles, (*fixed.marks, *marks), fixed.unit)
+
+
+def with_path_beside(scene: Scene, proof: Proof, other: Proof) -> Scene:
+    """The scene of a proof with the feed moves of another control's run dotted under it, on the plane of the first."""
+    moves = other.run.moves
+    layers = (Layer(path, Style.UNTAKEN, dashed=True) for path in _parts(moves, proof.plane, ~moves.rapid))
+    return replace(scene, layers=(*layers, *scene.layers))
 
 
 def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:

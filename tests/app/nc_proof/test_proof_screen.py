@@ -19,8 +19,10 @@ from app.nc_proof.runs import likely_control, read_tools
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
+from app.widgets.drawing import Drawing
 from app.widgets.status import Status
 from core.controls.control_tools import CutterTool, ToolTable
+from core.draw.scene import Style
 from core.finding import Severity
 from core.pipeline.checking import Asked
 from core.units import Unit
@@ -64,15 +66,24 @@ class Proof(Operator):
         return [str(listed.get_option_at_index(row).prompt) for row in range(listed.option_count)]
 
 
+def drawn(one: Proof, name: str) -> set[Style]:
+    """The styles in a drawing as it is shown."""
+    picture = one.proof.query_one(f"#{name}", Drawing).drawn
+    assert picture is not None
+    return {Style(number) for number in picture.picture.styles.ravel().tolist()}
+
+
 @asynccontextmanager
-async def at_proof(tmp_path, data: bytes = PROGRAM, asked: Asked | None = None) -> AsyncIterator[Proof]:
+async def at_proof(
+    tmp_path, data: bytes = PROGRAM, asked: Asked | None = None, size: tuple[int, int] = (80, 24)
+) -> AsyncIterator[Proof]:
     (tmp_path / "p.nc").write_bytes(data)
     service = DocumentService(state=tmp_path / "own")
     opened = service.open(tmp_path / "p.nc")
     assert isinstance(opened, Opened)
     begun = session_of(service.new().document)
     app = CutcompApp(begun, surroundings=SURROUNDINGS, service=service, opened=opened, asked=asked)
-    async with app.run_test(size=(80, 24)) as pilot:
+    async with app.run_test(size=size) as pilot:
         one = Proof(app, pilot)
         await one.settle()
         yield one
@@ -223,10 +234,54 @@ async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
         words = {option.id: str(option.prompt) for option in rows.options}
         assert any("differs from linuxcnc" in each for each in words.values())
         assert "Write T and the number." in words["threeblock"]
+        assert not any("On the command line" in each for each in words.values())
         taken = rows.get_option_at_index(1).id
         await one.press("down", "enter")
         await one.settle()
         assert one.proof.question.control == taken
+
+
+@pytest.mark.parametrize("size", [(80, 24), (200, 60)])
+async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
+    async with at_proof(tmp_path, size=size) as one:
+        await with_tool(one, "1=.75")
+        await one.press("v")
+        await one.settle()
+        rows = one.app.screen.query_one("#compared", OptionList)
+        other = next(row for row in range(rows.option_count) if rows.get_option_at_index(row).id == "fanuc:a")
+        rows.highlighted = other
+        await one.press("space")
+        await one.settle()
+        assert one.proof.question.control == "linuxcnc"
+        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
+        assert Style.UNTAKEN in drawn(one, "proof-drawing")
+        second = one.proof.query_one("#proof-beside", Drawing)
+        assert bool(second.region) == (size == (200, 60))
+        if second.region:
+            assert Style.UNTAKEN not in drawn(one, "proof-beside")
+            assert second.heading.startswith("fanuc:a: ")
+        # the other one follows the text
+        before = one.proof.beside
+        await one.press("end", "enter", "backspace", "5", "escape")
+        await one.settle()
+        assert one.proof.beside is not before
+        await one.press("b")
+        await one.settle()
+        assert Style.UNTAKEN not in drawn(one, "proof-drawing")
+        assert not one.proof.query_one("#proof-beside", Drawing).region
+        assert one.app.longest_work is None
+
+
+async def test_the_control_in_use_is_not_drawn_beside_itself(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.press("v")
+        await one.settle()
+        await one.press("space")
+        await one.settle()
+        assert not one.proof.question.beside
+        assert "already" in one.prompt
+        await one.press("b")
+        assert "draws its path dotted" in one.prompt
 
 
 @pytest.mark.parametrize(
