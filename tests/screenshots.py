@@ -21,7 +21,7 @@ class Shot:
 
     name: str
     arguments: tuple[str, ...]
-    keys: tuple[bytes, ...] = ()
+    keys: tuple[bytes | str, ...] = ()
     text: str = "best"
     start: str = "best"
     size: tuple[int, int] = (80, 24)
@@ -52,6 +52,7 @@ SHOTS = (
     Shot("lookahead-table-wide", *TABLE, size=WIDE),
     Shot("nc-proof", BRACKET, (DOWN * 9,), "LINE 10", start="runs"),
     Shot("compare-controls", BRACKET, (b"v",), "heidenhain", start="runs"),
+    Shot("dotted-path", BRACKET, (b"v", "heidenhain", DOWN, b" "), "dotted", start="runs", size=(200, 60)),
     Shot("no-color", *GOUGE, environment={"NO_COLOR": "1"}),
     Shot("sixteen-colors", *GOUGE, environment={"TERM": "xterm"}),
     Shot("ascii", *GOUGE, environment={"TERM": "vt100", "LC_ALL": "C"}),
@@ -66,8 +67,11 @@ def take(shot: Shot) -> None:
     with running(command, columns=columns, rows=rows, environment=shot.environment, cwd=str(ROOT)) as terminal:
         terminal.until(shot.start, longest=60.0)
         for key in shot.keys:
-            terminal.read(quiet=1.0)
-            terminal.send(key)
+            if isinstance(key, str):
+                terminal.until(key, longest=60.0)
+            else:
+                terminal.read(quiet=1.0)
+                terminal.send(key)
         terminal.until(shot.text, longest=60.0)
         terminal.read(quiet=3.0)
         save_picture(terminal.screen, FOLDER / f"{shot.name}.png")
