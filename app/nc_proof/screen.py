@@ -258,14 +258,18 @@ class ProofScreen(BaseScreen):
     def _moved(self, event: Listing.SelectionChanged) -> None:
         """A line is taken when the cursor leaves it; the cutter goes to the line's end."""
         event.stop()
-        row = self.query_one(Listing).row
-        if row != self.document.row:
+        if self.query_one(Listing).row != self.document.row:
             self.quiet()
-            if not self.query_one(Listing).read_only:
-                self.take_lines()
-            self.document = self.document.edited(self.document.text, row)
-            self._draw()
-            self._show_finding_of_row()
+            self._follow_cursor()
+
+    def _follow_cursor(self) -> None:
+        """The line that the cursor has left is taken; drawing and findings are those of the line that it is in."""
+        listing = self.query_one(Listing)
+        if not listing.read_only:
+            self.take_lines()
+        self.document = self.document.edited(self.document.text, listing.row)
+        self._draw()
+        self._show_finding_of_row()
 
     # ---- the control's run
 
@@ -423,7 +427,9 @@ class ProofScreen(BaseScreen):
         self.query_one("#proof-findings", OptionList).highlighted = at
         if finding.line is not None:
             self.query_one(Listing).go_to_row(finding.line - 1)
-        self.call_after_refresh(self.say, sentence(finding, self.unit))
+            # before the listing tells that the cursor has moved, which would end what is said here
+            self._follow_cursor()
+        self.say(sentence(finding, self.unit))
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:

@@ -150,6 +150,7 @@ async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
         lines = [int(text.split()[1].rstrip(":")) for text in one.findings()]
         await one.press("n")
         assert one.line == lines[0]
+        assert one.findings()[0].endswith(f"{lines[0]}: {one.prompt}")
         await one.press("n", "p")
         assert one.line == lines[0]
 
