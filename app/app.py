@@ -510,7 +510,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         if isinstance(self.screen, HomeScreen):
             self.screen.list_anew()
         elif self.take_typed():
-            file = self.session.file
+            proof = self.proof
+            file = self.session.file if proof is None else proof.document.file.path
             self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
 
     def action_parameters(self) -> None:

@@ -144,6 +144,14 @@ async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypa
         assert not one.app.document.unsaved
 
 
+async def test_home_over_an_nc_text_shows_its_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir("/")
+    async with at_proof(tmp_path) as one:
+        await one.press("ctrl+o")
+        assert isinstance(one.app.screen, HomeScreen)
+        assert one.app.screen.folder == tmp_path
+
+
 async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
     async with at_proof(tmp_path) as one:
         await with_tool(one)
