@@ -41,7 +41,7 @@ def choices() -> tuple[ControlChoice, ...]:
     from core.controls.control_names import ControlChoice
     from core.controls.registry import choices as controls
 
-    about = "without G41 or G42: for any control"
+    about = "no G41 or G42, for LinuxCNC"
     return (ControlChoice(CENTER_PATH, CENTER_PATH, "", about), *controls())
 
 
