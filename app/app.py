@@ -49,7 +49,6 @@ if TYPE_CHECKING:
     from textual.command import Provider
 
     from app.nc_proof.screen import ProofScreen
-    from app.widgets.status import Status
     from core.advice.lookahead_table import Table
     from core.pipeline.checking import Asked
 
@@ -710,13 +709,6 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         from app.nc_proof.screen import ProofScreen
 
         return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
-
-    def show_open_state(self, status: Status) -> None:
-        """The state of what is open: the NC text in NC PROOF, else the contour program."""
-        if self.proofs:
-            self.proofs[-1].show_state_on(status)
-        else:
-            status.show_program(self.session)
 
     def action_nc_proof(self) -> None:
         """Ask for the path of an NC program."""

@@ -17,7 +17,7 @@ F7 = b"\x1b7"
 @dataclass(frozen=True)
 class Shot:
     """One picture: what is shown, the text that it begins with, the keys that lead on, a text seen there, and the
-    terminal's size."""
+    terminal's size.  A text among the keys is waited for."""
 
     name: str
     arguments: tuple[str, ...]

@@ -137,7 +137,7 @@ def _other_file(path: Path) -> str:
     """What a file is by its name, and what reads it; empty where it may be a contour program."""
     if is_drawing(path):
         return "a drawing, not a contour program. cutcomp import makes one of it."
-    if path.suffix.lower() in NC_SUFFIXES:
+    if path.suffix.lower() in NC_SUFFIXES - {".txt"}:
         return "an NC program, not a contour program. cutcomp check tells what the controls do with it."
     return ""
 

@@ -17,9 +17,9 @@ from core.program.file.read import StoreError
 from core.units import Unit
 
 MAX_RECENT_FILES: Final = 8
-MAX_TOOLED_FILES: Final = 100
+MAX_FILES_WITH_TOOLS: Final = 100
 """NC programs whose tools are remembered."""
-MAX_SETTINGS_BYTES: Final = 100_000
+MAX_SETTINGS_BYTES: Final = 1_000_000
 CHARACTERS: Final = ("braille", "block", "ascii")
 """The sets of characters that a drawing can be made of."""
 THEMES: Final = ("dark", "light")
@@ -30,7 +30,7 @@ class Settings:
     """`recent` are absolute paths, the last used first; the texts are empty until something is chosen.
 
     `control` is the one that NC programs are run on, by its full name.  `tools` are the diameters given to the tools of
-    NC programs, as `1=0.5in 2=12.0mm` beside the absolute path, the last used first.
+    NC programs, as `1=0.5in 2=12.0mm` beside the absolute path, the last given first.
     """
 
     recent: tuple[str, ...] = ()
@@ -52,7 +52,7 @@ class Settings:
         if not name.isprintable():
             return self
         others = tuple(each for each in self.tools if each[0] != name)
-        return replace(self, tools=((name, text), *others)[:MAX_TOOLED_FILES])
+        return replace(self, tools=((name, text), *others)[:MAX_FILES_WITH_TOOLS])
 
     def using(self, file: Path) -> Settings:
         """After a file was opened or saved; a name that no settings file can hold is not remembered."""
@@ -85,7 +85,7 @@ def parsed(text: str) -> Settings:
         held["folder"] if _usable(held.get("folder")) else "",
         held.get("mouse") is True,
         held["control"] if isinstance(held.get("control"), str) else "",
-        tuple(filter(_usable_tools, tools.items()))[:MAX_TOOLED_FILES] if isinstance(tools, dict) else (),
+        tuple(filter(_usable_tools, tools.items()))[:MAX_FILES_WITH_TOOLS] if isinstance(tools, dict) else (),
     )
 
 

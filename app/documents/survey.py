@@ -202,27 +202,28 @@ def _inside(folder: Path) -> Iterator[Listed]:
         inside = sorted(entries, key=lambda each: each.name.lower())
     programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
     shown = [each for each in inside if not each.name.startswith(".")]
-    others = [(each, kind) for each in shown if (kind := _kind(Path(each.path))) and not each.is_dir()]
+    others = [(each, kind) for each in shown if (kind := _kind(each.name)) and not each.is_dir()]
     folders = [each for each in shown if each.is_dir()]
     saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
     for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
         yield Listed(path, path.name.removesuffix(".toml"))
     # drawings before NC programs
     for each, kind in sorted(others, key=lambda other: other[1] != DRAWING)[:MAX_LISTED]:
-        yield Listed(Path(each.path), each.name, kind=kind)
+        if not _is_sheet(Path(each.path)):
+            yield Listed(Path(each.path), each.name, kind=kind)
     for each in folders[:MAX_LISTED]:
         yield Listed(Path(each.path), f"{each.name}/", folder=True)
 
 
-def _kind(path: Path) -> str:
-    """What a file is by its name, where it is no contour program; a text may be the setup sheet of one."""
-    if path.suffix.lower() == ".txt" and _starts_with(path, SHEET_START):
-        return ""
+def _kind(name: str) -> str:
+    """What a file is by its name, where it is no contour program."""
+    path = Path(name)
     return DRAWING if is_drawing(path) else NC_PROGRAM if path.suffix.lower() in NC_SUFFIXES else ""
 
 
-def _starts_with(path: Path, start: bytes) -> bool:
+def _is_sheet(path: Path) -> bool:
+    """Whether a text is the setup sheet of a program."""
     try:
-        return read_start(path, len(start)) == start
+        return path.suffix.lower() == ".txt" and read_start(path, len(SHEET_START)) == SHEET_START
     except OSError:
         return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from textual import on, work
 from textual.app import ComposeResult
@@ -10,12 +10,15 @@ from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.content import Content
 from textual.screen import ModalScreen
-from textual.widgets import OptionList
+from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Compared, Question, compare
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainText
+
+if TYPE_CHECKING:
+    from core.pipeline.checking import Answer
 
 
 class ChooseControl(ModalScreen[str]):
@@ -50,24 +53,25 @@ class ChooseControl(ModalScreen[str]):
         self.dismiss("")
 
 
-class Compare(NamedTuple):
-    """What was chosen of the controls compared: one by its full name, to run on, or to be drawn `beside`."""
+class Chosen(NamedTuple):
+    """One of the controls compared, by its full name: the program runs on it, or its path is drawn `dotted`."""
 
     control: str
-    beside: bool
+    dotted: bool
 
 
-class CompareControls(ModalScreen["Compare | None"]):
-    """What every control does with a program; Enter takes one, Space draws its path beside; None for neither."""
+class CompareControls(ModalScreen["Chosen | None"]):
+    """What every control does with a program; Enter takes one, Space draws its path dotted; None for neither."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape,f8,alt+8", "none", "Go back", show=False),
-        Binding("space", "beside", "Draw beside", show=False),
+        Binding("space", "dotted", "Draw dotted", show=False),
     ]
 
     def __init__(self, question: Question) -> None:
         super().__init__()
         self.question = question
+        self.answers: tuple[Answer, ...] = ()
 
     def compose(self) -> ComposeResult:
         """The list, empty until the controls have answered."""
@@ -90,6 +94,7 @@ class CompareControls(ModalScreen["Compare | None"]):
     def _compared(self, event: Compared) -> None:
         event.stop()
         self.query_one("#compare-wait").display = False
+        self.answers = event.answers
         rows = self.query_one("#compared", OptionList)
         for answer in event.answers:
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else "$c-good"
@@ -102,13 +107,20 @@ class CompareControls(ModalScreen["Compare | None"]):
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
-        self.dismiss(Compare(event.option_id or "", beside=False))
+        self.dismiss(Chosen(event.option_id or "", dotted=False))
 
-    def action_beside(self) -> None:
-        """Draw the path of the control with the cursor."""
-        rows = self.query_one("#compared", OptionList)
-        if rows.highlighted is not None:
-            self.dismiss(Compare(rows.get_option_at_index(rows.highlighted).id or "", beside=True))
+    def action_dotted(self) -> None:
+        """Draw the path of the control with the cursor, unless it reads another language."""
+        row = self.query_one("#compared", OptionList).highlighted
+        if row is None:
+            return
+        answer = self.answers[row]
+        if any(finding.code == "LANGUAGE" for finding in answer.findings):
+            wait = self.query_one("#compare-wait", Static)
+            wait.update(f"{answer.name} reads another language and has no path of this program to draw.")
+            wait.display = True
+        else:
+            self.dismiss(Chosen(answer.control, dotted=True))
 
     def action_none(self) -> None:
         """Go back."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -16,7 +17,7 @@ from core.units import Unit
 
 if TYPE_CHECKING:
     from core.controls.control_tools import ToolTable
-    from core.draw.scene import Scene
+    from core.draw.scene import Layer, Scene
     from core.finding import Finding
     from core.pipeline.checking import Answer
     from core.pipeline.nc_proof import Proof
@@ -26,7 +27,7 @@ RUN_SHARE: Final = 0.5
 MAX_GUESS_LINES: Final = 200
 """Lines that are looked at to guess which control a program is for."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
-_REMEMBERED: Final = re.compile(r"(\d{1,4})=(-?\d{1,6}(?:\.\d{1,20})?)(in|mm)?")
+_REMEMBERED: Final = re.compile(r"(\d{1,4})=([-+.e\d]{1,25})(in|mm)")
 _TOOL: Final = re.compile(r"(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
 
 
@@ -40,8 +41,6 @@ class Question:
     unit: Unit | None = None
     folder: Path | None = None
     """Where programs that it calls by their numbers are looked for."""
-    beside: str = ""
-    """Another control whose path is drawn too, empty for none."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,12 +66,20 @@ class Ran(Message):
     result: Result
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Dotted:
+    """The judged run of the same text on another control, and its path as it lies dotted under that of the first."""
+
+    result: Result
+    path: tuple[Layer, ...]
+
+
 @dataclass
-class RanBeside(Message):
-    """A worker has run a text on the control beside, and judged it."""
+class RanDotted(Message):
+    """A worker has run the text of a question on another control."""
 
     question: Question
-    result: Result
+    dotted: Dotted
 
 
 @dataclass
@@ -101,10 +108,13 @@ def judge(result: Result, progress: Progress = silent) -> Result:
     return _result(result.question, with_verdicts(result.proof, progress), judged=True)
 
 
-def run_beside(question: Question, progress: Progress = silent) -> Result:
-    """The program on the control beside, judged."""
-    other = replace(question, control=question.beside, beside="")
-    return judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
+def run_dotted(own: Result, control: str, progress: Progress = silent) -> Dotted:
+    """The text of a result on another control, judged, with its path on the plane of that result."""
+    from core.pipeline.nc_proof import dotted_path
+
+    other = replace(own.question, control=control)
+    result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
+    return Dotted(result, dotted_path(result.proof, own.proof.plane))
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
@@ -134,11 +144,11 @@ def read_tools(text: str) -> ToolTable:
     # this loads the controls, which the first paint does without
     from core.controls.control_tools import CutterTool, ToolTable
 
-    found = (_REMEMBERED.fullmatch(word) for word in text.split())
-    tools = ((int(each[1]), float(each[2]), each[3]) for each in found if each)
-    return ToolTable.of(
-        *(CutterTool(number, size, unit=Unit(unit.upper()) if unit else None) for number, size, unit in tools)
-    )
+    tools = []
+    for found in filter(None, map(_REMEMBERED.fullmatch, text.split())):
+        with suppress(ValueError):
+            tools.append(CutterTool(int(found[1]), float(found[2]), unit=Unit(found[3].upper())))
+    return ToolTable.of(*tools)
 
 
 def likely_control(text: NcText, usual: str = "") -> str:

@@ -21,16 +21,17 @@ from app.nc_proof.dialogs import ChooseControl, CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,
+    Dotted,
     Question,
     Ran,
-    RanBeside,
+    RanDotted,
     Result,
     first_tool,
     judge,
     likely_control,
     read_tools,
     run,
-    run_beside,
+    run_dotted,
     tools_text,
 )
 from app.screens.base import BaseScreen
@@ -71,7 +72,7 @@ class ProofScreen(BaseScreen):
     """One NC text under proof; `keep` puts its edits on the disk.
 
     It runs on the control that was `asked` for, else on the `usual` one where that reads the text; with the tools that
-    it was given the last time, as `remembered`, under those that are asked for.
+    it was given the last time, `remembered` as `1=0.5in`, under those that are asked for.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
@@ -85,7 +86,7 @@ class ProofScreen(BaseScreen):
         Binding("c,C", "control", "Choose control", show=False),
         Binding("t,T", "tool", "Tool diameter", show=False),
         Binding("v,V", "compare", "Compare controls", show=False),
-        Binding("b,B", "beside", "No path beside", show=False),
+        Binding("b,B", "no_dotted_path", "No dotted path", show=False),
         Binding("less_than_sign", "diameter(-1)", "Smaller", show=False),
         Binding("greater_than_sign", "diameter(1)", "Larger", show=False),
         Binding("plus,equals_sign", "zoom(1)", "Zoom in", show=False),
@@ -119,19 +120,23 @@ class ProofScreen(BaseScreen):
         text = document.text
         control = likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
-        self.remembered = read_tools(remembered)
-        self.question = Question(text, control, self.remembered, folder=folder)
+        self.given = read_tools(remembered)
+        """The tools that were typed for this program, now or before."""
+        self.question = Question(text, control, self.given, folder=folder)
         self.tool = first_tool(text)
         if asked is not None:
-            tools = self.remembered.with_tools(asked.tools)
+            tools = self.given.with_tools(asked.tools)
             self.question = Question(text, asked.control or control, tools, asked.unit, folder)
             self.tool = min(asked.tools.tools, default=self.tool)
         self.result: Result | None = None
-        self.beside: Result | None = None
-        """The run on the control beside, as far as it is known."""
+        self.dotted_control = ""
+        """Another control whose path is drawn dotted, empty for none."""
+        self.dotted: Dotted | None = None
+        """Its run of the same text, as far as it is known."""
         self.view_of: View | None = None
         self.stopped = False
         self._work: Work | None = None
+        self._dotted_work: Work | None = None
 
     def compose_body(self) -> ComposeResult:
         """Titles, listing, drawing, findings."""
@@ -146,7 +151,7 @@ class ProofScreen(BaseScreen):
         with Horizontal(id="proof-body"):
             yield Listing(id="listing")
             yield Drawing(id="proof-drawing")
-            yield Drawing(id="proof-beside")
+            yield Drawing(id="proof-dotted")
         yield OptionRows(id="proof-findings", classes="panel")
 
     def on_mount(self) -> None:
@@ -155,8 +160,9 @@ class ProofScreen(BaseScreen):
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
         self._ask(self.question)
-        if self.remembered.tools:
-            self.say("The tools are those that this program was given the last time. T changes one.")
+        if any(tool is self.question.tools.get(number) for number, tool in self.given.tools.items()):
+            opened = "" if self.said is None else f"{self.said.text} "
+            self.say(f"{opened}Its tools are those that you gave it the last time.", Tone.PLAIN)
 
     # ---- the text
 
@@ -218,9 +224,6 @@ class ProofScreen(BaseScreen):
     def saved(self, document: NcDocument) -> None:
         """The text was written."""
         self.document = self.document.after_saving(document)
-        self.question = replace(self.question, text=self.document.text)
-        if self.result is not None:
-            self.result = replace(self.result, question=self.question)
         self._show_titles()
 
     def action_edit(self) -> None:
@@ -262,23 +265,22 @@ class ProofScreen(BaseScreen):
             self.quiet()
             self._follow_cursor()
 
-    def _follow_cursor(self) -> None:
-        """The line that the cursor has left is taken; drawing and findings are those of the line that it is in."""
+    def _follow_cursor(self) -> bool:
+        """Take the line that the cursor has left, and show what belongs to its own; False where that is refused."""
         listing = self.query_one(Listing)
-        if not listing.read_only:
-            self.take_lines()
+        taken = listing.read_only or self.take_lines()
         self.document = self.document.edited(self.document.text, listing.row)
         self._draw()
         self._show_finding_of_row()
+        return taken
 
     # ---- the control's run
 
     def _ask(self, question: Question) -> None:
-        if question.beside == question.control:
-            question = replace(question, beside="")
-        if question.beside != self.question.beside:
-            self.beside = None
         self.question, self.stopped = question, False
+        if self.dotted_control == question.control:
+            self.dotted_control = ""
+        self._end_dotted()
         if self._work is not None:
             self.host.end_work(self._work)
         self._work = self.host.begin_work(self._run_stopped)
@@ -287,13 +289,10 @@ class ProofScreen(BaseScreen):
 
     @work(thread=True, exclusive=True, group="proof", description="proof")
     def _run(self, question: Question, work: Work) -> None:
-        own = part(work, 0.0, RUN_SHARE) if question.beside else work
         try:
-            result = run(question, part(own, 0.0, RUN_SHARE))
+            result = run(question, part(work, 0.0, RUN_SHARE))
             self.post_message(Ran(result))
-            self.post_message(Ran(judge(result, part(own, RUN_SHARE, 1.0))))
-            if question.beside:
-                self.post_message(RanBeside(question, run_beside(question, part(work, RUN_SHARE, 1.0))))
+            self.post_message(Ran(judge(result, part(work, RUN_SHARE, 1.0))))
         except Stopped:
             # whoever stopped it shows so
             return
@@ -302,6 +301,7 @@ class ProofScreen(BaseScreen):
         """Nobody waits for the result any more."""
         if self._work is not None:
             self.host.end_work(self._work)
+        self._end_dotted()
 
     def _run_stopped(self) -> None:
         """Esc has stopped the run: nothing is known of the text, or nothing judged, until it is run again."""
@@ -314,9 +314,11 @@ class ProofScreen(BaseScreen):
         event.stop()
         if not self.stands or event.result.question is not self.question:
             return
-        if event.result.judged and not self.question.beside:
-            self._done()
         self.result = event.result
+        if event.result.judged and self._work is not None:
+            self.host.end_work(self._work)
+            self._work = None
+            self._ask_dotted()
         marks: dict[int, Severity] = {}
         for finding in event.result.findings:
             if finding.line is not None:
@@ -327,19 +329,56 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self._draw()
 
-    @on(RanBeside)
-    def _ran_beside(self, event: RanBeside) -> None:
-        event.stop()
-        if self.stands and event.question is self.question:
-            self._done()
-            self.beside = event.result
-            self._draw()
+    # ---- the path of another control
 
-    def _done(self) -> None:
-        """The run and all that belongs to it is known."""
-        if self._work is not None:
-            self.host.end_work(self._work)
-            self._work = None
+    def _ask_dotted(self) -> None:
+        """Run the program on the control whose path is drawn dotted, once its own run is judged."""
+        self._end_dotted()
+        if self.dotted_control and self.result is not None and self.result.judged:
+            self._dotted_work = self.host.begin_work(self._dotted_stopped)
+            self._run_dotted(self.result, self.dotted_control, self._dotted_work)
+
+    @work(thread=True, exclusive=True, group="dotted", description="dotted")
+    def _run_dotted(self, own: Result, control: str, work: Work) -> None:
+        try:
+            self.post_message(RanDotted(own.question, run_dotted(own, control, work)))
+        except Stopped:
+            # whoever stopped it shows so
+            return
+
+    def _end_dotted(self) -> None:
+        """No path of another control is known, nor waited for."""
+        if self._dotted_work is not None:
+            self.host.end_work(self._dotted_work)
+        self._dotted_work = self.dotted = None
+
+    @on(RanDotted)
+    def _ran_dotted(self, event: RanDotted) -> None:
+        event.stop()
+        other = event.dotted.result
+        if self.stands and event.question is self.question and other.question.control == self.dotted_control:
+            self._end_dotted()
+            self.dotted = event.dotted
+            self._draw()
+            self.say(f"Dotted: {shown_control(other.question.control)} {other.answer.outcome}. B takes it away.")
+
+    def _dotted_stopped(self) -> None:
+        """Esc has stopped the run on the other control."""
+        self._take_dotted_away()
+        self.say("Stopped. V, then Space on a control, draws its path dotted.", Tone.WARNING)
+
+    def _take_dotted_away(self) -> None:
+        self.dotted_control = ""
+        self._end_dotted()
+        self._show_titles()
+        self._draw()
+
+    def action_no_dotted_path(self) -> None:
+        """Draw the path of no other control."""
+        if self.dotted_control:
+            self._take_dotted_away()
+        else:
+            self.say("V, then Space on another control, draws its path dotted under this one.")
 
     @property
     def unit(self) -> Unit:
@@ -348,8 +387,8 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
-        beside = f", dotted {shown_control(self.question.beside)}" if self.question.beside else ""
-        self.query_one("#proof-control", Label).update(f"{shown_control(self.question.control)}{beside}")
+        dotted = f", dotted {shown_control(self.dotted_control)}" if self.dotted_control else ""
+        self.query_one("#proof-control", Label).update(f"{shown_control(self.question.control)}{dotted}")
         self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
@@ -428,13 +467,14 @@ class ProofScreen(BaseScreen):
         if finding.line is not None:
             self.query_one(Listing).go_to_row(finding.line - 1)
             # before the listing tells that the cursor has moved, which would end what is said here
-            self._follow_cursor()
+            if not self._follow_cursor():
+                return
         self.say(sentence(finding, self.unit))
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:
         event.stop()
-        if event.option_list.has_focus:
+        if event.option_list.has_focus and event.option_index < len(self.result_findings):
             self._take_finding(event.option_index)
 
     @on(OptionList.OptionSelected, "#proof-findings")
@@ -454,21 +494,22 @@ class ProofScreen(BaseScreen):
         if self.result is None:
             return
         # numpy and shapely are not needed by the first paint
-        from core.pipeline.nc_proof import scene_at_line, with_path_beside
+        from core.pipeline.nc_proof import scene_at_line
         from core.pipeline.plot import SceneSubject
 
-        line, proof, other = self.document.row + 1, self.result.proof, self.beside
+        line, dotted = self.document.row + 1, self.dotted
+        scene = scene_at_line(self.result.scene, self.result.proof, line)
+        if dotted is not None:
+            scene = replace(scene, layers=(*dotted.path, *scene.layers))
+            other = dotted.result
+            second = self.query_one("#proof-dotted", Drawing)
+            second.characters = self.host.characters
+            second.heading = f"{shown_control(other.question.control)}: {other.answer.outcome}"
+            second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
+        self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
         drawing.characters, drawing.heading = self.host.characters, f"LINE {line}"
-        scene = scene_at_line(self.result.scene, proof, line)
-        if other is not None and self.question.beside:
-            control = shown_control(other.question.control)
-            scene = with_path_beside(scene, proof, other.proof)
-            beside = self.query_one("#proof-beside", Drawing)
-            beside.characters, beside.heading = self.host.characters, f"{control}: {other.answer.outcome}"
-            beside.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
-        self.set_class(bool(self.question.beside), "-beside")
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink on the cutter."""
@@ -514,19 +555,15 @@ class ProofScreen(BaseScreen):
         chosen = await self.app.push_screen_wait(CompareControls(self.question))
         if chosen is None:
             return
-        if not chosen.beside:
+        if not chosen.dotted:
             self._ask(replace(self.question, control=chosen.control))
         elif chosen.control == self.question.control:
             self.say("The program runs on this control already. Choose another one to be drawn dotted.")
         else:
-            self._ask(replace(self.question, beside=chosen.control))
-
-    def action_beside(self) -> None:
-        """Draw the path of no other control."""
-        if self.question.beside:
-            self._ask(replace(self.question, beside=""))
-        else:
-            self.say("V, then Space on another control, draws its path dotted beside this one.")
+            self.dotted_control = chosen.control
+            self._ask_dotted()
+            self._show_titles()
+            self._draw()
 
     @work(exclusive=True, group="question")
     async def action_tool(self) -> None:
@@ -547,9 +584,10 @@ class ProofScreen(BaseScreen):
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool = tool.number
-        tools = self.question.tools.with_tools(ToolTable.of(tool))
-        self.host.keep_tools(self.document.file.path, tools_text(tools))
-        self._ask(replace(self.question, tools=tools))
+        typed = ToolTable.of(tool)
+        self.given = self.given.with_tools(typed)
+        self.host.keep_tools(self.document.file.path, tools_text(self.given))
+        self._ask(replace(self.question, tools=self.question.tools.with_tools(typed)))
 
     def action_diameter(self, by: int) -> None:
         """The tool a little smaller or larger: the verdict follows."""
@@ -566,12 +604,8 @@ class ProofScreen(BaseScreen):
     def show_session(self, session: Session) -> None:
         """Nothing of the contour program stands here."""
 
-    def show_state(self) -> None:
-        """The unit of the NC text, and its edits."""
-        self.show_state_on(self.query_one(Status))
-
     def show_state_on(self, status: Status) -> None:
-        """The same on the status line of a screen that lies on this one."""
+        """The unit of the NC text, and its edits."""
         text = self.document.text
         unit = "..." if self.result is None else str(self.unit)
         saved = self.document.file.path is not None
@@ -587,8 +621,9 @@ class ProofScreen(BaseScreen):
             "NC PROOF",
             "The listing, what the control makes of it, and the findings; Tab changes between them.",
             "N and P go from finding to finding. Enter edits the listing, Esc ends editing.",
-            "C chooses the control, V compares all controls. The drawing shows the path as far as the line in hand.",
-            "In the list of V, Space draws another control's path dotted beside this one; B takes it away.",
+            "C chooses the control, V compares all controls.",
+            "The drawing shows the whole path, the moves of the line in hand, and the cutter at its end.",
+            "In the list of V, Space draws another control's path dotted under this one; B takes it away.",
             "T gives a tool its diameter, < and > make it smaller and larger, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
         )

@@ -111,9 +111,6 @@ class Host(Protocol):
     def keep_tools(self, file: Path | None, text: str) -> None:
         """An NC program has these tools from now on."""
 
-    def show_open_state(self, status: Status) -> None:
-        """The state of what is open: the NC text in NC PROOF, else the contour program."""
-
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 
@@ -135,8 +132,8 @@ class Host(Protocol):
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""
 
-    def show_folder(self, folder: Path) -> None:
-        """HOME with the files of a folder."""
+    def show_folder(self, folder: Path, at: Path | None = None) -> None:
+        """HOME with the files of a folder, the cursor on one of them."""
 
     def go_to(self, entry: FindingEntry) -> None:
         """MILL CONTOUR with the cursor on the place of a finding."""
@@ -275,7 +272,18 @@ class BaseScreen(Screen[None]):
 
     def show_state(self) -> None:
         """The unit, and what is saved and undone, on the status line."""
-        self.query_one(Status).show_program(self.current_session)
+        self.show_state_on(self.query_one(Status))
+
+    def show_state_on(self, status: Status) -> None:
+        """The same on the status line of this screen, or of one that lies on it."""
+        status.show_program(self.current_session)
+
+    def show_state_of_below_on(self, status: Status) -> None:
+        """On the status line, the state of the screen on which this one lies."""
+        stack = self.app.screen_stack
+        below = [screen for screen in stack[: stack.index(self)] if isinstance(screen, BaseScreen)]
+        if below:
+            below[-1].show_state_on(status)
 
     def follow_shown(self, shown: Session) -> None:
         """Show what half-typed numbers would do, where that is shown at all."""

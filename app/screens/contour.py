@@ -282,8 +282,6 @@ class ContourScreen(FormScreen):
     def show_work(self, work: Work | None) -> None:
         """How far it is also stands in the title of the verdict, which is the last one until it is done."""
         super().show_work(work)
-        if not self.stands:
-            return
         verdict, shown = self.query_one(Verdict), self.host.shown
         if verdict.case is not None and not shown.derived_block.known:
             stopped = self.host.stopped is shown.program

@@ -26,9 +26,9 @@ class SaveAsScreen(EntryScreen):
         """Save under this name."""
         self.host.save_as(text)
 
-    def show_state(self) -> None:
-        """That of what gets the name."""
-        self.host.show_open_state(self.query_one(Status))
+    def show_state_on(self, status: Status) -> None:
+        """That of the screen below."""
+        self.show_state_of_below_on(status)
 
     def guide_text(self) -> str:
         """A name for the plate."""

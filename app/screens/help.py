@@ -109,9 +109,9 @@ class HelpScreen(BaseScreen):
         """The next page of the text."""
         self.query_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
 
-    def show_state(self) -> None:
+    def show_state_on(self, status: Status) -> None:
         """That of the screen below."""
-        self.host.show_open_state(self.query_one(Status))
+        self.show_state_of_below_on(status)
 
     def prompt_text(self) -> Sentence:
         """How to read on."""

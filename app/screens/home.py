@@ -77,6 +77,8 @@ class HomeScreen(BaseScreen):
         self.listed: tuple[Listed, ...] = ()
         self.facts: dict[Path, Facts] = {}
         self.trouble = ""
+        self._was_in_front = False
+        self._in_hand: Path | None = None
         self._letters = ""
         self._last_letter = 0.0
 
@@ -96,10 +98,11 @@ class HomeScreen(BaseScreen):
         self.show_folder(self.folder, at=self._at)
 
     def on_screen_resume(self) -> None:
-        """Files may have changed while another screen was in front."""
+        """Files may have changed while another screen was in front; the first time they have just been listed."""
         super().on_screen_resume()
-        if self.is_mounted and self.listed:
+        if self._was_in_front:
             self.list_anew()
+        self._was_in_front = True
 
     def show_session(self, session: Session) -> None:
         """Nothing of the session stands here."""
@@ -127,9 +130,16 @@ class HomeScreen(BaseScreen):
         self.refresh_frame()
 
     def list_anew(self) -> None:
-        """The folder as it is now, the cursor on the same file."""
-        chosen = self.chosen
-        self.show_folder(self.folder, at=None if chosen is None else chosen.path)
+        """The folder as it is now, the cursor on the same file; one that does not answer keeps its list."""
+        try:
+            same = programs_of(self.folder) == self.listed
+        except OSError:
+            return
+        if same:
+            self._survey(self._programs(), dict(self.facts))
+        else:
+            chosen = self.chosen
+            self.show_folder(self.folder, at=None if chosen is None else chosen.path)
 
     def _counts(self) -> str:
         """How many files of each kind the folder holds."""
@@ -186,7 +196,9 @@ class HomeScreen(BaseScreen):
     @on(DataTable.RowHighlighted)
     def _highlighted(self) -> None:
         each = self.chosen
-        self.quiet()
+        if each is not None and each.path != self._in_hand:
+            self._in_hand = each.path
+            self.quiet()
         if each is not None and each.program:
             self._preview(each.path, each.name)
         self.refresh_frame()
@@ -242,7 +254,7 @@ class HomeScreen(BaseScreen):
         """Letters go to the next name that begins with them; a letter that fits no such name begins anew."""
         letter = (event.character or "").lower()
         together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
-        if not (letter.isalnum() or (together and letter and letter in "-_.")) or not self.listed:
+        if not (letter.isalnum() or (together and letter and letter in "-_. ")) or not self.listed:
             return
         self._last_letter = event.time
         if self._jump(together + letter, 0 if together else 1) or self._jump(letter, 1):

@@ -156,7 +156,7 @@ class Drawing(Widget):
                 self.refresh(Region(0, y, self.size.width, 1))
 
     def _styled(self) -> list[Strip]:
-        """The picture's rows in the looks of the style sheet."""
+        """The picture's rows in their looks."""
         if self.drawn is None:
             return []
         base, parse = self.visual_style, self.app.stylesheet.parse_style

@@ -58,7 +58,8 @@ class Asked:
     """What is asked of every program: a control's full name or `all`, the tools, the shop's rules or not.
 
     `unit` counts where a program names none; None is what the control starts in.  `library` finds the programs that a
-    control calls from its memory.  What stops for want of a tool's size `names_options` of the command line.
+    control calls from its memory.  With `names_options`, what stops for want of a
+    tool's size names the option of the command line that gives it.
     """
 
     control: str

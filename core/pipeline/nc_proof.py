@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,11 +97,10 @@ def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
     return Scene((*fixed.layers, *layers), circles, (*fixed.marks, *marks), fixed.unit)
 
 
-def with_path_beside(scene: Scene, proof: Proof, other: Proof) -> Scene:
-    """The scene of a proof with the feed moves of another control's run dotted under it, on the plane of the first."""
-    moves = other.run.moves
-    layers = (Layer(path, Style.UNTAKEN, dashed=True) for path in _parts(moves, proof.plane, ~moves.rapid))
-    return replace(scene, layers=(*layers, *scene.layers))
+def dotted_path(proof: Proof, plane: Plane) -> tuple[Layer, ...]:
+    """The feed moves of a run on a plane, dotted, to lie under the scene of another control's run."""
+    moves = proof.run.moves
+    return tuple(Layer(path, Style.UNTAKEN, dashed=True) for path in _parts(moves, plane, ~moves.rapid))
 
 
 def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:

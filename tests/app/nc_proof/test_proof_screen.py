@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
+from threading import Event
+from time import sleep
+from typing import Any
 
 import pytest
 from textual.widgets import Label, OptionList, Static
@@ -15,16 +18,19 @@ from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import likely_control, read_tools
+from app.nc_proof.runs import Dotted, Result, likely_control, read_tools, run
+from app.nc_proof.runs import Question as Asking
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
+from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.status import Status
 from core.controls.control_tools import CutterTool, ToolTable
 from core.draw.scene import Style
 from core.finding import Severity
 from core.pipeline.checking import Asked
+from core.progress import Progress
 from core.units import Unit
 from tests.app.test_file_actions import DEAD
 from tests.app.widget_pilot import SURROUNDINGS, Operator
@@ -40,7 +46,7 @@ class Proof(Operator):
             working = [
                 worker
                 for worker in self.app.workers
-                if worker.group in ("proof", "compare", "derive", "table", "drawing")
+                if worker.group in ("proof", "dotted", "compare", "derive", "table", "drawing")
             ]
             if working:
                 # a drawing that another one replaces is given up
@@ -228,7 +234,7 @@ async def test_a_program_comes_back_with_the_tools_it_was_given_the_last_time(tm
         assert one.proof.question.tools.tools == read_tools(known).tools
         assert one.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
         assert "the last time" in one.prompt
-    assert read_tools("1=.5in 0=x 3=-0.5 x").tools == {3: CutterTool(3, -0.5)}
+    assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x").tools == {3: CutterTool(3, -0.5, unit=Unit.IN)}
 
 
 async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
@@ -250,47 +256,126 @@ async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
         assert one.proof.question.control == taken
 
 
+async def dot(one: Proof, control: str) -> None:
+    """Draw the path of a control dotted, by the list of V."""
+    await one.press("v")
+    await one.settle()
+    rows = one.app.screen.query_one("#compared", OptionList)
+    rows.highlighted = rows.get_option_index(control)
+    await one.press("space")
+    await one.settle()
+
+
 @pytest.mark.parametrize("size", [(80, 24), (200, 60)])
 async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
     async with at_proof(tmp_path, size=size) as one:
         await with_tool(one, "1=.75")
-        await one.press("v")
-        await one.settle()
-        rows = one.app.screen.query_one("#compared", OptionList)
-        other = next(row for row in range(rows.option_count) if rows.get_option_at_index(row).id == "fanuc:a")
-        rows.highlighted = other
-        await one.press("space")
-        await one.settle()
-        assert one.proof.question.control == "linuxcnc"
+        own = one.proof.result
+        await dot(one, "fanuc:a")
+        assert one.proof.result is own, "its own run is not made again"
+        assert one.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B takes it away."
         assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
         assert Style.UNTAKEN in drawn(one, "proof-drawing")
-        second = one.proof.query_one("#proof-beside", Drawing)
+        second = one.proof.query_one("#proof-dotted", Drawing)
         assert bool(second.region) == (size == (200, 60))
         if second.region:
-            assert Style.UNTAKEN not in drawn(one, "proof-beside")
-            assert second.heading.startswith("fanuc:a: ")
-        # the other one follows the text
-        before = one.proof.beside
-        await one.press("end", "enter", "backspace", "5", "escape")
-        await one.settle()
-        assert one.proof.beside is not before
+            assert Style.UNTAKEN not in drawn(one, "proof-dotted")
+            assert second.heading == "fanuc:a: gouges by 0.3750 at line 6"
         await one.press("b")
         await one.settle()
+        assert one.proof.result is own
+        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc"
         assert Style.UNTAKEN not in drawn(one, "proof-drawing")
-        assert not one.proof.query_one("#proof-beside", Drawing).region
-        assert one.app.longest_work is None
+        assert not one.proof.query_one("#proof-dotted", Drawing).region
 
 
-async def test_the_control_in_use_is_not_drawn_beside_itself(tmp_path):
+async def test_the_dotted_path_follows_text_tool_and_choice(tmp_path):
     async with at_proof(tmp_path) as one:
+        await with_tool(one, "1=.75")
+        await dot(one, "fanuc:a")
+
+        def ends() -> tuple[str, list[float]]:
+            assert one.proof.dotted is not None
+            other = one.proof.dotted.result
+            return other.question.control, other.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
+
+        assert ends() == ("fanuc:a", [85.725, 76.2])
+        await with_tool(one, "1=.25")
+        assert ends() == ("fanuc:a", [79.375, 76.2])
+        for _ in range(4):
+            await one.press("down")
+        await one.press("enter", "end", "backspace", "5", "escape")
+        await one.settle()
+        assert ends() == ("fanuc:a", [79.375, 127.0])
+        await dot(one, "haas:a")
+        assert ends()[0] == "haas:a"
+        one.proof.query_one(Listing).focus()
+        await dot(one, "linuxcnc")
+        assert "already" in one.prompt
+        await one.press("c")
+        one.app.screen.query_one("#controls", OptionList).highlighted = 0
+        await one.press("enter")
+        await one.settle()
+        assert one.app._works == ()
+
+
+async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict(tmp_path, monkeypatch):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one, "1=.75")
+        before, begun = one.outcome, Event()
+
+        def endless(*asked: Any) -> Dotted:
+            begun.set()
+            while True:
+                asked[-1](0.5)
+                sleep(0.001)
+
+        monkeypatch.setattr("app.nc_proof.screen.run_dotted", endless)
+        monkeypatch.setattr(Work, "stoppable", True)
         await one.press("v")
         await one.settle()
-        await one.press("space")
+        # nobody waits for what does not end
+        await one.pilot.press("down", "space")
+        while not begun.is_set():
+            await one.pilot.pause(0.02)
+        await one.pilot.press("escape")
         await one.settle()
-        assert not one.proof.question.beside
-        assert "already" in one.prompt
-        await one.press("b")
+        assert one.outcome == before
+        assert "Stopped" in one.prompt
+        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc"
+        assert one.app._works == ()
+
+
+async def test_a_control_of_another_language_has_no_path_to_draw(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        await dot(one, "klartext")
+        assert isinstance(one.app.screen, CompareControls)
+        assert "another language" in str(one.app.screen.query_one("#compare-wait", Static).content)
+        await one.press("escape", "b")
         assert "draws its path dotted" in one.prompt
+
+
+async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch):
+    go_on = Event()
+
+    def late(question: Asking, progress: Progress) -> Result:
+        assert go_on.wait(20.0)
+        return run(question, progress)
+
+    async with at_proof(tmp_path) as one:
+        await with_tool(one)
+        monkeypatch.setattr("app.nc_proof.screen.run", late)
+        await one.pilot.press("enter", "end", "(", "a", ")", "ctrl+s")
+        while b"(a)" not in (tmp_path / "p.nc").read_bytes() or one.proof.document.unsaved:
+            await one.pilot.pause(0.02)
+        assert one.outcome.endswith("...")
+        go_on.set()
+        await one.settle()
+        assert not one.outcome.endswith("...")
+        assert one.proof.result is not None
+        assert one.proof.result.question.text.text(0).endswith("(a)")
+        assert one.app._works == ()
 
 
 @pytest.mark.parametrize(

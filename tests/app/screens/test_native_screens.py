@@ -207,7 +207,7 @@ async def test_a_screen_that_is_still_being_made_waits_with_what_has_changed(scr
         assert one.session.title == "changed"
 
 
-@pytest.mark.parametrize("size", [(60, 20), (80, 24), (200, 60)])
+@pytest.mark.parametrize("size", [(60, 20), (100, 30), (132, 43), (200, 60)])
 async def test_every_screen_opens_at_every_size(size):
     async with operator(size=size) as one:
         form = one.screen

@@ -13,10 +13,10 @@ from core.draw.scene import Scene, Style
 from core.pipeline.nc_proof import (
     Proof,
     cutter_at_line,
+    dotted_path,
     fixed_scene,
     run_program,
     scene_at_line,
-    with_path_beside,
     with_verdicts,
 )
 from core.units import Unit
@@ -79,15 +79,11 @@ def test_surface_center_path_rapids_and_the_cursors_moves_are_drawn() -> None:
     assert Style.CURRENT not in styles(scene_at_line(ground, found, 4))
 
 
-def test_another_controls_feed_moves_lie_dotted_under_the_scene() -> None:
-    one, other = proof(), proof(control="linuxcnc")
-    scene = scene_at_line(fixed_scene(one), one, 6)
-    both = with_path_beside(scene, one, other)
-    beside = [layer for layer in both.layers if layer.style is Style.UNTAKEN]
-    assert both.layers == (*beside, *scene.layers)
-    assert all(layer.dashed for layer in beside)
-    drawn = sum(len(layer.path) for layer in beside)
-    assert drawn == (~other.run.moves.rapid[1:]).sum() > 0
+def test_the_feed_moves_of_a_run_are_dotted_on_the_plane_of_another() -> None:
+    other = proof(control="linuxcnc")
+    dotted = dotted_path(other, Plane.XY)
+    assert all(layer.dashed and layer.style is Style.UNTAKEN for layer in dotted)
+    assert sum(len(layer.path) for layer in dotted) == (~other.run.moves.rapid[1:]).sum() > 0
 
 
 def test_without_compensation_there_is_a_place_and_no_cutter() -> None:
