@@ -710,6 +710,11 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
         return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
 
+    @property
+    def proof_is_open(self) -> bool:
+        """Whether an NC PROOF is open, in front or below."""
+        return bool(self.proofs)
+
     def action_nc_proof(self) -> None:
         """Ask for the path of an NC program."""
         self.action_open_path()

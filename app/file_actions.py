@@ -441,7 +441,8 @@ class FileActions(App[int]):
                 return
             self._save_copy(self.document if proof is None else proof.document, typed(text))
         elif proof is not None:
-            self._save_nc(proof, typed(text))
+            old = proof.document.file.path
+            self._save_nc(proof, with_suffix(typed(text), ".nc" if old is None else old.suffix))
         else:
             self._save(typed(text))
 

@@ -28,7 +28,7 @@ MAX_GUESS_LINES: Final = 200
 """Lines that are looked at to guess which control a program is for."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
 _REMEMBERED: Final = re.compile(r"(\d{1,4})=([-+.e\d]{1,25})(in|mm)")
-_TOOL: Final = re.compile(r"(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
+_TOOL: Final = re.compile(r"(?<![A-Z])(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -167,9 +167,12 @@ def likely_control(text: NcText, usual: str = "") -> str:
 
 
 def first_tool(text: NcText) -> int:
-    """The number of the first tool or offset a text names, 1 without any."""
+    """The number of the first tool or offset a text names outside its comments, 1 without any."""
+    # this loads the controls, which the first paint does without
+    from core.controls.iso.reader import without_comments
+
     for row in range(min(MAX_GUESS_LINES, len(text))):
-        found = _TOOL.search(text.text(row))
+        found = _TOOL.search(without_comments(text.text(row).upper()))
         if found and int(found[1]):
             return int(found[1])
     return 1

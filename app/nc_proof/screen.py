@@ -134,7 +134,7 @@ class ProofScreen(BaseScreen):
         self.dotted: Dotted | None = None
         """Its run of the same text, as far as it is known."""
         self.view_of: View | None = None
-        self.stopped = False
+        self.stopped = self.half_typed = False
         self._work: Work | None = None
         self._dotted_work: Work | None = None
 
@@ -142,7 +142,7 @@ class ProofScreen(BaseScreen):
         """Titles, listing, drawing, findings."""
         with Vertical(id="proof-title"):
             with Horizontal(classes="head"):
-                yield PlainLabel("NC PROOF", classes="head-label")
+                yield PlainLabel("NC PROOF", id="proof-mode", classes="head-label")
                 yield PlainLabel(id="proof-control", classes="head-kind")
                 yield PlainLabel(id="proof-file", classes="head-note")
             with Horizontal(classes="head"):
@@ -159,10 +159,13 @@ class ProofScreen(BaseScreen):
         self.show_text()
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
+        opened = self.said
         self._ask(self.question)
+        if opened is not None:
+            self.say(opened.text, opened.tone)
         if any(tool is self.question.tools.get(number) for number, tool in self.given.tools.items()):
-            opened = "" if self.said is None else f"{self.said.text} "
-            self.say(f"{opened}Its tools are those that you gave it the last time.", Tone.PLAIN)
+            before = "" if opened is None else f"{opened.text} "
+            self.say(f"{before}Its tools are those that you gave it the last time.")
 
     # ---- the text
 
@@ -185,12 +188,26 @@ class ProofScreen(BaseScreen):
         listing = self.query_one(Listing)
         text = self.document.text.with_texts(listing.document.lines)
         if text is self.document.text:
+            self._half_typed(typed=False)
             return True
         if not text.takes("".join(listing.document.lines)):
             self.say(f"The file is written in {text.encoding}, which cannot hold this line.", Tone.ERROR)
             return False
         self._change(text, listing.row)
+        self._half_typed(typed=False)
         return True
+
+    @on(Listing.Changed)
+    def _typed(self) -> None:
+        """A line that is being typed is not saved either."""
+        listing = self.query_one(Listing)
+        here = listing.document.get_line(listing.row)
+        self._half_typed(typed=not listing.read_only and here != self.document.text.text(listing.row))
+
+    def _half_typed(self, *, typed: bool) -> None:
+        if typed != self.half_typed:
+            self.half_typed = typed
+            self._show_titles()
 
     def _change(self, text: NcText, row: int) -> None:
         self.document = self.document.edited(text, row)
@@ -236,8 +253,10 @@ class ProofScreen(BaseScreen):
             self.action_large()
         listing.focus()
         listing.read_only = not listing.read_only
+        self.quiet()
         if listing.read_only:
             self.take_lines()
+        self.query_one("#proof-mode", Label).update("NC PROOF" if listing.read_only else "NC EDIT")
         self.refresh_frame()
 
     def action_leave(self) -> None:
@@ -278,6 +297,8 @@ class ProofScreen(BaseScreen):
 
     def _ask(self, question: Question) -> None:
         self.question, self.stopped = question, False
+        # what was said of the run before is over
+        self.quiet()
         if self.dotted_control == question.control:
             self.dotted_control = ""
         self._end_dotted()
@@ -386,16 +407,21 @@ class ProofScreen(BaseScreen):
         return Unit.IN if self.result is None else self.result.answer.unit
 
     def _show_titles(self) -> None:
-        tools = "  ".join(f"{tool.number}={tool.diameter:g}" for tool in self.question.tools.tools.values())
+        tools = "  ".join(map(self._shown_tool, self.question.tools.tools.values()))
         dotted = f", dotted {shown_control(self.dotted_control)}" if self.dotted_control else ""
         self.query_one("#proof-control", Label).update(f"{shown_control(self.question.control)}{dotted}")
         self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
         name = name if self.document.file.holder is None else f"LOOK ONLY {name}"
-        self.query_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved else ''}")
+        self.query_one("#proof-file", Label).update(f"{name}{' *' if self.document.unsaved or self.half_typed else ''}")
         self.query_one("#proof-outcome", Static).update(self._outcome())
         self.show_state()
+
+    def _shown_tool(self, tool: CutterTool) -> str:
+        """A tool and its diameter, with its unit where that is not the program's."""
+        other = tool.unit is not None and tool.unit is not self.unit
+        return f"{tool.number}={tool.diameter:g}{str(tool.unit).lower() if other else ''}"
 
     def _outcome(self) -> Content:
         if self.stopped:
@@ -568,26 +594,35 @@ class ProofScreen(BaseScreen):
     @work(exclusive=True, group="question")
     async def action_tool(self) -> None:
         """Give a tool or an offset another diameter."""
+        missing = None if self.result is None else self.result.answer.missing
+        number = self.tool if missing is None else missing
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         lines = [
-            f"Tool and diameter in {self.unit}: {self.tool}={own} or {self.tool}={other}.",
-            f"A diameter alone is that of tool {self.tool}.",
+            f"Tool and diameter in {self.unit}: {number}={own} or {number}={other}.",
+            f"A diameter alone is that of tool {number}; {number}= takes it away.",
         ]
-        text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines))
-        if not text.strip():
-            return
-        tool = read_tool(text, self.tool, self.unit)
-        if isinstance(tool, str):
-            self.say(tool, Tone.ERROR)
-        else:
+
+        def refusal(text: str) -> str:
+            tool = read_tool(text, number, self.unit)
+            return tool if isinstance(tool, str) and text.strip() else ""
+
+        text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines, refusal))
+        tool = read_tool(text, number, self.unit)
+        if isinstance(tool, int):
+            self._with_tools(self.given.without(tool), self.question.tools.without(tool))
+            self.say(f"Tool {tool} has no diameter any more.")
+        elif isinstance(tool, CutterTool):
             self._with_tool(tool)
 
     def _with_tool(self, tool: CutterTool) -> None:
-        self.tool = tool.number
-        typed = ToolTable.of(tool)
-        self.given = self.given.with_tools(typed)
-        self.host.keep_tools(self.document.file.path, tools_text(self.given))
-        self._ask(replace(self.question, tools=self.question.tools.with_tools(typed)))
+        self.tool, typed = tool.number, ToolTable.of(tool)
+        self._with_tools(self.given.with_tools(typed), self.question.tools.with_tools(typed))
+        self.say(f"Tool {tool.number} is {tool.diameter:g} {tool.unit or self.unit} across.")
+
+    def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
+        self.given = given
+        self.host.keep_tools(self.document.file.path, tools_text(given))
+        self._ask(replace(self.question, tools=tools))
 
     def action_diameter(self, by: int) -> None:
         """The tool a little smaller or larger: the verdict follows."""
@@ -597,7 +632,6 @@ class ProofScreen(BaseScreen):
             return
         size = round(tool.diameter + by * STEPS[tool.unit or self.unit], 6)
         self._with_tool(replace(tool, diameter=size))
-        self.say(f"Tool {tool.number} is {size:g} across.")
 
     # ---- the frame
 
@@ -608,8 +642,8 @@ class ProofScreen(BaseScreen):
         """The unit of the NC text, and its edits."""
         text = self.document.text
         unit = "..." if self.result is None else str(self.unit)
-        saved = self.document.file.path is not None
-        status.show(unit, len(text.past), len(text.future), unsaved=text.unsaved, saved=saved)
+        unsaved, saved = text.unsaved or self.half_typed, self.document.file.path is not None
+        status.show(unit, len(text.past), len(text.future), unsaved=unsaved, saved=saved)
 
     def prompt_text(self) -> Sentence:
         """What the keys do."""
@@ -629,10 +663,12 @@ class ProofScreen(BaseScreen):
         )
 
 
-def read_tool(text: str, number: int, unit: Unit) -> CutterTool | str:
-    """A tool as typed, `2=.5` or a diameter alone, or why it is none."""
+def read_tool(text: str, number: int, unit: Unit) -> CutterTool | int | str:
+    """A tool as typed, `2=.5` or a diameter alone; the number of one that `2=` takes away; or why it is none."""
     found = _NUMBERED.fullmatch(text)
     number, size = (int(found[1]), found[2]) if found else (number, text)
+    if found and not size.strip():
+        return number
     value = parse(size, Kind.LENGTH, unit)
     return value.reason if isinstance(value, Unreadable) else CutterTool(number, value, unit=unit)
 

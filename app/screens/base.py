@@ -111,6 +111,10 @@ class Host(Protocol):
     def keep_tools(self, file: Path | None, text: str) -> None:
         """An NC program has these tools from now on."""
 
+    @property
+    def proof_is_open(self) -> bool:
+        """Whether an NC PROOF is open, in front or below."""
+
     def open_file(self, path: Path) -> None:
         """Work on a file; what is not saved is asked about."""
 
@@ -253,6 +257,8 @@ class BaseScreen(Screen[None]):
         self.follow(self.host.session)
         self.follow_shown(self.host.shown)
         self.show_work(self.host.longest_work)
+        if self.stands:
+            self.query_one(Status).read_machine()
 
     @property
     def in_view(self) -> bool:

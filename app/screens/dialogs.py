@@ -135,19 +135,23 @@ def _line(answer: Answer) -> str:
 
 
 class Phrase(ModalScreen[str]):
-    """A question that is answered by typing a phrase; Esc and F8 give an empty one."""
+    """A question that is answered by typing a phrase; Esc and F8 give an empty one.
+
+    What `refusal` says of a phrase is shown below it, and the question stays.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "answer", "Go back", show=False)]
 
-    def __init__(self, title: str, lines: Sequence[str]) -> None:
+    def __init__(self, title: str, lines: Sequence[str], refusal: Callable[[str], str] | None = None) -> None:
         super().__init__()
-        self.question, self.lines = title, tuple(lines)
+        self.question, self.lines, self.refusal = title, tuple(lines), refusal
 
     def compose(self) -> ComposeResult:
         """A framed box: what is asked, then the line to type in."""
         with Vertical(id="question"):
             yield PlainText("\n".join(self.lines), id="loss")
             yield LineInput(id="phrase", compact=True)
+            yield PlainText(id="phrase-trouble")
 
     def on_mount(self) -> None:
         """The title."""
@@ -156,7 +160,10 @@ class Phrase(ModalScreen[str]):
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
         event.stop()
-        self.dismiss(event.value)
+        if self.refusal is not None and (refused := self.refusal(event.value)):
+            self.query_one("#phrase-trouble", Static).update(refused)
+        else:
+            self.dismiss(event.value)
 
     def action_answer(self) -> None:
         """Go back."""

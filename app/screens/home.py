@@ -58,7 +58,7 @@ class HomeScreen(BaseScreen):
     AUTO_FOCUS: ClassVar[str | None] = "#programs"
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("left,backspace", "folder_above", "Folder above", show=False),
-        Binding("escape", "app.back", "Back", show=False),
+        Binding("escape", "leave", "Back", show=False),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("OPEN", "open", "OPEN", lambda screen: screen.chosen is not None, "The list is empty."),
@@ -245,6 +245,14 @@ class HomeScreen(BaseScreen):
             self.host.open_copy(each.path)
         else:
             self.host.open_file(each.path)
+
+    async def action_leave(self) -> None:
+        """Back to the work that is open, where there is any: an empty form is nobody's."""
+        session = self.current_session
+        if session.file is None and not session.unsaved and not self.host.proof_is_open:
+            self.say("Enter opens a file, F2 and F3 start a new part, F8 quits.")
+        else:
+            await self.run_action("app.back")
 
     def action_folder_above(self) -> None:
         """The folder that holds this one, with the cursor on it."""

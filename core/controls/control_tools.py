@@ -52,6 +52,10 @@ class ToolTable:
         """This table with another's tools over it."""
         return ToolTable({**self.tools, **other.tools})
 
+    def without(self, number: int) -> ToolTable:
+        """This table without a tool."""
+        return ToolTable({each: tool for each, tool in self.tools.items() if each != number})
+
 
 def missing_tool(number: int | None) -> str:
     """That a table has no tool of a number, and what to do; None stands for one that is not a whole number."""

@@ -210,7 +210,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     if reads(control, text):
         return ()
-    said = "The program is not written in this control's language; --control all compares it by its contour."
+    said = "The program is not written in this control's language. Comparing all controls takes its contour."
     return (Finding("LANGUAGE", Severity.WARNING, said, line=1, column=1),)
 
 

@@ -221,6 +221,8 @@ class State:
             self._take_only_tool(block)
         if self.radius is None:
             text = "The tool's radius is unknown. Write TOOL DEF and TOOL CALL, or give the tool's diameter."
+            if self.tool:
+                text = f"The diameter of tool {self.tool} is unknown. Write TOOL DEF with its radius, or enter it."
             self.stop("TOOL", text, block, "RL" if self.side > 0 else "RR")
         if self.radius < 0.0:
             text = "Tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."

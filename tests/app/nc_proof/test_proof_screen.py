@@ -9,7 +9,7 @@ from time import sleep
 from typing import Any
 
 import pytest
-from textual.widgets import Label, OptionList, Static
+from textual.widgets import Input, Label, OptionList, Static
 from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
@@ -18,7 +18,7 @@ from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import Dotted, Result, likely_control, read_tools, run
+from app.nc_proof.runs import Dotted, Result, first_tool, likely_control, read_tools, run
 from app.nc_proof.runs import Question as Asking
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
@@ -354,6 +354,70 @@ async def test_a_control_of_another_language_has_no_path_to_draw(tmp_path):
         assert "another language" in str(one.app.screen.query_one("#compare-wait", Static).content)
         await one.press("escape", "b")
         assert "draws its path dotted" in one.prompt
+
+
+async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp_path):
+    text = b"(BRACKET 4417)\nG20 G17 F10\nT2 M6\nG1 X0 Y-1\nG42 D5 X1 Y1\nX3\nY3\nG40 X0\nM2\n"
+    async with at_proof(tmp_path, text) as one:
+        assert first_tool(one.proof.document.text) == 2
+        await with_tool(one, ".25")
+        assert one.proof.question.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
+        await one.press("t")
+        assert "5=.5" in str(one.app.screen.query_one("#loss", Static).content)
+        await one.press(*"x", "enter")
+        assert "type a number" in str(one.app.screen.query_one("#phrase-trouble", Static).content)
+        await one.press("backspace", *".25", "enter")
+        await one.settle()
+        assert one.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
+        assert one.prompt == "Tool 5 is 0.25 IN across."
+        await one.press("t", *"5=", "enter")
+        await one.settle()
+        assert list(one.proof.question.tools.tools) == [2]
+        assert one.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
+
+
+async def test_a_line_that_is_being_typed_is_not_saved_and_says_so(tmp_path):
+    async with at_proof(tmp_path) as one:
+        title, name = one.proof.query_one("#proof-mode", Label), one.proof.query_one("#proof-file", Label)
+        await one.press("n", "enter")
+        assert (str(title.content), str(name.content)) == ("NC EDIT", "p.nc")
+        assert one.prompt.startswith("Editing.")
+        await one.press("x")
+        assert str(name.content) == "p.nc *"
+        assert "not saved" in str(one.proof.query_one(Status).query_one("#undo", Label).content)
+        await one.press("backspace")
+        assert str(name.content) == "p.nc"
+        await one.press("escape")
+        assert str(title.content) == "NC PROOF"
+
+
+async def test_a_diameter_is_shown_with_its_unit_where_the_program_has_another(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await with_tool(one, "1=.25")
+        tools = one.proof.query_one("#proof-tools", Label)
+        assert str(tools.content) == "tools 1=0.25"
+        await one.press("enter", "home", "right", "right", "backspace", "1", "down")
+        await one.settle()
+        assert one.proof.unit is Unit.MM
+        assert str(tools.content) == "tools 1=0.25in"
+
+
+async def test_another_name_without_an_ending_has_that_of_the_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with at_proof(tmp_path) as one:
+        await one.app.run_action("app.save_as")
+        await one.settle()
+        one.app.screen.query_one("#entry", Input).value = "other"
+        await one.press("enter")
+        await one.settle()
+        assert (tmp_path / "other.nc").read_bytes() == PROGRAM
+
+
+async def test_esc_on_home_leads_to_no_empty_form(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.press("escape", "escape")
+        assert isinstance(one.app.screen, HomeScreen)
+        assert "F2 and F3 start a new part" in one.prompt
 
 
 async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch):
