@@ -599,7 +599,7 @@ class ProofScreen(BaseScreen):
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         lines = [
             f"Tool and diameter in {self.unit}: {number}={own} or {number}={other}.",
-            f"A diameter alone is that of tool {number}; {number}= takes it away.",
+            f"A diameter alone: tool {number}. {number}= takes it away.",
         ]
 
         def refusal(text: str) -> str:
