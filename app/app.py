@@ -499,7 +499,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """PROGRAM, the list of blocks."""
         from app.screens.program import ProgramScreen
 
-        self._change(self.session.without_empty())
+        self.drop_empty_segment()
         self.bring(ProgramScreen)
 
     def action_home(self) -> None:
@@ -567,7 +567,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
     def _show_post(self) -> None:
         from app.screens.post import PostScreen
 
-        self._change(self.session.without_empty())
+        self.drop_empty_segment()
         file = self.session.file
         self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
 
@@ -646,6 +646,10 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
     def current_session(self) -> Session:
         """The session as it is now."""
         return self.session
+
+    def drop_empty_segment(self) -> None:
+        """Take a new segment with the cursor away in which nothing was typed."""
+        self._change(self.session.without_empty())
 
     def begin(self, session: Session) -> None:
         """Work on another program from now on, or on the same one under another name."""

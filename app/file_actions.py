@@ -75,6 +75,10 @@ class FileActions(App[int]):
     # ---- what the App itself has
 
     @abstractmethod
+    def drop_empty_segment(self) -> None:
+        """Take a new segment with the cursor away in which nothing was typed."""
+
+    @abstractmethod
     def begin(self, session: Session) -> None:
         """Work on another program from now on."""
 
@@ -571,6 +575,7 @@ class FileActions(App[int]):
         """Save, asking what is to be asked; whether it was saved."""
         if self.service is None:
             return False
+        self.drop_empty_segment()
         result = await self._written(self.document, path)
         if result is None:
             return False

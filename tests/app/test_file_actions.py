@@ -82,6 +82,17 @@ async def test_an_edit_is_on_the_disk_before_the_next_key_and_a_save_ends_its_jo
         assert one.session.history.undo_count == 1
 
 
+@pytest.mark.parametrize("keys", [["ctrl+s"], ["ctrl+q", "s"]], ids=["saved", "saved at the end"])
+async def test_a_new_segment_in_which_nothing_was_typed_is_not_saved(folder, keys):
+    before = load(folder / "part.toml").blocks[0].segments
+    async with at_work(folder) as one:
+        await one.press("ctrl+home", "tab", "tab", "tab", "'2.5", "enter", "ctrl+end", "pagedown")
+        assert len(one.session.block.segments) == len(before) + 1
+        await one.press(*keys)
+        assert not one.session.unsaved
+    assert load(folder / "part.toml").blocks[0].segments == before
+
+
 async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo(folder):
     async with at_work(folder, me=DEAD) as one:
         await one.press("pagedown", "tab", "'5.5", "enter")
