@@ -49,6 +49,7 @@ ACTIONS: Final = (
     ("QUIT", "app.quit", "Ctrl+Q"),
 )
 """Name, action and hint of what can be done on every screen; an action that does not exist is not listed."""
+NOTHING_FOUND: Final = "No action has that name."
 GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
 
 
@@ -78,15 +79,23 @@ class Actions(Provider):
             yield DiscoveryHit(name, partial(self.screen.run_action, action), help=hint)
 
     async def search(self, query: str) -> Hits:
-        """Those that match; a number goes to that segment."""
+        """Those that match; a number goes to that segment.
+
+        That none does is said here and at once: Textual says it half a second later, and ends the program where the
+        palette has been left by then.
+        """
         matcher = self.matcher(query)
-        for name, action, hint in self._unique():
-            if (score := matcher.match(name)) > 0:
+        matches = [(matcher.match(action[0]), action) for action in self._unique()]
+        for score, (name, action, hint) in matches:
+            if score > 0:
                 yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
         number = GO_TO_SEGMENT.fullmatch(query)
         if number is not None:
             run = partial(self.app.run_action, f"app.segment({number[1]})")
             yield Hit(1.0, f"GO TO SEGMENT {number[1]}", run)
+        elif not any(score > 0 for score, _ in matches):
+            app: Any = self.app
+            yield Hit(1.0, NOTHING_FOUND, partial(app.say, NOTHING_FOUND), help="Delete letters, or go back with Esc")
 
 
 class Palette(CommandPalette):

@@ -7,14 +7,16 @@ from dataclasses import replace
 from weakref import ref
 
 import pytest
-from textual.widgets import DataTable, Static
+from textual.widgets import DataTable, OptionList, Static
 
 from app.documents.files import load
 from app.documents.programs import example
+from app.screens.contour import ContourScreen
 from app.screens.draw import DrawScreen
 from app.screens.form_screen import FormScreen
 from app.screens.help import HelpScreen
 from app.screens.lookahead import LookaheadScreen
+from app.screens.palette import NOTHING_FOUND
 from app.screens.post import PostScreen
 from app.screens.program import ProgramScreen
 from app.screens.tools import ToolsScreen
@@ -191,6 +193,17 @@ async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_n
         await one.press("enter")
         await everything(one)
         assert isinstance(one.app.screen, LookaheadScreen)
+
+
+async def test_the_palette_says_at_once_that_no_action_has_that_name():
+    """A notice that came later, as Textual's own does, found its list gone where the palette had been left."""
+    async with operator() as one:
+        await one.press("ctrl+k", *"qqqq")
+        listed = one.app.screen.query_one(OptionList)
+        assert [str(option.prompt).splitlines()[0] for option in listed.options] == [NOTHING_FOUND]
+        await one.press("enter")
+        assert isinstance(one.app.screen, ContourScreen)
+        assert one.prompt == NOTHING_FOUND
 
 
 @pytest.mark.parametrize("screen", [DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen])
