@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 
@@ -30,7 +31,7 @@ def screen_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML), or an NC file to prove"
+        "file", nargs="?", type=Path, metavar="FILE", help="a program (TOML), an NC program to prove, a drawing (DXF)"
     )
     parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
     parser.add_argument(
@@ -41,6 +42,7 @@ def screen_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--mouse", action="store_true", help="clicks act on fields, softkeys, lists and drawings")
     parser.add_argument("--light", action="store_true", help="dark ink on light paper")
+    parser.add_argument("--version", action="version", version=f"cutcomp {version('cutcomp')}")
     return parser
 
 

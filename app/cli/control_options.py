@@ -10,7 +10,7 @@ from app.documents.nc_text import MAX_NC_BYTES
 from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.controls.program_text import quoted
 from core.program.tools import table_faults
-from core.units import Unit
+from core.units import Kind, Unit, Unreadable, parse
 
 
 class Unusable(Exception):
@@ -33,7 +33,7 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in behind it",
+        help="a tool's diameter in the program's unit, or with mm or in behind it: 1=.5, 2=6mm, 3=1/2",
     )
 
 
@@ -64,17 +64,13 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
 
 
 def _tool(text: str) -> CutterTool:
-    """A tool written N=DIAMETER."""
+    """A tool written N=DIAMETER, the diameter as in a field of a form: `1=.5`, `2=6mm`, `3=1/2`."""
     number, _, diameter = text.partition("=")
     unit = {"mm": Unit.MM, "in": Unit.IN}.get(diameter.strip().lower()[-2:])
-    digits = diameter.strip()[:-2] if unit else diameter
-    try:
-        tool = CutterTool(int(number), float(digits), unit=unit)
-    except ValueError:
-        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
-    if not abs(tool.diameter) < 1e6 or tool.number < 0:
-        raise Unusable(f"--tool {quoted(text)}: that is no diameter of a tool.")
-    return tool
+    size = parse(diameter, Kind.LENGTH, unit or Unit.IN)
+    if not number.strip().isdecimal() or isinstance(size, Unreadable):
+        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5, 2=6mm or 3=1/2.")
+    return CutterTool(int(number), size, unit=unit)
 
 
 def bytes_of(path: Path) -> bytes:

@@ -92,7 +92,7 @@ def _row(done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "")
 def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compared | OtherLanguage:
     """The contours of the first run on a control of another language; `paths`: where the paths part too."""
     if first is None:
-        return OtherLanguage(control, "no control that reads this program can run it to the end")
+        return OtherLanguage(control, "no control runs this program to the end")
     made = run_by_contour(first, control)
     if isinstance(made, NotTranslated):
         return OtherLanguage(control, made.text)

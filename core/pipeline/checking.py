@@ -182,7 +182,7 @@ def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, 
 
 def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
     if isinstance(row, OtherLanguage):
-        said = f"It is written in another language, and is not compared by its contour: {row.why}."
+        said = f"The program is in another control's language, and its contour is not compared: {row.why}."
         told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
         return Answer(
             row.control,
@@ -200,9 +200,9 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
         compared_row = _with_option(_with_largest_tool(compared_row, row.run, text, asked), asked)
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
-    said = f"It is written in another language: compared by the contour as {by} reads it, with straight leads."
+    said = f"The program is in another control's language: only its contour was run, as {by} reads it."
     told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
-    parts = f"the contour alone{'; ' if parts else ''}{parts}"
+    parts = f"its contour only{'; ' if parts else ''}{parts}"
     found = _answer(row.run, row.results, told, parts, shop=asked.shop)
     return replace(found, parting=row.parts, parting_of=row.of)
 
@@ -257,7 +257,7 @@ def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None)
     if done.stopped_at is not None:
         rule = "" if why is None else why.code
         stops = "cannot be followed behind" if rule in NOT_FOLLOWED else "alarms at"
-        return f"{stops} line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
+        return f"{f'{gouges}, then ' if gouges else ''}{stops} line {done.stopped_at} ({rule})"
     if gouges:
         return gouges
     unjudged, at = first_unjudged(results)
@@ -356,8 +356,13 @@ def counted(number: int, what: str) -> str:
 
 
 def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
-    """What the controls stop for, a sentence once for a rule and line; then the largest tools that fit."""
-    yield from dict.fromkeys(f"Line {one.stopped_at} ({one.why.code}): {one.why_said}" for one in answers if one.why)
+    """What the controls stop for, those of one rule and line together; then the largest tools that fit."""
+    stopped: dict[str, list[str]] = {}
+    for one in answers:
+        if one.why:
+            stopped.setdefault(f"line {one.stopped_at} ({one.why.code}): {one.why_said}", []).append(one.name)
+    for said, names in stopped.items():
+        yield f"{', '.join(names)}, {said}"
     for one in answers:
         if one.fits is not None:
             yield f"{one.name}: {sentence(one.fits, one.unit)}"

@@ -6,6 +6,7 @@ import io
 import json
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,12 @@ def test_a_program_comes_through_a_pipe(monkeypatch: pytest.MonkeyPatch, capsys:
     through = json.loads(capsys.readouterr().out)
     assert main(["path", str(example("pocket")), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == through
+
+
+def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["--version"])
+    assert (left.value.code, capsys.readouterr().out) == (0, f"cutcomp {version('cutcomp')}\n")
 
 
 def test_what_is_posted_from_a_pipe_has_a_name(
