@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from core.controls.control_tools import ToolTable
     from core.draw.scene import Layer, Scene
     from core.finding import Finding
-    from core.pipeline.checking import Answer
+    from core.pipeline.checking import Answer, Asked
     from core.pipeline.nc_proof import Proof
 
 RUN_SHARE: Final = 0.5
@@ -108,6 +108,15 @@ def judge(result: Result, progress: Progress = silent) -> Result:
     return _result(result.question, with_verdicts(result.proof, progress), judged=True)
 
 
+def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
+    """The same; where a smaller tool would be clean, with the largest such among the findings."""
+    from core.pipeline.checking import with_largest_tool as fitted
+
+    question = result.question
+    answer = fitted(result.answer, result.proof.run, question.text.data, _asked(question, question.control), progress)
+    return replace(result, answer=answer)
+
+
 def run_dotted(own: Result, control: str, progress: Progress = silent) -> Dotted:
     """The text of a result on another control, judged, with its path on the plane of that result."""
     from core.pipeline.nc_proof import dotted_path
@@ -127,11 +136,16 @@ def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
 
 def compare(question: Question) -> tuple[Answer, ...]:
     """Every control's answer to a text."""
-    from core.pipeline.checking import Asked, answer_all
+    from core.pipeline.checking import answer_all
+
+    return answer_all(question.text.data, _asked(question, "all"), question.control)
+
+
+def _asked(question: Question, control: str) -> Asked:
+    from core.pipeline.checking import Asked
 
     library = FolderLibrary(question.folder)
-    asked = Asked("all", question.tools, shop=False, unit=question.unit, library=library, names_options=False)
-    return answer_all(question.text.data, asked, question.control)
+    return Asked(control, question.tools, shop=False, unit=question.unit, library=library, names_options=False)
 
 
 def tools_text(tools: ToolTable) -> str:

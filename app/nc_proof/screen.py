@@ -14,6 +14,7 @@ from textual.containers import Horizontal, Vertical
 from textual.content import Content
 from textual.widgets import Label, OptionList, Static
 from textual.widgets.option_list import Option
+from textual.worker import Worker, get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
@@ -33,6 +34,7 @@ from app.nc_proof.runs import (
     run,
     run_dotted,
     tools_text,
+    with_largest_tool,
 )
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
@@ -48,7 +50,7 @@ from app.widgets.status import Status
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolTable
 from core.finding import Finding, Severity
-from core.progress import Stopped, part
+from core.progress import Progress, Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
 
 if TYPE_CHECKING:
@@ -313,7 +315,12 @@ class ProofScreen(BaseScreen):
         try:
             result = run(question, part(work, 0.0, RUN_SHARE))
             self.post_message(Ran(result))
-            self.post_message(Ran(judge(result, part(work, RUN_SHARE, 1.0))))
+            judged = judge(result, part(work, RUN_SHARE, 1.0))
+            self.post_message(Ran(judged))
+            # the work that is shown ends with the verdict
+            fitted = with_largest_tool(judged, _while_wanted(get_current_worker()))
+            if fitted.answer.fits is not None:
+                self.post_message(Ran(fitted))
         except Stopped:
             # whoever stopped it shows so
             return
@@ -671,6 +678,16 @@ def read_tool(text: str, number: int, unit: Unit) -> CutterTool | int | str:
         return number
     value = parse(size, Kind.LENGTH, unit)
     return value.reason if isinstance(value, Unreadable) else CutterTool(number, value, unit=unit)
+
+
+def _while_wanted(worker: Worker[object]) -> Progress:
+    """Ends what a worker does once it has been canceled."""
+
+    def going_on(_: float) -> None:
+        if worker.is_cancelled:
+            raise Stopped
+
+    return going_on
 
 
 def shown_control(control: str) -> str:

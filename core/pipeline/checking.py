@@ -22,6 +22,7 @@ from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
 from core.pipeline.fitting_tool import largest_tool
+from core.progress import Progress, silent
 from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = (
@@ -143,15 +144,18 @@ def answer(text: bytes, asked: Asked) -> Answer:
     done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
     row = _answer(done, judge_run(done), _foreign(done.control, text), "", shop=asked.shop)
-    return _with_option(_with_largest_tool(row, done, text, asked), asked)
+    return _with_option(with_largest_tool(row, done, text, asked), asked)
 
 
-def _with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
-    """The answer; where a smaller tool would be clean, with the largest such."""
+def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
+    """The answer; where a smaller tool would be clean, with the largest such at the fault's line."""
     if row.state not in (State.ALARM, State.GOUGES):
         return row
-    fits = largest_tool(text, done, asked.tools, asked.library, asked.unit)
-    return row if fits is None else replace(row, fits=fits, findings=(*row.findings, fits))
+    fits = largest_tool(text, done, asked.tools, asked.library, asked.unit, progress)
+    if fits is None:
+        return row
+    fits = replace(fits, line=row.stopped_at if row.gouge is None or row.stopped_at is not None else row.gouge[1])
+    return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
 
 
 def _with_option(row: Answer, asked: Asked) -> Answer:
@@ -197,7 +201,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
         compared_row = _answer(row.run, row.results, (), parts, shop=asked.shop)
-        compared_row = _with_option(_with_largest_tool(compared_row, row.run, text, asked), asked)
+        compared_row = _with_option(with_largest_tool(compared_row, row.run, text, asked), asked)
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
     said = f"The program is in another control's language: only its contour was run, as {by} reads it."

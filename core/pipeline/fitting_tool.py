@@ -13,6 +13,7 @@ from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import deepest_gouge, judge_run
 from core.controls.registry import UnknownControl, run
 from core.finding import Finding, Severity
+from core.progress import Progress, silent
 from core.units import Kind, Unit, decimals_shown, from_mm, to_mm
 
 MAX_MOVES: Final = 2_000
@@ -29,11 +30,17 @@ _NUMBER: Final = re.compile(rb"(?:[TD]|CALL|DEF)\s*(\d+)", re.IGNORECASE)
 
 
 def largest_tool(
-    text: bytes, done: ControlRun, tools: ToolTable, library: ProgramLibrary, unit: Unit | None
+    text: bytes,
+    done: ControlRun,
+    tools: ToolTable,
+    library: ProgramLibrary,
+    unit: Unit | None,
+    progress: Progress = silent,
 ) -> Finding | None:
     """The tool that is too big for a program that alarms or gouges, and the largest diameter with which it is clean.
 
     `done` is the run with the tools as they are.  None where no smaller tool helps: the fault is another one.
+    `progress` is asked before each trial, whose number is not known: it is told 0.
     """
     if len(done.moves) > MAX_MOVES or text.count(b"\n") > MAX_MOVES:
         return None
@@ -41,6 +48,7 @@ def largest_tool(
     step = 10.0 ** -decimals_shown(Kind.LENGTH, done.unit)
 
     def fits(tool: CutterTool, size: int) -> bool:
+        progress(0.0)
         diameter = step * size if tool.diameter > 0.0 else -step * size
         trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
         ran = run(text, done.control, trial, unit, library)

@@ -113,6 +113,21 @@ async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_
         assert "gouges by 0.1255" in one.outcome
 
 
+async def test_the_largest_tool_that_fits_stands_among_the_findings(tmp_path):
+    """A slot 0.4 wide, open above."""
+    slot = (
+        b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\nX2.\nY0.\nX-.5\nG40 X-1.\n"
+    )
+    said = "Tool 1 is too big; largest that fits: 0.3999."
+    async with at_proof(tmp_path, slot) as one:
+        await with_tool(one, "1=.5")
+        fault, fits = one.findings()[-2:]
+        assert fault.startswith("✖ 9: The cutter does not fit")
+        assert fits == f"i 9: {said}"
+        await with_tool(one, "1=.3999")
+        assert not any(said in finding for finding in one.findings())
+
+
 async def test_pages_of_findings_that_have_no_room_are_no_step(tmp_path):
     async with at_proof(tmp_path) as one:
         await one.pilot.resize_terminal(20, 5)
