@@ -15,7 +15,7 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
-from core.controls.iso.arcs import NoArc, center_by_radius, given_center
+from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
@@ -337,15 +337,31 @@ class Machine(ModalState):
         if "R" in block.words and {"I", "J", "K"}.isdisjoint(block.words):
             center = center_by_radius(start, end, block.words["R"] * self.scale, turn)
         else:
-            origin = flat(self.shift, self.plane) if self.centers_from_origin else None
-            center = given_center(block.words, self.plane, start, self.scale, origin)
-            if not isinstance(center, NoArc):
-                center = self.dialect.arc_radii.refused(start, end, center, self.unit) or center
+            center = self._given_center(block, start, end, absolute=self.centers_from_origin)
         if isinstance(center, NoArc):
             column = block.column("R" if "R" in block.words else "IJK")
             rule = center.fault if center.fault in self.dialect.rule_names else "ARC"
-            self.log.stop(rule, center.text, block.line, column, lengths=center.lengths)
+            text = center.text + self._fits_otherwise(block, start, end)
+            self.log.stop(rule, text, block.line, column, lengths=center.lengths)
         return center
+
+    def _given_center(self, block: Block, start: Point, end: Point, *, absolute: bool) -> Point | NoArc:
+        """The center out of I, J, K, counted from the program's origin or from the arc's start."""
+        origin = flat(self.shift, self.plane) if absolute else None
+        center = given_center(block.words, self.plane, start, self.scale, origin)
+        if isinstance(center, NoArc):
+            return center
+        return self.dialect.arc_radii.refused(start, end, center, self.unit) or center
+
+    def _fits_otherwise(self, block: Block, start: Point, end: Point) -> str:
+        """A hint where the center is right in the other way to count it; nothing where it is wrong in both."""
+        absolute = self.centers_from_origin
+        if "R" in block.words or isinstance(self._given_center(block, start, end, absolute=not absolute), NoArc):
+            return ""
+        first, second, _ = IN_PLANE[self.plane]
+        ways = ("the program's zero", "the start of the arc")
+        here, there = ways if absolute else reversed(ways)
+        return f" Here {first} and {second} count from {here}; counted from {there}, they fit."
 
     def _drill(self, block: Block) -> None:
         """A block of a drilling cycle in force."""

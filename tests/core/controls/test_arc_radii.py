@@ -9,7 +9,7 @@ import pytest
 
 from core.controls.iso.arcs import center_by_radius
 from core.controls.registry import arc_radii
-from core.finding import Severity
+from core.finding import Finding, Severity
 from core.units import Unit
 from tests.core.controls.hand import ran, told
 from tests.core.controls.rs274 import witness
@@ -47,6 +47,39 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     assert (alarm.severity, alarm.line, beyond.stopped_at) == (Severity.ERROR, 4, 4)
     assert alarm.lengths == pytest.approx((radius * SCALE[unit], (radius + 1.01 * limit) * SCALE[unit]), abs=1e-5)
     assert ("cutcomp assumes" in alarm.text) is (control != "linuxcnc")
+
+
+START, ZERO = "the start of the arc", "the program's zero"
+
+
+@pytest.mark.parametrize(
+    ("control", "start", "center", "here", "there"),
+    [
+        ("fanuc:a", "X10. Y0.", "I10. J10.", START, ZERO),
+        ("linuxcnc", "X10. Y1.", "I10. J11.", START, ZERO),
+        ("threeblock", "X10. Y0.", "I0. J10.", ZERO, START),
+        ("threeblock", "X10. Y1.", "I0. J10.", ZERO, START),
+        ("threeblock", "X10. Y1.", "J10.", ZERO, START),
+    ],
+)
+def test_an_alarm_says_that_the_center_is_right_counted_in_the_other_way(
+    control: str, start: str, center: str, here: str, there: str
+) -> None:
+    alarm = quarter_turn(control, start, center)
+    assert alarm.text.endswith(f" Here I and J count from {here}; counted from {there}, they fit.")
+
+
+@pytest.mark.parametrize(("control", "center"), [("fanuc:a", "I12. J10."), ("threeblock", "I1. J10.")])
+def test_of_a_center_that_is_wrong_in_both_ways_nothing_else_is_said(control: str, center: str) -> None:
+    assert "they fit" not in quarter_turn(control, "X10. Y1.", center).text
+
+
+def quarter_turn(control: str, start: str, center: str) -> Finding:
+    """The alarm at a quarter from X10 up to ten farther in X and Y, with another center."""
+    metric, (x, y) = "G71" if control == "threeblock" else "G21", (float(word[1:]) + 10 for word in start.split())
+    done = ran(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
+    assert done.stopped_at == 3
+    return done.findings[-1]
 
 
 @pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")

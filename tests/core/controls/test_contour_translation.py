@@ -117,7 +117,7 @@ def test_where_the_tool_is_too_large_on_klartext_the_others_still_answer() -> No
         (("L X+0 Y+0 R0 FMAX", "L X+9 F100"), "no compensated contour"),
         (("L X-9 Y+0 R0 FMAX", "L X+0 RL F9", "L X+9", "L X+19 Z-3", "L X+40 Y-20 R0"), "tool axis moves under"),
         (("TOOL CALL 1 Y", "L X-9 Z+0 R0 FMAX", "L X+0 RL F9", "L X+9", "L X+40 Z-20 R0"), "another plane than XY"),
-        (("L X+0 Y+0 R0 FMAX", "FL X+9"), "no control that reads this program can run it to the end"),
+        (("L X+0 Y+0 R0 FMAX", "FL X+9"), "no control runs this program to the end"),
     ],
 )
 def test_what_cannot_be_compared_says_why(blocks: tuple[str, ...], why: str) -> None:

@@ -44,7 +44,7 @@ def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
     assert strict.run.stopped_at == 8
     other = rows["klartext"]
     assert isinstance(other, OtherLanguage)
-    assert other.why == "no control that reads this program can run it to the end"
+    assert other.why == "no control runs this program to the end"
 
 
 @pytest.mark.parametrize("reference", ["fanuc:b", "fanuc:b-arc"])
