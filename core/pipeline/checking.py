@@ -223,6 +223,8 @@ def _answer(
 ) -> Answer:
     told = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
+    # passes at several depths find the same
+    told = tuple({(one.code, one.line, one.column, sentence(one, done.unit)): one for one in told}.values())
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
     gouge = deepest_gouge(results)
     state = _state(done, results, why, told)

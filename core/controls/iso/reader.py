@@ -256,6 +256,9 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     rest, column = block.text[at:], block.start + at + 1
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
+    if rest.startswith("/"):
+        text = "This control takes / only at the beginning of a block. Give the words behind it a block of their own."
+        log.stop("WORD", text, block.line, column)
     if any(sign in rest[:80] for sign in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
         text = f"{text} {only_on(EXPRESSIONS)}"

@@ -118,6 +118,7 @@ def test_a_slash_within_the_block_skips_nothing() -> None:
     with pytest.raises(AlarmError) as caught:
         read_line("/G1X1/Y2", 1, Log())
     assert (caught.value.finding.code, caught.value.finding.column) == ("WORD", 6)
+    assert "takes / only at the beginning of a block" in caught.value.finding.text
 
 
 @pytest.mark.parametrize(

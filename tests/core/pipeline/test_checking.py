@@ -21,6 +21,16 @@ def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -
     assert row.why in row.findings
 
 
+def test_what_several_passes_find_at_one_place_is_told_once() -> None:
+    """A wall that is cut into at the approach, by a loop."""
+    lap = b"G0 X0. Y0.\nG41 D3 G1 X10. Y10.\nX40.\nY40.\nX10.\nY0.\nG40 X0.\n"
+    loop = b"G21 F100.\n#1=0\nWHILE [#1 LT %d] DO1\n#1=#1+1\n" + lap + b"END1\nM30\n"
+    once, twice = (answer(loop % times, asked("fanuc:a", CutterTool(3, 10.0))) for times in (1, 2))
+    assert (once.stretches, twice.stretches) == (1, 2)
+    assert any(finding.code == "GOUGE" for finding in once.findings)
+    assert twice.findings == once.findings
+
+
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
     row = answer(b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nG40 X30.\nM30\n", asked("fanuc:a", CutterTool(3, 10.0)))
     assert (row.stopped_at, row.why) == (None, None)
