@@ -399,16 +399,24 @@ def _leads(result: Judged) -> list[Finding]:
 
 
 def _contact(result: Judged) -> list[Finding]:
-    """Moves between the leads that leave the surface by more than the radius, or run against it."""
+    """Moves between the leads that leave the surface by more than the radius, or run against it.
+
+    Some controls leave it at every corner: of several such places the one farthest off is told.
+    """
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
     away: tuple[AirCut, ...] = ()
     if any(numbers[row] in lines for row in result.verdict.loose):
         cuts = air_cuts(result.surface, result.stretch.radius, result.center)
         away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
-    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
-    listed = contact_findings(away, against)
-    return [replace(finding, segment=None, line=line) for finding, line in zip(listed, begun, strict=True)]
+    farthest = sorted(away, key=lambda cut: -cut.beyond)[:1]
+    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in farthest)]
+    listed = contact_findings(farthest, against)
+    several = f"The path cuts air at {len(away)} places, farthest off the part at X {{x}} Y {{y}}: {{0}}."
+    return [
+        replace(found, segment=None, line=line, text=several if found.code == "AWAY" and len(away) > 1 else found.text)
+        for found, line in zip(listed, begun, strict=True)
+    ]
 
 
 def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:

@@ -106,6 +106,15 @@ def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     assert {one.line for one in told} == {int(path.numbers[row])}
 
 
+def test_of_several_places_where_the_path_cuts_air_the_farthest_is_told() -> None:
+    """An outside square with one sharper corner, which the control goes around by lines."""
+    text = "G21 F9.\nG0 X-20. Y5.\nG41 D1 G1 X0.\nY40.\nX40.\nX50. Y0.\nX0.\nY10.\nG40 X-20.\nM2\n"
+    (result,) = judge_run(ran(text, "fanuc:a", t1=10.0))
+    (told_of,) = (found for found in judged_findings((result,)) if found.code == "AWAY")
+    assert sentence(told_of, Unit.MM).startswith("The path cuts air at 4 places, farthest off the part at X 5")
+    assert told_of.line == 6
+
+
 POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0.\nY0.5\nX2.\nG40 X1.5 Y1.2\nM2\n"
 
 
