@@ -87,6 +87,12 @@ class TerminalDriver(LinuxDriver):
 
         signal.signal(signal.SIGWINCH, changed)
 
+    def stop_application_mode(self) -> None:
+        """Give the terminal back, for a while or for good; behind the end Ctrl+Z must not stop what still goes on."""
+        if not self.suspended:
+            signal.signal(signal.SIGTSTP, signal.SIG_IGN)
+        super().stop_application_mode()
+
     def _sigtstp_application(self, *_: object) -> None:
         """Stop between two tasks: a signal that comes in the middle of a write would wait for ever for its end."""
         self._loop.call_soon_threadsafe(super()._sigtstp_application)

@@ -6,6 +6,7 @@ import os
 import signal
 import termios
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,20 @@ def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) 
         end = bytes(terminal.seen[-400:])
         assert b"\x1b[?1049l" in end, "the screen from before"
         assert b"\x1b[?25h" in end, "the cursor"
+    assert left(part).program.blocks[0].tool == Number(7.0)
+
+
+def test_an_undo_typed_at_the_end_does_not_stop_the_end(part: Path) -> None:
+    """Ctrl+Z means a stop again once the terminal is given back, before the program has ended."""
+    with running([*PROGRAM, str(part)]) as terminal:
+        typed(terminal)
+        os.kill(terminal.pid, signal.SIGTERM)
+        begun = time.monotonic()
+        while (status := terminal.ended()) is None and time.monotonic() - begun < PATIENCE:
+            with suppress(OSError):
+                terminal.send(b"\x1a")
+            terminal.read(quiet=0.0005, longest=0.001)
+        assert status == 128 + signal.SIGTERM
     assert left(part).program.blocks[0].tool == Number(7.0)
 
 

@@ -57,8 +57,12 @@ class Tally:
 
 
 def type_until_killed(part: Part, terminal: Terminal, chance: random.Random, tally: Tally) -> None:
-    """Type; now and then wait until the screen has caught up, now and then do not."""
-    while terminal.ended() is None:
+    """Type; now and then wait until the screen has caught up, now and then do not.
+
+    One that does not end is left to whoever waits for its end.
+    """
+    begun = time.monotonic()
+    while terminal.ended() is None and time.monotonic() - begun < LONGEST_LIFE + PATIENCE:
         for key in part.next_keys(chance):
             tally.moments["keys typed"] += 1
             with suppress(OSError):
