@@ -259,8 +259,14 @@ class NcPart(Part):
         self._add(sure=True)
 
     def _add(self, *, sure: bool) -> None:
+        """The text as it is now; one that undo has brought shows its counts too, half a number may look like it."""
         lines = [line.rstrip() for line in self.text.texts if line.strip()]
-        self.states.append(State(nc_work(self.text), lambda text: shown_lines(text) == lines, sure))
+        counts = (len(self.text.past), len(self.text.future)) if sure else None
+
+        def shown(text: str) -> bool:
+            return shown_lines(text) == lines and counts in (None, shown_counts(text))
+
+        self.states.append(State(nc_work(self.text), shown, sure))
 
     def prepare(self) -> list[str]:
         return ["f1"]

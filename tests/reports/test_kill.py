@@ -78,3 +78,20 @@ def test_a_line_that_is_shown_may_still_be_typed(tmp_path: Path) -> None:
     assert shown_lines(screen)[0] == "N1 G20 G17"
     part.acknowledge(screen)
     assert part.acknowledged == 0
+
+
+def test_half_a_number_is_not_what_undo_brings(tmp_path: Path) -> None:
+    """The old number of a line is deleted key by key before the new one is typed."""
+    part = NcPart(tmp_path / "part.nc")
+    part.file.write_bytes(NC)
+    part.begin(None)
+    part.type_before(0, "N1 ")
+    part.acknowledged = 1
+    before = part.text.texts[0]
+    part.text = part.text.undone()
+    part._add(sure=True)
+    listing = "\n".join(f"{row:>2}  {line:<24}│" for row, line in enumerate(part.text.texts, 1))
+    part.acknowledge(f"{listing}\n Prog Units: IN   not saved   undo 1   08:28")
+    assert part.acknowledged == 1
+    part.acknowledge(f"{listing}\n Prog Units: IN   saved   redo 1   08:28")
+    assert (part.acknowledged, before) == (2, "N1 G20 G17")
