@@ -48,6 +48,11 @@ def _parsed(given: list[str]) -> int:
     if given[0] in COMMANDS:
         return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
     options = screen_parser().parse_args(given)
+    if options.version:
+        from importlib.metadata import version
+
+        print(f"cutcomp {version('cutcomp')}")
+        return 0
     return screens(
         options.file, options.example, TerminalOptions(options.characters, light=options.light, mouse=options.mouse)
     )

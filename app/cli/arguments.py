@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 
@@ -42,7 +41,7 @@ def screen_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--mouse", action="store_true", help="clicks act on fields, softkeys, lists and drawings")
     parser.add_argument("--light", action="store_true", help="dark ink on light paper")
-    parser.add_argument("--version", action="version", version=f"cutcomp {version('cutcomp')}")
+    parser.add_argument("--version", action="store_true", help="print the version and end")
     return parser
 
 

@@ -33,7 +33,7 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in behind it: 1=.5, 2=6mm, 3=1/2",
+        help="a tool's diameter in the program's unit, or with mm or in after it: 1=.5, 2=6mm, 3=1/2",
     )
 
 
@@ -66,11 +66,15 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
 def _tool(text: str) -> CutterTool:
     """A tool written N=DIAMETER, the diameter as in a field of a form: `1=.5`, `2=6mm`, `3=1/2`."""
     number, _, diameter = text.partition("=")
-    unit = {"mm": Unit.MM, "in": Unit.IN}.get(diameter.strip().lower()[-2:])
-    size = parse(diameter, Kind.LENGTH, unit or Unit.IN)
-    if not number.strip().isdecimal() or isinstance(size, Unreadable):
-        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5, 2=6mm or 3=1/2.")
-    return CutterTool(int(number), size, unit=unit)
+    inches, millimeters = (parse(diameter, Kind.LENGTH, unit) for unit in (Unit.IN, Unit.MM))
+    if not number.strip().isdecimal() or isinstance(inches, Unreadable) or isinstance(millimeters, Unreadable):
+        reason = f" {inches.reason}" if isinstance(inches, Unreadable) and diameter.strip() else ""
+        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5, 2=6mm or 3=1/2.{reason}")
+    if inches == millimeters:
+        # no unit is written: it is the program's
+        return CutterTool(int(number), inches)
+    metric = "mm" in diameter.lower()
+    return CutterTool(int(number), millimeters if metric else inches, unit=Unit.MM if metric else Unit.IN)
 
 
 def bytes_of(path: Path) -> bytes:

@@ -109,7 +109,7 @@ def judge(result: Result, progress: Progress = silent) -> Result:
 
 
 def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
-    """The same; where a smaller tool would be clean, with the largest such among the findings."""
+    """The result with a finding that names the largest tool that is clean, where a smaller one is."""
     from core.pipeline.checking import with_largest_tool as fitted
 
     question = result.question
@@ -145,7 +145,9 @@ def _asked(question: Question, control: str) -> Asked:
     from core.pipeline.checking import Asked
 
     library = FolderLibrary(question.folder)
-    return Asked(control, question.tools, shop=False, unit=question.unit, library=library, names_options=False)
+    asked = Asked(control, question.tools, shop=False, unit=question.unit, library=library, names_options=False)
+    # a list of controls has no room for it
+    return replace(asked, fits=control != "all")
 
 
 def tools_text(tools: ToolTable) -> str:

@@ -342,6 +342,7 @@ class ProofScreen(BaseScreen):
         event.stop()
         if not self.stands or event.result.question is not self.question:
             return
+        held = self._finding_in_hand()
         self.result = event.result
         if event.result.judged and self._work is not None:
             self.host.end_work(self._work)
@@ -353,7 +354,7 @@ class ProofScreen(BaseScreen):
                 known = marks.get(finding.line, Severity.INFO)
                 marks[finding.line] = min(known, finding.severity, key=ORDER.index)
         self.query_one(Listing).marks = marks
-        self._show_findings()
+        self._show_findings(held)
         self._show_titles()
         self._draw()
 
@@ -447,15 +448,21 @@ class ProofScreen(BaseScreen):
 
     # ---- findings
 
-    def _show_findings(self) -> None:
+    def _finding_in_hand(self) -> Finding | None:
+        at = self.query_one("#proof-findings", OptionList).highlighted
+        return None if at is None or at >= len(self.result_findings) else self.result_findings[at]
+
+    def _show_findings(self, held: Finding | None) -> None:
+        """List what was found; the finding `held` in hand stays so where it belongs to the line or was chosen."""
         findings, marks = self.query_one("#proof-findings", OptionList), MARKS[self.host.characters]
         found = () if self.result is None else self.result.findings
         findings.border_title = f"FINDINGS  {len(found)}" if found else "FINDINGS  none"
-        at = findings.highlighted
+        at = found.index(held) if held in found else None
         findings.clear_options()
         findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in found])
         here = [index for index, finding in enumerate(found) if finding.line == self.document.row + 1]
-        findings.highlighted = at if at in here else self._gravest(here or range(len(found)))
+        stays = at in here or (at is not None and findings.has_focus)
+        findings.highlighted = at if stays else self._gravest(here or range(len(found)))
 
     def _gravest(self, among: Sequence[int]) -> int | None:
         """The first of the gravest findings of these; None for none."""
@@ -681,7 +688,7 @@ def read_tool(text: str, number: int, unit: Unit) -> CutterTool | int | str:
 
 
 def _while_wanted(worker: Worker[object]) -> Progress:
-    """Ends what a worker does once it has been canceled."""
+    """A progress that raises Stopped once the worker is canceled."""
 
     def going_on(_: float) -> None:
         if worker.is_cancelled:

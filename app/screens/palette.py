@@ -81,19 +81,18 @@ class Actions(Provider):
     async def search(self, query: str) -> Hits:
         """Those that match; a number goes to that segment.
 
-        That none does is said here and at once: Textual says it half a second later, and ends the program where the
-        palette has been left by then.
+        That none does is said here and at once: Textual says so half a second later, and crashes if the palette is
+        closed by then.
         """
         matcher = self.matcher(query)
-        matches = [(matcher.match(action[0]), action) for action in self._unique()]
+        matches = [(score, action) for action in self._unique() if (score := matcher.match(action[0])) > 0]
         for score, (name, action, hint) in matches:
-            if score > 0:
-                yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
+            yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
         number = GO_TO_SEGMENT.fullmatch(query)
         if number is not None:
             run = partial(self.app.run_action, f"app.segment({number[1]})")
             yield Hit(1.0, f"GO TO SEGMENT {number[1]}", run)
-        elif not any(score > 0 for score, _ in matches):
+        elif not matches:
             app: Any = self.app
             yield Hit(1.0, NOTHING_FOUND, partial(app.say, NOTHING_FOUND), help="Delete letters, or go back with Esc")
 

@@ -88,7 +88,7 @@ class TerminalDriver(LinuxDriver):
         signal.signal(signal.SIGWINCH, changed)
 
     def stop_application_mode(self) -> None:
-        """Give the terminal back, for a while or for good; behind the end Ctrl+Z must not stop what still goes on."""
+        """Give the terminal back, for a while or for good; at the end Ctrl+Z must not stop what still saves."""
         if not self.suspended:
             signal.signal(signal.SIGTSTP, signal.SIG_IGN)
         super().stop_application_mode()

@@ -33,6 +33,9 @@ from core.verify.verdict import Gouge, OverRun, Verdict
 MAX_GOUGES: Final = 20
 """Gouges of a stretch that have a finding each, deepest first."""
 
+MAX_LINES: Final = 6
+"""Lines that a finding of several places names."""
+
 LIMIT_RULE: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
 
@@ -401,7 +404,7 @@ def _leads(result: Judged) -> list[Finding]:
 def _contact(result: Judged) -> list[Finding]:
     """Moves between the leads that leave the surface by more than the radius, or run against it.
 
-    Some controls leave it at every corner: of several such places the one farthest off is told.
+    Some controls leave it at every corner: several such places are one finding.
     """
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
@@ -409,14 +412,19 @@ def _contact(result: Judged) -> list[Finding]:
     if any(numbers[row] in lines for row in result.verdict.loose):
         cuts = air_cuts(result.surface, result.stretch.radius, result.center)
         away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
-    farthest = sorted(away, key=lambda cut: -cut.beyond)[:1]
-    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in farthest)]
-    listed = contact_findings(farthest, against)
-    several = f"The path cuts air at {len(away)} places, farthest off the part at X {{x}} Y {{y}}: {{0}}."
-    return [
-        replace(found, segment=None, line=line, text=several if found.code == "AWAY" and len(away) > 1 else found.text)
-        for found, line in zip(listed, begun, strict=True)
-    ]
+    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
+    listed = contact_findings(away, against)
+    told = [replace(finding, segment=None, line=line) for finding, line in zip(listed, begun, strict=True)]
+    return told if len(away) < 2 else [*told[: -len(away)], _several(told[-len(away) :])]
+
+
+def _several(away: Sequence[Finding]) -> Finding:
+    """Several places where a path cuts air, at the one that is farthest off the part."""
+    lines = list(dict.fromkeys(str(finding.line) for finding in away))
+    more = " ..." if len(lines) > MAX_LINES else ""
+    text = f"The path cuts air at {len(away)} places (lines {', '.join(lines[:MAX_LINES])}{more}), "
+    text += "at most {0} off the part, at X {x} Y {y}."
+    return replace(max(away, key=lambda finding: finding.lengths), text=text)
 
 
 def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:

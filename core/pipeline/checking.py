@@ -60,7 +60,8 @@ class Asked:
 
     `unit` counts where a program names none; None is what the control starts in.  `library` finds the programs that a
     control calls from its memory.  With `names_options`, what stops for want of a
-    tool's size names the option of the command line that gives it.
+    tool's size names the option of the command line that gives it.  With `fits`, the largest tool that is clean is
+    looked for where one is too big.
     """
 
     control: str
@@ -69,6 +70,7 @@ class Asked:
     unit: Unit | None
     library: ProgramLibrary = NO_LIBRARY
     names_options: bool = True
+    fits: bool = True
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -149,12 +151,12 @@ def answer(text: bytes, asked: Asked) -> Answer:
 
 def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
     """The answer; where a smaller tool would be clean, with the largest such at the fault's line."""
-    if row.state not in (State.ALARM, State.GOUGES):
+    if not asked.fits or row.state not in (State.ALARM, State.GOUGES):
         return row
     fits = largest_tool(text, done, asked.tools, asked.library, asked.unit, progress)
     if fits is None:
         return row
-    fits = replace(fits, line=row.stopped_at if row.gouge is None or row.stopped_at is not None else row.gouge[1])
+    fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
     return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
 
 
@@ -180,6 +182,7 @@ def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, 
 
     Without one, or where it does not run the program, that of the first control that does.
     """
+    asked = replace(asked, unit=asked.unit or Unit.IN)
     rows = compare(text, asked.tools, asked.unit, asked.library, reference)
     return tuple(_compared(row, asked, text) for row in rows)
 
@@ -204,7 +207,8 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
         compared_row = _with_option(with_largest_tool(compared_row, row.run, text, asked), asked)
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
-    said = f"The program is in another control's language: only its contour was run, as {by} reads it."
+    said = f"The program is in another control's language: only its contour was run, as {by} reads it, "
+    said += "with straight leads that cutcomp adds."
     told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
     parts = f"its contour only{'; ' if parts else ''}{parts}"
     found = _answer(row.run, row.results, told, parts, shop=asked.shop)
@@ -223,13 +227,21 @@ def _answer(
 ) -> Answer:
     told = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
-    # passes at several depths find the same
-    told = tuple({(one.code, one.line, one.column, sentence(one, done.unit)): one for one in told}.values())
+    told = _once(told, done.unit)
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
     gouge = deepest_gouge(results)
     state = _state(done, results, why, told)
     deepest = gouge if gouge[0] else None
     return replace(row, stretches=len(done.stretches), parts=parts, why=why, state=state, gouge=deepest)
+
+
+def _once(told: tuple[Finding, ...], unit: Unit) -> tuple[Finding, ...]:
+    """Passes at several depths find the same at the same place; what has no place is of each by itself."""
+    known: dict[object, Finding] = {}
+    for number, one in enumerate(told):
+        place = number if one.line is None and one.at is None else (one.line, one.column)
+        known.setdefault((one.code, one.severity, place, sentence(one, unit)), one)
+    return tuple(known.values())
 
 
 def _state(
@@ -262,7 +274,7 @@ def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None)
     gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
         rule = "" if why is None else why.code
-        stops = "cannot be followed behind" if rule in NOT_FOLLOWED else "alarms at"
+        stops = "cannot be followed past" if rule in NOT_FOLLOWED else "alarms at"
         return f"{f'{gouges}, then ' if gouges else ''}{stops} line {done.stopped_at} ({rule})"
     if gouges:
         return gouges
@@ -362,13 +374,13 @@ def counted(number: int, what: str) -> str:
 
 
 def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
-    """What the controls stop for, those of one rule and line together; then the largest tools that fit."""
+    """What controls stop for, those that stop at one line for one reason together; then the largest tools that fit."""
     stopped: dict[str, list[str]] = {}
     for one in answers:
         if one.why:
             stopped.setdefault(f"line {one.stopped_at} ({one.why.code}): {one.why_said}", []).append(one.name)
     for said, names in stopped.items():
-        yield f"{', '.join(names)}, {said}"
+        yield f"{' and '.join(filter(None, (', '.join(names[:-1]), names[-1])))} at {said}"
     for one in answers:
         if one.fits is not None:
             yield f"{one.name}: {sentence(one.fits, one.unit)}"

@@ -40,7 +40,7 @@ def largest_tool(
     """The tool that is too big for a program that alarms or gouges, and the largest diameter with which it is clean.
 
     `done` is the run with the tools as they are.  None where no smaller tool helps: the fault is another one.
-    `progress` is asked before each trial, whose number is not known: it is told 0.
+    Each trial tells `progress` how far it is by itself: nobody knows how many there will be.
     """
     if len(done.moves) > MAX_MOVES or text.count(b"\n") > MAX_MOVES:
         return None
@@ -48,11 +48,12 @@ def largest_tool(
     step = 10.0 ** -decimals_shown(Kind.LENGTH, done.unit)
 
     def fits(tool: CutterTool, size: int) -> bool:
-        progress(0.0)
         diameter = step * size if tool.diameter > 0.0 else -step * size
         trial = tools.with_tools(ToolTable.of(replace(tool, diameter=diameter, unit=done.unit)))
-        ran = run(text, done.control, trial, unit, library)
-        return not isinstance(ran, UnknownControl) and len(ran.moves) <= MAX_MOVES and not _is_faulty(ran)
+        ran = run(text, done.control, trial, unit, library, progress=progress)
+        if isinstance(ran, UnknownControl) or len(ran.moves) > MAX_MOVES or ran.stopped_at is not None:
+            return False
+        return deepest_gouge(judge_run(ran, progress))[0] == 0.0
 
     for tool in _named(text, tools):
         fails = ceil(from_mm(abs(tool.diameter_mm(done.unit)), done.unit) / step - 1e-6)
@@ -65,10 +66,6 @@ def largest_tool(
         said = f"Tool {tool.number} is too big; largest that fits: {{0}}."
         return Finding("TOOL_FITS", Severity.INFO, said, lengths=(to_mm(step * clean, done.unit),))
     return None
-
-
-def _is_faulty(done: ControlRun) -> bool:
-    return done.stopped_at is not None or deepest_gouge(judge_run(done))[0] > 0.0
 
 
 def _named(text: bytes, tools: ToolTable) -> tuple[CutterTool, ...]:

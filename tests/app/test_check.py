@@ -55,11 +55,25 @@ def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str])
     assert all(set(finding) == keys for finding in told["findings"])
 
 
-@pytest.mark.parametrize(("typed", "same"), [("1=1/2", "1=.5"), ("1=1/2in", "1=.5in"), ("1=12/2mm", "1=6mm")])
+@pytest.mark.parametrize(
+    ("typed", "same"),
+    [
+        ("1=1/2", "1=.5"),
+        ("1=1/2in", "1=.5in"),
+        ('1=.5"', "1=.5in"),
+        ("1=.5inch", "1=.5in"),
+        ("1=12/2mm", "1=6mm"),
+        ("1=(6mm)", "1=6mm"),
+        ("1=6mm/1", "1=6mm"),
+        ("1=6mm", "1=6"),
+    ],
+)
 def test_a_diameter_is_typed_as_on_a_form(typed: str, same: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The program is metric."""
     file = NC / "rosettacnc-square.ngc"
     told = output(capsys, file, "--control", "all", "--tool", typed)
     assert told == output(capsys, file, "--control", "all", "--tool", same)
+    assert told != output(capsys, file, "--control", "all", "--tool", "1=7")
 
 
 @pytest.mark.parametrize("typed", ["1", "1=", "=.5", "x=.5", "1=1/0", "1=nan", "1=1e9", "1.5=.5"])
@@ -87,7 +101,8 @@ def test_text_tells_findings_and_the_outcome(capsys: pytest.CaptureFixture[str])
 
 def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
-    rows = dict(line.split(maxsplit=1) for line in out.splitlines())
+    # behind the table stand the reasons
+    rows = dict(line.split(maxsplit=1) for line in reversed(out.splitlines()))
     assert status == 1
     assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
     assert rows["rosettacnc:easy"].strip() == "runs"
@@ -100,7 +115,7 @@ def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest
     _, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
     said = [line for line in out.splitlines() if "line 15 (C6): " in line]
     assert said == [
-        "rosettacnc:nist, line 15 (C6): An inside corner is an error with this entry. "
+        "rosettacnc:nist at line 15 (C6): An inside corner is an error with this entry. "
         "Round it in the program or use the normal entry."
     ]
 

@@ -59,7 +59,7 @@ class Tally:
 def type_until_killed(part: Part, terminal: Terminal, chance: random.Random, tally: Tally) -> None:
     """Type; now and then wait until the screen has caught up, now and then do not.
 
-    One that does not end is left to whoever waits for its end.
+    A program that does not end is left to the caller.
     """
     begun = time.monotonic()
     while terminal.ended() is None and time.monotonic() - begun < LONGEST_LIFE + PATIENCE:

@@ -259,7 +259,10 @@ class NcPart(Part):
         self._add(sure=True)
 
     def _add(self, *, sure: bool) -> None:
-        """The text as it is now; one that undo has brought shows its counts too, half a number may look like it."""
+        """The text as it is now.
+
+        A text that undo has brought must show its counts too, since a half-typed number may look the same.
+        """
         lines = [line.rstrip() for line in self.text.texts if line.strip()]
         counts = (len(self.text.past), len(self.text.future)) if sure else None
 

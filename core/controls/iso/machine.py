@@ -354,14 +354,23 @@ class Machine(ModalState):
         return self.dialect.arc_radii.refused(start, end, center, self.unit) or center
 
     def _fits_otherwise(self, block: Block, start: Point, end: Point) -> str:
-        """A hint where the center is right in the other way to count it; nothing where it is wrong in both."""
+        """What to write where the center is right counted in the other way; nothing where it is wrong in both.
+
+        Any center is right for a full circle.
+        """
         absolute = self.centers_from_origin
-        if "R" in block.words or isinstance(self._given_center(block, start, end, absolute=not absolute), NoArc):
+        center = self._given_center(block, start, end, absolute=not absolute)
+        if "R" in block.words or start == end or isinstance(center, NoArc):
             return ""
         first, second, _ = IN_PLANE[self.plane]
-        ways = ("the program's zero", "the start of the arc")
-        here, there = ways if absolute else reversed(ways)
-        return f" Here {first} and {second} count from {here}; counted from {there}, they fit."
+        zero = flat(self.shift, self.plane)[:2] if absolute else start
+        meant = "the arc's start" if absolute else "the program's zero"
+        i, j = (self._number(to - fro) for to, fro in zip(center, zero, strict=True))
+        return f" If {first} and {second} are meant from {meant}, write {first}{i} {second}{j}"
+
+    def _number(self, millimeters: float) -> str:
+        """A length as a word's number, with the point that every control reads."""
+        return f"{round(millimeters / self.scale, 5) + 0.0:.5f}".rstrip("0")
 
     def _drill(self, block: Block) -> None:
         """A block of a drilling cycle in force."""

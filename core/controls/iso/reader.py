@@ -257,7 +257,10 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if rest.startswith("/"):
-        text = "This control takes / only at the beginning of a block. Give the words behind it a block of their own."
+        text = "cutcomp takes / only at the beginning of a block on this control. Move it there, or remove it."
+        log.stop("WORD", text, block.line, column)
+    if block.text.lstrip().startswith("/") and rest[:1].isdigit():
+        text = "cutcomp knows no block skip with a number on this control. Write / alone."
         log.stop("WORD", text, block.line, column)
     if any(sign in rest[:80] for sign in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."

@@ -49,29 +49,36 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     assert ("cutcomp assumes" in alarm.text) is (control != "linuxcnc")
 
 
-START, ZERO = "the start of the arc", "the program's zero"
-
-
 @pytest.mark.parametrize(
-    ("control", "start", "center", "here", "there"),
+    ("control", "start", "center", "hint"),
     [
-        ("fanuc:a", "X10. Y0.", "I10. J10.", START, ZERO),
-        ("linuxcnc", "X10. Y1.", "I10. J11.", START, ZERO),
-        ("threeblock", "X10. Y0.", "I0. J10.", ZERO, START),
-        ("threeblock", "X10. Y1.", "I0. J10.", ZERO, START),
-        ("threeblock", "X10. Y1.", "J10.", ZERO, START),
+        ("fanuc:a", "X10. Y0.", "I10. J10.", "If I and J are meant from the program's zero, write I0. J10."),
+        ("linuxcnc", "X10. Y1.", "I10. J11.", "If I and J are meant from the program's zero, write I0. J10."),
+        ("threeblock", "X10. Y0.", "I0. J10.", "If I and J are meant from the arc's start, write I10. J10."),
+        ("threeblock", "X10. Y1.5", "I0. J10.", "If I and J are meant from the arc's start, write I10. J11.5"),
+        ("threeblock", "X10. Y1.", "J10.", "If I and J are meant from the arc's start, write I10. J11."),
     ],
 )
-def test_an_alarm_says_that_the_center_is_right_counted_in_the_other_way(
-    control: str, start: str, center: str, here: str, there: str
+def test_an_alarm_says_what_to_write_where_the_center_is_right_counted_in_the_other_way(
+    control: str, start: str, center: str, hint: str
 ) -> None:
-    alarm = quarter_turn(control, start, center)
-    assert alarm.text.endswith(f" Here I and J count from {here}; counted from {there}, they fit.")
+    assert quarter_turn(control, start, center).text.endswith(f" {hint}")
 
 
 @pytest.mark.parametrize(("control", "center"), [("fanuc:a", "I12. J10."), ("threeblock", "I1. J10.")])
 def test_of_a_center_that_is_wrong_in_both_ways_nothing_else_is_said(control: str, center: str) -> None:
-    assert "they fit" not in quarter_turn(control, "X10. Y1.", center).text
+    assert "meant" not in quarter_turn(control, "X10. Y1.", center).text
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "linuxcnc", "threeblock"])
+def test_a_full_circle_has_no_other_center(control: str) -> None:
+    metric = "G71" if control == "threeblock" else "G21"
+    done = ran(
+        f"{metric} G17 G90 F100.\nG1 X10. Y5.\nG3 X10. Y5. {'I10. J5.' if control == 'threeblock' else 'I0. J0.'}\n",
+        control,
+    )
+    assert done.stopped_at == 3
+    assert "meant" not in done.findings[-1].text
 
 
 def quarter_turn(control: str, start: str, center: str) -> Finding:

@@ -114,6 +114,13 @@ def test_block_skip_is_off_and_reported() -> None:
     assert [one.code for one in log.findings] == ["SKIP"]
 
 
+def test_a_block_skip_with_a_number_is_named() -> None:
+    with pytest.raises(AlarmError) as caught:
+        read_line("/2 X40.", 1, Log())
+    assert caught.value.finding.text == "cutcomp knows no block skip with a number on this control. Write / alone."
+    assert caught.value.finding.column == 2
+
+
 def test_a_slash_within_the_block_skips_nothing() -> None:
     with pytest.raises(AlarmError) as caught:
         read_line("/G1X1/Y2", 1, Log())

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
-from core.pipeline.checking import Asked, answer, answer_all, reasons
+from core.controls.registry import run
+from core.pipeline.checking import Asked, answer, answer_all, reasons, with_largest_tool
+from core.progress import Stopped
 from core.units import Unit, from_mm
 
 
@@ -29,6 +32,28 @@ def test_what_several_passes_find_at_one_place_is_told_once() -> None:
     assert (once.stretches, twice.stretches) == (1, 2)
     assert any(finding.code == "GOUGE" for finding in once.findings)
     assert twice.findings == once.findings
+
+
+def test_gouges_without_a_line_of_their_own_count_for_each_contour() -> None:
+    """Two combs whose slots are narrower than the tool: more gouges than are listed one by one, in each."""
+    teeth = b"".join(b"X%d.\nY%d.\n" % (10 * tooth, 20 if tooth % 2 else 0) for tooth in range(1, 60))
+    comb = b"G0 X0. Y-20.\nG41 G1 X0. Y0.\n" + teeth + b"G40 Y-50.\n"
+    row = answer(b"G71 G90 F100.\nT3 M6\n" + comb + comb + b"M30\n", asked("threeblock", CutterTool(3, 12.0)))
+    more = [finding.text for finding in row.findings if "more gouges" in finding.text]
+    assert len(more) == row.stretches == 2
+
+
+def test_a_search_for_the_largest_tool_ends_when_nobody_waits() -> None:
+    told = asked("fanuc:a", CutterTool(1, 0.5))
+    row, done = answer(SLOT, told), run(SLOT, "fanuc:a", told.tools)
+    assert isinstance(done, ControlRun)
+    assert row.fits is not None
+
+    def canceled(_: float) -> None:
+        raise Stopped
+
+    with pytest.raises(Stopped):
+        with_largest_tool(row, done, SLOT, told, canceled)
 
 
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
@@ -64,3 +89,13 @@ def test_no_tool_is_named_where_a_smaller_one_would_gouge_too() -> None:
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
     told = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
     assert "fanuc:a: Tool 1 is too big; largest that fits: 0.4000." in told
+    assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in told)
+
+
+def test_the_largest_tool_is_named_where_the_program_says_no_unit_too() -> None:
+    """Inches are taken, on every control."""
+    silent, said = SLOT.replace(b"G20 ", b""), SLOT
+    silent_rows, rows = (answer_all(text, asked("all", CutterTool(1, 0.5))) for text in (silent, said))
+    fitting = [[row.control for row in each if row.fits is not None] for each in (silent_rows, rows)]
+    assert fitting[0] == fitting[1]
+    assert fitting[1]
