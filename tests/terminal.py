@@ -139,6 +139,8 @@ def _forked(
 ) -> Iterator[Terminal]:
     pid, fd = pty.fork()
     if pid == 0:
+        # whoever starts the tests may ignore it
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
         if cwd is not None:
             os.chdir(cwd)
         os.execvpe(arguments[0], list(arguments), values)

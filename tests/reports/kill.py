@@ -121,6 +121,7 @@ def compared(part: Part, terminal: Terminal, tally: Tally) -> None:
 
     Killed after a save and before its journal says so, it asks: the file is not the one that the journal is about.
     """
+    part.saving()
     terminal.send(b"\x13")
     terminal.until("Saved", "CHANGED MEANWHILE", longest=PATIENCE)
     if "CHANGED MEANWHILE" in terminal.text:

@@ -90,6 +90,9 @@ class Part:
         """Go on from a journal, or from the file."""
         raise NotImplementedError
 
+    def saving(self) -> None:
+        """What a save does to the document before it writes it."""
+
     def next_keys(self, chance: random.Random) -> list[str]:
         """What the operator does next; the states that follow from it are added."""
         raise NotImplementedError
@@ -176,7 +179,11 @@ class ContourPart(Part):
             case "redo":
                 return self._turn(undo=False, times=chance.randint(1, 4))
             case _:
+                self.saving()
                 return ["ctrl+s"]
+
+    def saving(self) -> None:
+        self._take(self.session.without_empty())
 
     def _number(self, chance: random.Random, text: str) -> list[str]:
         """A text into a field of START or of the last segment."""
