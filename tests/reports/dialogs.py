@@ -163,7 +163,7 @@ DIALOGS: Final = (
     Dialog("PALETTE", POCKET, ("ctrl+k",), "Search for commands", ("PART SETUP", "EXIT to program")),
     Dialog("CONTROL", (NC,), ("c",), "CONTROL", ("linuxcnc",), "FINDINGS"),
     Dialog("COMPARE CONTROLS", (NC,), ("v",), "COMPARE CONTROLS", ("linuxcnc",), "FINDINGS"),
-    Dialog("TOOL DIAMETER", (NC,), ("t",), "TOOL DIAMETER", ("Tool and diameter in", "1=.5 or 1=12.7mm."), "FINDINGS"),
+    Dialog("TOOL DIAMETER", (NC,), ("t",), "TOOL DIAMETER", ("Tool and diameter in", "1=12 or 1=.5in."), "FINDINGS"),
     Dialog("LEAVE NC PROOF", (NC,), keys_of("f1", "1", "f8"), "LEAVE?", ("DISCARD", *GO_BACK), "FINDINGS"),
 )
 
