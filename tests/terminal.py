@@ -72,10 +72,12 @@ class Terminal:
     def until(self, *texts: str, longest: float = 10.0) -> float:
         """Seconds until one of `texts` stands on the screen; AssertionError with the screen if none ever does."""
         begun = time.perf_counter()
-        while not any(text in self.text for text in texts):
+        shown = self.text
+        while not any(text in shown for text in texts):
             if time.perf_counter() - begun > longest:
-                raise AssertionError(f"{' or '.join(texts)} did not appear:\n{self.text}")
-            self.read(quiet=0.02, longest=0.02)
+                raise AssertionError(f"{' or '.join(texts)} did not appear:\n{shown}")
+            if self.read(quiet=0.02, longest=0.02).count:
+                shown = self.text
         return time.perf_counter() - begun
 
     def resize(self, columns: int, rows: int) -> None:
@@ -90,7 +92,9 @@ class Terminal:
     @property
     def text(self) -> str:
         """The screen as lines of text."""
-        return "\n".join(line.rstrip() for line in self.screen.display)
+        # as the emulator's own `display`, which measures every character again
+        lines = (self.screen.buffer[row] for row in range(self.screen.lines))
+        return "\n".join("".join(line[column].data for column in range(self.screen.columns)).rstrip() for line in lines)
 
     def ended(self) -> int | None:
         """The exit status once the program has ended."""

@@ -31,13 +31,15 @@ def colored(data: bytes) -> set[bytes]:
     return {one for one in PENS.findall(data) if re.search(rb"(?:^|;)(?:[34][0-9]|9[0-7]|10[0-7])(?:;|$)", one)}
 
 
-@pytest.mark.parametrize("term", ["vt100", "vt220", "xterm-mono", "xterm", "linux"])
-@pytest.mark.parametrize("more", [{"LANG": "C.UTF-8"}, {"LANG": "C"}], ids=str)
-def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, more: dict[str, str]) -> None:
+@pytest.mark.parametrize(
+    ("term", "locale"),
+    [("vt100", "C.UTF-8"), ("vt220", "C"), ("xterm-mono", "C.UTF-8"), ("xterm", "C.UTF-8"), ("linux", "C")],
+)
+def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, locale: str) -> None:
     """In a dialog that has tones for everything, and on the form behind it."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     take(part, ELSEWHERE)
-    with running([*PROGRAM, str(part)], environment={"TERM": term, **more}) as terminal:
+    with running([*PROGRAM, str(part)], environment={"TERM": term, "LANG": locale}) as terminal:
         terminal.until("OPEN ALREADY", longest=30.0)
         terminal.read(quiet=0.3)
         terminal.send(b"l")
@@ -46,7 +48,7 @@ def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, more: di
         terminal.read(quiet=0.5)
         assert bool(colored(bytes(terminal.seen))) == (term in ("xterm", "linux"))
         assert any(cell.reverse for row in terminal.screen.buffer.values() for cell in row.values())
-        assert terminal.seen.isascii() == (term.startswith("vt") or more["LANG"] == "C")
+        assert terminal.seen.isascii() == (term.startswith("vt") or locale == "C")
 
 
 def test_braille_that_is_asked_for_is_drawn_on_a_vt100_too() -> None:
@@ -90,7 +92,7 @@ async def test_without_colors_what_a_dialog_stands_on_stays_in_sight() -> None:
         assert "CONTOUR" in app.export_screenshot()
 
 
-@pytest.mark.parametrize("size", [(20, 5), (1, 1), (59, 24), (80, 19)])
+@pytest.mark.parametrize("size", [(20, 5), (1, 1)])
 def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[int, int]) -> None:
     """On 20 by 5, and on one cell, the keys still act; larger again, everything is there."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
@@ -102,7 +104,7 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
             terminal.send(key)
             terminal.read(quiet=0.2)
         assert terminal.ended() is None
-        if size[0] >= 20:
+        if size == (20, 5):
             terminal.until("60x20", longest=30.0)
         terminal.resize(80, 24)
         terminal.until("GOUGE", longest=30.0)

@@ -263,7 +263,7 @@ needy = st.one_of(
 
 
 @must_exercise(0.01, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
-@settings(max_examples=80, derandomize=True)
+@settings(max_examples=50, derandomize=True)
 @given(needy)
 def test_every_remedy_holds(asked: Trial) -> None:
     found = of(asked)

@@ -28,10 +28,10 @@ DIAMETERS = {1: 0.5, 2: 0.25}
 
 @needs_witness
 def test_random_programs_run_or_are_refused_as_by_the_interpreter_itself(tmp_path: Path) -> None:
-    fared = {name: outcome(text, tmp_path) for name, text in programs(540)}
+    fared = {name: outcome(text, tmp_path) for name, text in programs(360)}
     wrong = {name: what for name, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
     assert not wrong
-    assert sum(what[0] == "same moves" for what in fared.values()) >= 300
+    assert sum(what[0] == "same moves" for what in fared.values()) >= 200
 
 
 @needs_witness

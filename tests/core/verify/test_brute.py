@@ -112,9 +112,8 @@ def centers(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize("seed", range(2))
-def test_the_judge_and_the_slow_judge_agree(family: Callable[[Random], Path], seed: int) -> None:
-    assert compared(family, seed, 3) > 10
+def test_the_judge_and_the_slow_judge_agree(family: Callable[[Random], Path]) -> None:
+    assert compared(family, 0, 4) > 13
 
 
 def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:

@@ -12,7 +12,7 @@ from tests.core.verify.mutants import JUDGES, MUTATIONS, Table, tables
 
 @pytest.fixture(scope="module")
 def told() -> dict[str, Table]:
-    return tables(7, 10)
+    return tables(7, 7)
 
 
 @pytest.mark.parametrize("parts", list(JUDGES))
