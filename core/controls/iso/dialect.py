@@ -122,7 +122,8 @@ class Dialect:
     nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
     of one group the last counts, with a warning.  `reference_known`: the machine's zero is a point of the program,
     otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
-    `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.
+    `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.  `program_names`: a
+    name in angle brackets may stand for O and its number.  `without_point`: what makes X10 ten least increments.
     `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
     of O-words that may run, before the run is given up.
     """
@@ -157,6 +158,8 @@ class Dialect:
     reference_known: bool = True
     repeat_letters: str = "L"
     m97_calls: bool = False
+    program_names: bool = False
+    without_point: str = ""
     max_repeated_blocks: int = 400_000
     max_o_words: int = 15_000
 

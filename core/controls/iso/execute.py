@@ -56,7 +56,7 @@ def execute(
         log.add(alarm.finding)
         stopped_at = alarm.line
     control.close_stretch()
-    flow.finish()
+    flow.finish(alarmed=stopped_at is not None)
     unit = machine.first_unit or machine.unit
     made = ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
     return _by_main_lines(made, flow)

@@ -25,7 +25,7 @@ from core.controls.iso.macro import (
     ParameterStore,
     tell_unset,
 )
-from core.controls.iso.reader import Block, is_plain, read_line, whole
+from core.controls.iso.reader import Block, is_plain, read_line, whole, without_comments
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
@@ -373,6 +373,7 @@ class OWords:
         return self._seek(word, _ENDS[opened.word]).row
 
 
+NOT_RUN_TEXT: Final = "What stands behind the end of the program, from this line on, was not run. Check it by itself."
 GIVEN_UP_TEXT: Final = "cutcomp stops here and does not judge the run. Fix the loop or repeat fewer times."
 
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
@@ -544,8 +545,13 @@ class Flow:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
             self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
 
-    def finish(self) -> None:
-        """The run is over, by its end or an alarm."""
+    def finish(self, *, alarmed: bool) -> None:
+        """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
+        last = max((row for row in range(self.main_lines) if self.ran[row]), default=0)
+        rows = () if alarmed else range(last + 1, self.main_lines)
+        behind = next((row for row in rows if without_comments(self.lines[row]).strip(" \t%")), None)
+        if behind is not None:
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind + 1, 1)
 
     def end_of_file(self) -> None:
         """End of file: reports what is still open."""

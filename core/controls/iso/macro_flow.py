@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import Call, Flow, ProgramLibrary, Scope
+from core.controls.iso.flow import NOT_RUN_TEXT, Call, Flow, ProgramLibrary, Scope, o_words_of
 from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
@@ -42,11 +42,14 @@ _KEYWORD: Final = re.compile(
 )
 _EXTERNAL: Final = re.compile(r"(?:/[0-9]?)?(?:N[0-9]++)?(DPRNT|BPRNT|POPEN|PCLOS|SETVN)")
 _THEN: Final = re.compile(r"TH(?:EN)?")
-_PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])", re.IGNORECASE)
-_NAME: Final = re.compile(r"[ \t]*+O[ \t]*+<[^>]*+>", re.IGNORECASE)
+_PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])(?![ \t]*+[A-Z]{2})", re.IGNORECASE)
+"""The head of a program; two letters behind the number make it another control's O-word."""
+_NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)[ \t]*+(?:\(|$)", re.IGNORECASE)
+_CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9.])")
+_CALLED: Final = re.compile(r"P([0-9]*+)")
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
-_WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?0*+[1-9][0-9]*+(?![0-9.])")
+_WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])")
 _NO_LENGTHS: Final = re.compile(r"G0?5|G6[56]|M9[789]")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
@@ -105,8 +108,64 @@ class MacroFlow(Flow):
         self.tape_length = 0
         self._append(_between_percents(lines), 1)
         self.calls[0].back = len(self.lines)
-        self.at = self._first_row()
+        self.unread_line = _line_behind_percents(lines)
+        self.at = self._main_program()
         self.program = self._range_of(self.at)
+
+    # programs
+
+    def _programs(self) -> list[int]:
+        """The rows at which the programs of the file begin; files that are called are not among them."""
+        return sorted({self._first_row(), *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
+
+    def _called_by_others(self) -> set[int] | None:
+        """The rows at which programs begin that other programs of the file call; None where a variable says which."""
+        called = set[int]()
+        for row, text in enumerate(self.lines):
+            if "P" not in (squeezed := "".join(without_comments(capitals(text)).split())):
+                continue
+            number = _CALLED.search(squeezed) if _CALLING.search(squeezed) else None
+            if number is None:
+                continue
+            if not number[1]:
+                return None
+            # more than four digits hold how often it runs, too
+            for each in {int(number[1]), int(number[1]) % 10_000}:
+                if (begin := self.labels.get(each)) is not None and not begin <= row < self._range_of(begin)[1]:
+                    called.add(begin)
+        return called
+
+    def _main_program(self) -> int:
+        """The row at which the run begins: the first program that no other one in the file calls."""
+        programs, called = self._programs(), self._called_by_others() or set()
+        first, main = programs[0], next((row for row in programs if row not in called), programs[0])
+        if main != first:
+            text = (
+                f"{self._name_of(main)} runs; {self._name_of(first)}, which stands before it, is called in this file."
+            )
+            self.log.tell(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
+        return main
+
+    def _name_of(self, row: int) -> str:
+        """What the program is called that begins at a row."""
+        text = self.lines[row]
+        number, name = _PROGRAM.match(text), _NAME.match(text)
+        return f"O{number[1]}" if number else quoted(name[2]) if name else "What stands before the first O"
+
+    def _tell_not_run(self) -> None:
+        """Names the programs of the file that neither ran nor are called, and what stands behind the sign %."""
+        called = self._called_by_others()
+        ranges = (self._range_of(row) for row in (() if called is None else self._programs()))
+        idle = [first for first, last in ranges if first not in (called or ()) and not any(self.ran[first:last])]
+        if idle:
+            names = [f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle]
+            names[0] = self._name_of(idle[0])
+            which = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+            was, them = ("was", "it by itself") if len(names) == 1 else ("were", "them by themselves")
+            text = f"{which} {was} not run, since nothing in this file calls {them.split()[0]}. Check {them}."
+            self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
+        if self.unread_line is not None:
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, self.unread_line, 1)
 
     # rows
 
@@ -127,9 +186,9 @@ class MacroFlow(Flow):
                 self.lines.append(text)
                 self.numbers.append(number)
                 self.starts.append(start)
-                program = _PROGRAM.match(text)
+                program, name = _PROGRAM.match(text), _NAME.match(text)
                 self.ran.append(0)
-                if program or _NAME.match(text):
+                if program or (name and (name[1] or self.dialect.program_names)):
                     self.begins.append(row)
                 if program:
                     self.labels.setdefault(int(program[1]), row)
@@ -248,6 +307,9 @@ class MacroFlow(Flow):
         text = self.lines[row]
         bare = without_comments(capitals(text), GAP)
         line = CompactText.of(bare, self.starts[row])
+        if o_words_of([text]):
+            said = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
+            self.log.stop("WORD", said, self.numbers[row], line.column(0))
         if not _EXPRESSIONS.intersection(bare):
             self._note_points(bare, row)
         keyword = _KEYWORD.match(line.text)
@@ -430,7 +492,7 @@ class MacroFlow(Flow):
             self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)
         if line.text.startswith(":"):
             line = line._replace(text=f"O{line.text[1:]}")
-        if name := re.match(r"O<[^>]*>", line.text):
+        if row in self.begins and (name := re.match(r"O?<[^>]*>", line.text)):
             start = name.end()
         increment = 0.001 if self.machine.unit is Unit.MM else 0.0001
         try:
@@ -574,19 +636,20 @@ class MacroFlow(Flow):
         except FaultError as fault:
             self.log.stop(fault.code, fault.text, block.line, block.column("P"))
 
-    def finish(self) -> None:
-        """What is to be said of the program as a whole."""
+    def finish(self, *, alarmed: bool) -> None:  # noqa: ARG002
+        """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
         text = "\n".join(self.lines).upper()
         if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
             said = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
             self.log.tell(Severity.INFO, "FN-BODY", said, 1, 1)
         if self.no_point:
-            unit = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in"
+            unit, count = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in", len(self.no_point)
+            which = f"{count} coordinates, the first one here, have" if count > 1 else "This coordinate has"
             said = (
-                f"{len(self.no_point)} coordinates, the first one here, have no decimal point. cutcomp takes X10 as 10 "
-                f"units; at 3401#0 = 0 it is {unit}."
+                f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
             )
             self.log.tell(Severity.WARNING, "FN-POINT", said, *self.no_point[0])
+        self._tell_not_run()
 
     def end_of_file(self) -> None:
         """The program ends without M30, M02 or M99."""
@@ -621,6 +684,13 @@ def _between_percents(lines: Sequence[str]) -> list[str]:
     if first >= 0 and _PROGRAM.match(head := lines[first].lstrip()[1:]):
         kept[first] = head
     return kept
+
+
+def _line_behind_percents(lines: Sequence[str]) -> int | None:
+    """The number of the first line with words behind the second sign %, which ends a file."""
+    signs = [number for number, line in enumerate(lines, 1) if line.lstrip().startswith("%")]
+    behind = range(signs[1] + 1, len(lines) + 1) if len(signs) > 1 else ()
+    return next((number for number in behind if without_comments(lines[number - 1]).strip(" \t%")), None)
 
 
 def _is_remark(text: str) -> bool:

@@ -93,6 +93,8 @@ DIALECT: Final = Dialect(
     reference_known=False,
     feed_needed=True,
     repeat_letters="KL",
+    program_names=True,
+    without_point="at 3401#0 = 0",
 )
 
 ALARMS: Final = Alarms(arc="PS0034", arc_off="PS0034", no_meeting="PS0033", crossing="PS0041", point="PS0038")

@@ -32,6 +32,8 @@ DIALECT: Final[Dialect] = replace(
         ("once", CodeAction.UNSUPPORTED, (120, 130, 700, 710, 720, 1500)),
     ),
     m97_calls=True,
+    program_names=False,
+    without_point="with setting 162 off",
 )
 
 BLOCKS_READ: Final = 80

@@ -1,0 +1,78 @@
+"""Which program of a file runs, and what is said of the rest of the file."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.finding import Severity
+from tests.core.controls.hand import lines_and_ends, ran, told
+
+SUB = "O5101 (PASS)\nG1 X7. F100.\nM99\n"
+MAIN = "O5100 (PART)\nG21 G90 G0 X1.\nM98 P5101\nM30\n"
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_the_main_program_runs_wherever_it_stands(control: str) -> None:
+    done = ran(f"%\n{SUB}{MAIN}%\n", control)
+    assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0)]
+    (said,) = told(done, "PROGRAM")
+    assert (said.severity, said.line) == (Severity.INFO, 5)
+    assert said.text == "O5100 runs; O5101, which stands before it, is called in this file."
+    assert not told(ran(f"%\n{MAIN}{SUB}%\n", control), "PROGRAM")
+
+
+def test_programs_that_only_call_each_other_begin_with_the_first() -> None:
+    done = ran("O1\nG1 X1. F100.\nM98 P2\nM30\nO2\nX2.\nM98 P1\nM99\n", "fanuc:a")
+    assert lines_and_ends(done)[:2] == [(1.0, 0.0), (2.0, 0.0)]
+    assert not told(done, "PROGRAM")
+
+
+def test_programs_that_nothing_calls_are_named() -> None:
+    done = ran(f"{MAIN}{SUB}O2 (OTHER)\nG1 X2. F100.\nM30\n:3\nM30\n", "fanuc:a")
+    (said,) = told(done, "NOT_RUN")
+    assert (said.severity, said.line) == (Severity.WARNING, 8)
+    assert (
+        said.text
+        == "O2 and O3 (line 11) were not run, since nothing in this file calls them. Check them by themselves."
+    )
+    assert not told(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
+
+
+def test_a_called_program_that_a_condition_leaves_out_is_no_matter() -> None:
+    done = ran(f"O1\n#1=0\nG21\nIF[#1EQ0]GOTO9\nM98 P5101\nN9 M30\n{SUB}", "fanuc:a")
+    assert not told(done, "NOT_RUN")
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
+def test_what_stands_behind_the_end_is_named(control: str) -> None:
+    done = ran("%\nG21 G1 X1. F100.\nM30\n%\n(NEXT PART)\nG1 X2. F100.\nM30\n%\n", control)
+    assert lines_and_ends(done) == [(1.0, 0.0)]
+    (said,) = told(done, "NOT_RUN")
+    assert (said.severity, said.line) == (Severity.WARNING, 6)
+    assert said.text == "What stands behind the end of the program, from this line on, was not run. Check it by itself."
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
+def test_a_remark_behind_the_end_is_no_program(control: str) -> None:
+    assert not told(ran("%\nG21 G1 X1. F100.\nM30\n%\n(END)\n\n%\n", control), "NOT_RUN")
+
+
+O_WORDS = "o<prof> sub\nG1 X5 F100\no<prof> endsub\nG21 G1 X1 F100\no<prof> call\nM2\n"
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+@pytest.mark.parametrize("text", [O_WORDS, O_WORDS.replace("<prof>", "100"), f"O7\n{O_WORDS}"])
+def test_words_of_linuxcnc_are_no_heads_of_programs(text: str, control: str) -> None:
+    done = ran(text, control)
+    assert done.stopped_at == (2 if text.startswith("O7") else 1)
+    assert [finding.code for finding in done.findings if finding.severity is Severity.ERROR] == ["PS0009"]
+
+
+@pytest.mark.parametrize("head", ["<PART-1>", "O<PART-1>", "O1 (PART)", ":1", "<PART-1> (REV B)"])
+def test_heads_of_programs(head: str) -> None:
+    done = ran(f"%\n{head}\nG21 G1 X1. F100.\nM30\n%\n", "fanuc:a")
+    assert (done.stopped_at, lines_and_ends(done)) == (None, [(1.0, 0.0)])
+
+
+def test_a_name_without_o_is_no_head_for_a_haas() -> None:
+    assert ran("%\n<PART-1>\nG21 G1 X1. F100.\nM30\n%\n", "haas:a").stopped_at == 2
