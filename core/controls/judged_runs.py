@@ -197,7 +197,7 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
 
 def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[RowRange]) -> list[Judged]:
     """The verdict on each contour among moves of one side and radius; the first of them has the leads."""
-    center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
+    center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
     results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
     slack = max(result.verdict.radius_slack for result in results)
@@ -218,6 +218,16 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
         if not verdict.judged:
             results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
     return results
+
+
+def _center_path(run: ControlRun, stretch: Stretch) -> Path:
+    """The tool's center, each pass once; where it only stands, a line of no length."""
+    moves = run.moves.part(stretch.first, stretch.last)
+    center = without_repeats(moves.path(stretch.plane))
+    if len(center) or not len(moves):
+        return center
+    point = moves.points[-1:, list(stretch.plane.axes[:2])]
+    return Path.of(np.repeat(point, 2, axis=0), point, np.zeros(1, np.int8), np.array([float(moves.lines[-1])]))
 
 
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:

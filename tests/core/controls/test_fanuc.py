@@ -296,6 +296,17 @@ def test_haas_stops_where_it_cannot_look_further() -> None:
     assert not alarms(ran(f"{ENTERED}{idle[:-3]}Y40\nG40 X0\nM30", "haas:a"))
 
 
+@pytest.mark.parametrize("block", ["G1 X0 Y20", "M0", "G28 G91 Z0\nG90"])
+def test_a_stop_does_not_hide_the_next_move_from_a_haas(block: str) -> None:
+    """A Fanuc is blind behind it; the manuals of Haas do not say."""
+    program = f"{ENTERED}X0 Y20\n{block}\nX-40\nG40 Y0\nM30"
+    done = ran(program, "haas:a")
+    (said,) = told(done, "H350")
+    assert (said.severity, said.line) == (Severity.WARNING, 6)
+    assert not alarms(done)
+    assert told(ran(program), "FN-N2")[0].text.startswith("The control does not look past a stop")
+
+
 @pytest.mark.parametrize(
     ("program", "alarm"),
     [

@@ -34,6 +34,16 @@ def test_a_clean_path_has_no_finding() -> None:
     assert not judged_findings(judge_run(done))
 
 
+BORE = "G21 G17 G90 F200\nT1 M6\nG0 X0 Y0\nG1 Z-3\nG41 D1 X6\nG3 I-6\nG40 G1 X0\nM30\n"
+
+
+def test_a_cutter_as_wide_as_the_bore_stands_and_cuts_all_of_it() -> None:
+    done = ran(BORE, "fanuc:a", t1=12.0)
+    (result,) = judge_run(done)
+    assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
+    assert not [finding for finding in judged_findings((result,)) if finding.code == "UNCUT"]
+
+
 def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
     rows = {row.control: row for row in compare(NOTCH.encode(), end_mills({1: 0.5}))}
     assert set(rows) == set(compared())
