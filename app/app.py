@@ -52,6 +52,8 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
     from core.pipeline.checking import Asked
 
+MESSAGE_GOES: Final = 0.2
+"""Seconds between two looks at whether a message has gone."""
 QUIET = 0.2
 """Seconds without a key after which it is looked for what would help: a key never waits for that."""
 
@@ -152,6 +154,14 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         """What has been done, over the screen; brackets in a file's name stay what they are."""
         text = escape(message) if markup else message
         super().notify(text, title=title, severity=severity, timeout=timeout, markup=markup)
+        self.set_timer(timeout or self.NOTIFICATION_TIMEOUT, self._paint_behind_messages)
+
+    def _paint_behind_messages(self) -> None:
+        """Textual may leave a piece of a message standing where something else changes as it goes."""
+        if self.screen.query("Toast"):
+            self.set_timer(MESSAGE_GOES, self._paint_behind_messages)
+        else:
+            self.screen.refresh()
 
     def get_default_screen(self) -> Screen[None]:
         """MILL CONTOUR."""

@@ -1,0 +1,56 @@
+"""A message over the screen leaves nothing of it behind, whatever else changes as it goes."""
+
+from __future__ import annotations
+
+from time import monotonic
+
+import pytest
+
+from app.app import CutcompApp
+from app.documents.files import load
+from app.documents.programs import example
+from app.session.session import Session
+from tests.app.widget_pilot import SURROUNDINGS
+from tests.terminal import cutcomp, running
+
+CTRL_L = b"\x0c"
+
+
+async def test_the_screen_is_painted_as_a_whole_once_the_last_message_has_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
+    async with program.run_test(notifications=True) as pilot:
+        painted: list[int] = []
+        refresh = type(program.screen).refresh
+
+        def noted(screen, *regions, **how):
+            if not regions and not how:
+                painted.append(len(screen.query("Toast")))
+            return refresh(screen, *regions, **how)
+
+        monkeypatch.setattr(type(program.screen), "refresh", noted)
+        program.notify("Done.", timeout=1.0)
+        program.notify("Done, too.", timeout=1.5)
+        await pilot.pause(0.1)
+        assert len(program.screen.query("Toast")) == 2
+        painted.clear()
+        await pilot.pause(3.0)
+        assert painted
+        assert set(painted) == {0}
+
+
+def test_a_list_that_closes_as_a_message_goes_leaves_nothing_of_it() -> None:
+    with running(cutcomp("--example", "pocket")) as terminal:
+        terminal.until("GOUGE none", longest=30.0)
+        for keys, shown in ((b"\x1b[6~\x1b[6~", "of 11"), (b"\x1bOP", "Deleted segment"), (b"\x1b[21~", "FINDINGS ")):
+            terminal.send(keys)
+            terminal.until(shown)
+        begun = monotonic()
+        while "Deleted segment" in terminal.text and monotonic() - begun < 10.0:
+            # slowly enough that no key is left behind
+            terminal.send(b"\x1b[21~")
+            terminal.read(quiet=0.4, longest=0.5)
+        terminal.read(quiet=2.0)
+        before = terminal.text
+        terminal.send(CTRL_L)
+        terminal.read(quiet=1.0)
+        assert terminal.text == before
