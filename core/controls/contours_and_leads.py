@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 from math import cos, radians
 from typing import Final
 
@@ -35,7 +35,7 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     longest = _longest(places)
     if longest is None:
         return (whole,)
-    first, last = longest
+    first, last = longest = _between_blends(path, places, longest)
     contours = (*_within(path, places, (0, first)), longest, *_within(path, places, (last, len(path))))
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
@@ -126,6 +126,19 @@ def _longest(places: list[tuple[float, float]]) -> RowRange | None:
         if index - begin > best[1] - best[0]:
             best = (begin, index)
     return best if best[1] else None
+
+
+def _between_blends(path: Path, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
+    """The closed run inside a closed one that starts and ends with leads: around a square corner both arcs of a blend
+    may begin and end at one point."""
+    first, last = rows
+    for begin, end in product(
+        range(first + 1, first + MAX_LEAD_MOVES + 1), range(last - 1, last - MAX_LEAD_MOVES - 1, -1)
+    ):
+        closes = begin < end and places[begin] == places[end] and _encloses(path, (begin, end))
+        if closes and _blends(path, range(begin, first - 1, -1)) and _blends(path, range(end - 1, last)):
+            return begin, end
+    return rows
 
 
 def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:

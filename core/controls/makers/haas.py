@@ -60,7 +60,7 @@ class Haas(fanuc.Fanuc):
         )
 
     def after_too_many(self, block: Block) -> None:
-        """The control cannot see the next move; of a single block that hides it on a Fanuc Haas's manuals say nothing."""
+        """The control cannot see the next move; what hides it from a Fanuc in one block, Haas does not say."""
         if self.motionless <= BLOCKS_READ - 2:
             text = (
                 "The manuals do not say whether the control looks past a stop, a move of no length or a move to the "

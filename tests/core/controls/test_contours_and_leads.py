@@ -52,6 +52,21 @@ def test_a_contour_that_closes_within_its_last_line_is_split_there() -> None:
     assert path.numbers[5] == path.numbers[6]
 
 
+def cornered(*, tangent: bool) -> Path:
+    """A square from a corner, its lead-in and its lead-out both between the corner and one point."""
+    away = -0.5 if tangent else 0.5
+    start, corner = (-0.5, -0.5), (0.0, 0.0)
+    square = (corner, (0.0, 2.0), (2.0, 2.0), (2.0, 0.0), corner)
+    first = Arc(start, corner, (-0.5, 0.0) if tangent else (0.0, -0.5), Turn.CCW if tangent else Turn.CW)
+    last = Arc(corner, start, (0.0, away if tangent else -0.5), Turn.CCW if tangent else Turn.CW)
+    return Path.from_pieces([first, *(Line(start, end) for start, end in pairwise(square)), last])
+
+
+def test_blends_that_begin_and_end_at_one_point_are_leads() -> None:
+    assert contours_of(cornered(tangent=True)) == ((1, 5),)
+    assert contours_of(cornered(tangent=False)) == ((0, 6),)
+
+
 def test_nothing_is_split_without_a_blend_or_where_the_contour_closes() -> None:
     for path in (blended(tangent=False), lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0))):
         assert len(split_where_it_closes(path)) == len(path)

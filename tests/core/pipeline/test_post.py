@@ -102,6 +102,22 @@ def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -
         assert min(max(apart(path, one), apart(one, path)) for one in wanted) <= allowed
 
 
+@pytest.mark.parametrize("control", names())
+@pytest.mark.parametrize("side", [CutterComp.LEFT, CutterComp.PROFILE_LEFT])
+def test_a_square_that_starts_at_its_corner_is_clean_to_the_judge(side: CutterComp, control: str) -> None:
+    """Both arcs of its blend begin and end at one point."""
+    corners = ((0.0, 0.0), (0.0, 3.0), (5.0, 3.0), (5.0, 0.0), (0.0, 0.0))
+    found = derived(replace(block(corners, side), peck_depth=Number(0.1)))
+    result = post_control_program(found, name="PART", control=control)
+    assert isinstance(result, Posted), result
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
+    made = run(result.text.encode(), control, tools, found.program.unit)
+    assert isinstance(made, ControlRun)
+    results = judge_run(made)
+    assert results
+    assert [result.verdict.clean for result in results] == [True] * len(results)
+
+
 def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
     inside = derived(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     result = post_control_program(inside, name="PART", control="rosettacnc:nist")
