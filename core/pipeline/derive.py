@@ -74,7 +74,10 @@ def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
     if work is None or work.compensated is None or work.best is not None or block.side is None:
         return ()
     best = best_path(work.surface, block.side, work.compensated.radius, closed=block.solved.closed)
-    return better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
+    found = better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
+    # the corner over START is that of the last segment
+    last = float(work.surface.numbers[-1])
+    return tuple(one if one.segment is None else replace(one, segment=min(one.segment, last)) for one in found)
 
 
 def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPaths:

@@ -219,6 +219,13 @@ def test_the_best_path_of_a_dumbbell_is_two_loops_judged_together():
     assert not control.postable
 
 
+def test_the_corner_over_start_is_told_as_the_last_segment():
+    corners = ((0.0, 0.0), (0.0, 3.0), (5.0, 3.0), (5.0, 0.0), (0.0, 0.0))
+    (found,) = with_better_paths(derive(program(block(corners, CutterComp.LEFT)))).blocks
+    (more,) = (one for one in found.findings if one.code == "BEST_DIFFERS")
+    assert more.segment == 4.0
+
+
 def test_the_form_says_what_the_best_path_cuts_more():
     """From three on the look-ahead erases most of the over-run square; its true offset runs all round."""
     (found,) = with_better_paths(derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Number(4))))).blocks
