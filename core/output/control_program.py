@@ -69,16 +69,30 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    style, notes = STYLES.get(control), _for_the_operator(jobs, unit, control)
+    style, notes = STYLES.get(control), _for_the_operator(jobs, cuts, unit, control)
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
         notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
     return Posted(written.text, notes=(*notes, *written.notes))
 
 
-def _for_the_operator(jobs: Sequence[Job], unit: Unit, control: str) -> tuple[Finding, ...]:
+def _for_the_operator(
+    jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str
+) -> tuple[Finding, ...]:
     """What has to be looked after at the control."""
-    return (*_no_work_offset(jobs, control), *_no_coolant(jobs, control), *_inch_feed(unit, control))
+    return (*_left_out(cuts), *_no_work_offset(jobs, control), *_no_coolant(jobs, control), *_inch_feed(unit, control))
+
+
+def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
+    """That a smaller tool would not cut what was typed: what the look-ahead deleted is not in the program."""
+    diameters = [cut.diameter for cut in cuts if isinstance(cut, CompensatedPass) and len(cut.compensated.deleted)]
+    if not diameters:
+        return ()
+    text = (
+        "The segments that the look-ahead deleted are not in this program: with a tool smaller than {0} it cuts "
+        "another contour. Post it again for such a tool."
+    )
+    return (Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(diameters),)),)
 
 
 def _inch_feed(unit: Unit, control: str) -> tuple[Finding, ...]:
@@ -118,7 +132,8 @@ def _header(
     """The sentences of the header below its titles."""
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
-    yield f"WRITTEN BY CUTCOMP FOR {shown_name(control)}: THE CONTOUR AS TYPED, {compensation}"
+    contour = "THE CONTOUR WITHOUT ITS DELETED SEGMENTS" if _left_out(cuts) else "THE CONTOUR AS TYPED"
+    yield f"WRITTEN BY CUTCOMP FOR {shown_name(control)}: {contour}, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     table = "" if is_klartext(control) else ": THE CONTROL'S TABLE MUST SAY THE SAME"
     yield from dict.fromkeys(f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}" for cut in cuts)
@@ -126,7 +141,8 @@ def _header(
     for job in jobs:
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
-    for note in (*_for_the_operator(jobs, unit, control), *notes):
+        yield from job.notes
+    for note in (*_for_the_operator(jobs, cuts, unit, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
 

@@ -118,6 +118,21 @@ def test_a_square_that_starts_at_its_corner_is_clean_to_the_judge(side: CutterCo
     assert [result.verdict.clean for result in results] == [True] * len(results)
 
 
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "klartext"])
+def test_a_program_without_its_deleted_segments_says_so(control: str) -> None:
+    """A chamfer shorter than the cutter can reach: the program has a sharp corner, which a smaller tool would cut."""
+    chamfered = ((2.0, 0.0), (3.9, 0.0), (4.0, 0.1), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0), (2.0, 0.0))
+    result = post_control_program(derived(block(chamfered, CutterComp.LEFT)), name="PART", control=control)
+    assert isinstance(result, Posted), result
+    assert "DELETED BY THE LOOK-AHEAD: SEGMENT 2" in result.text
+    assert "AS TYPED" not in result.text
+    (said,) = (note for note in result.notes if note.code == "LEFT_OUT")
+    assert said.lengths == (12.7,)
+    plain = post_control_program(derived(SQUARE), name="PART", control=control)
+    assert "AS TYPED" in plain.text
+    assert "LEFT_OUT" not in {note.code for note in plain.notes}
+
+
 def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
     inside = derived(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     result = post_control_program(inside, name="PART", control="rosettacnc:nist")
