@@ -157,15 +157,20 @@ class Machine(ModalState):
             return self.dialect.dwell_takes_axes
         return code.action in NON_MODAL_ACTIONS or (code.action is CodeAction.LENGTH and code.value == _G43_1)
 
-    def _grouped(self, block: Block) -> list[Code]:
-        """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
-        known, groups = list[Code](), set[str]()
+    def check_codes(self, block: Block) -> None:
+        """A G code that is unknown stops the run."""
         for number in block.g:
-            code = self.dialect.codes.get(number)
-            if code is None:
+            if number not in self.dialect.codes:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
                 text = lathe_cycle(number, block.words) or f"{text} {only_on(CODES.get(number, ()))}".rstrip()
                 self.log.stop("CODE", text, block.line, block.column("G", number))
+
+    def _grouped(self, block: Block) -> list[Code]:
+        """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
+        self.check_codes(block)
+        known, groups = list[Code](), set[str]()
+        for number in block.g:
+            code = self.dialect.codes[number]
             if number == _G80 and code.group == "motion" and self._moves_in(block):
                 continue
             if code.group in groups and self.dialect.last_code_counts:

@@ -99,6 +99,7 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def watch(self, block: Block) -> None:
         """Words without a code that takes them, and codes that compensation does not allow."""
+        self.machine.check_codes(block)
         words = block.words
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
             text = f"D needs G41, G42, G41.1 or G42.1 in its block. In any block {only_on(OFFSETS_ANYWHERE)}"
@@ -256,7 +257,8 @@ class LinuxCnc(OneMoveQueue, Control):
             return block.words["D"] * self.machine.scale / 2, self._orientation(block)
         number = self.machine.tool
         if "D" in block.words:
-            number = self._tool_number(block)
+            # D0 is the tool in the spindle
+            number = self._tool_number(block) or self.machine.tool
         tool = self.machine.tools.get(number)
         if tool is None:
             if number == 0 or "D" not in block.words:

@@ -121,6 +121,7 @@ class RosettaCnc(Control):
 
     def watch(self, block: Block) -> None:
         """NIST's list of what compensation does not allow; that it holds on this control is assumed."""
+        self.machine.check_codes(block)
         if "D" in block.words and SWITCHES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
             text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}"

@@ -73,6 +73,7 @@ class ThreeBlock(ElementQueue, Control):
     def watch(self, block: Block) -> None:
         """The rules that hold for any block, and those for a block under compensation."""
         self.opening = False
+        self.machine.check_codes(block)
         self._decimals(block)
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."

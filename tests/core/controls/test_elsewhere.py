@@ -102,3 +102,12 @@ def test_expressions_name_the_controls_that_evaluate_them(control: str) -> None:
 def test_jumps_name_the_controls_that_follow_them(control: str, line: str) -> None:
     done = ran(f"G20 F9.\n{line}\nM2\n", control)
     assert (done.stopped_at, alarm(done).endswith("Fanuc and Haas have it.")) == (2, True)
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "threeblock"])
+@pytest.mark.parametrize("block", ["G68 X0 Y0 R30", "G65 P1601 A60. D1", "G12 I.3 K1. Q.2 D1"])
+def test_a_code_that_the_control_lacks_is_named_before_its_words(block: str, control: str) -> None:
+    done = ran(f"G20 F9\nG0 X1.\n{block}\nM2\n", control, t1=0.5)
+    (said,) = told(done, "CODE")
+    assert (said.line, said.severity) == (3, Severity.ERROR)
+    assert said.text.startswith(f"cutcomp does not know {block.split()[0]} on this control.")

@@ -50,6 +50,17 @@ def test_the_library_of_the_distribution_runs_alike(name: str, tmp_path: Path) -
     assert fared.startswith(("same moves", "both refuse")), apart
 
 
+@needs_witness
+@pytest.mark.parametrize("head", ["T1 M6\n", "T2 M6\n", "", "T1 M6\nT2\n"])
+def test_d0_is_the_tool_in_the_spindle(head: str, tmp_path: Path) -> None:
+    text = f"G20 F9\n{head}G0 X-1 Y-1\nG1 G41 D0 X0 Y-.6\nY2\nX2\nY-1\nG40 X4\nM2\n"
+    assert outcome(text, tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
+    if head:
+        done = ran(text, "linuxcnc", t1=0.5, t2=0.25)
+        assert not told(done, "RADIUS0")
+        assert done.stretches[0].radius == 25.4 * (0.125 if "T2 M6" in head else 0.25)
+
+
 LATHE = """G20 G18 F30
 T{tool} M6
 G0 X.3 Z0
