@@ -16,6 +16,7 @@ from core.controls.iso.dialect import Dialect
 from core.controls.iso.reader import Block, ToolData, whole
 from core.controls.moves import Plane, Point3
 from core.finding import Finding, Severity
+from core.tolerance import GOUGE
 from core.units import Unit, from_mm
 
 ZERO: Final[Point3] = (0.0, 0.0, 0.0)
@@ -95,6 +96,7 @@ class ModalState:
     def __init__(self, dialect: Dialect, tools: ToolTable, log: Log) -> None:
         self.dialect = dialect
         self.tools = tools
+        self.compared_offsets = set[tuple[int, float]]()
         self.log = log
         self.unit = dialect.unit
         self.scale = 25.4 if dialect.unit is Unit.IN else 1.0
@@ -240,6 +242,24 @@ class ModalState:
             cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (across, across / 2)
         text = f"Nothing is compensated: {cut} along the contour. {why}"
         self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
+
+    def compare_offset(self, radius: float, offset: str, line: int, column: int) -> None:
+        """Reports an offset's radius (millimeters) that is not the radius of the tool in the spindle, once for each."""
+        tool = self.tools.get(self.tool)
+        across = 0.0 if tool is None else abs(tool.diameter_mm(self.unit)) / 2
+        difference = abs(radius) - across
+        if radius == 0.0 or across == 0.0 or abs(difference) <= GOUGE or (self.tool, radius) in self.compared_offsets:
+            return
+        self.compared_offsets.add((self.tool, radius))
+        does = "leaves {value} on the part"
+        if difference < 0.0:
+            does = "cuts {value} too deep, unless the program is the path of its center"
+        text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {does}."
+        severity = Severity.WARNING if difference < 0.0 else Severity.INFO
+        lengths = (abs(radius), across)
+        self.log.add(
+            Finding("OFFSET", severity, text, value=abs(difference), lengths=lengths, line=line, column=column)
+        )
 
     def value(self, key: int | str, compensated: bool, standing: Point3) -> float | str | None:
         """What a program reads of the machine by number or name, None if it is not known before the control runs.

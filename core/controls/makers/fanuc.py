@@ -198,6 +198,7 @@ class Fanuc(VectorQueue, Control):
         if radius < 0.0:
             text = "The radius is negative, so G41 and G42 change places."
             self.log.tell(Severity.INFO, "FN-D2", text, line, column)
+        machine.compare_offset(radius, f"D{number}", line, column)
         return radius
 
     def begin(self, side: Side, block: Block) -> None:

@@ -242,6 +242,8 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
         elif radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, block.side_column())
+        if "D" in block.words:
+            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
         self.turn_on(radius * side.sign, orientation)
 
     def finish(self, block: Block) -> None:

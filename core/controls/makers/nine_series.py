@@ -142,6 +142,7 @@ class NineSeries(ElementQueue, Control):
         if radius < 0.0:
             text = "The radius is negative: the tool runs on the other side."
             self.log.tell(Severity.INFO, "R4", text, block.line, block.column("DG"))
+        self.machine.compare_offset(radius, f"D{self.number}", block.line, block.column("DG"))
         return radius
 
     @property

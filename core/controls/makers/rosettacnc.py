@@ -71,6 +71,8 @@ class RosettaCnc(Control):
         if radius < 0.0:
             text = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
+        if "D" in block.words:
+            self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
         return radius * side.sign
 
     def _diameter(self, block: Block) -> float:
