@@ -14,6 +14,8 @@ from core.units import Unit
 MAX_FINDINGS_OF_A_RULE: Final = 100
 """Findings of one rule that are kept; of the rest only the number is."""
 
+NOT_RUN_TEXT: Final = "What stands behind the end of the program, from this line on, was not run. Check it by itself."
+
 
 @dataclass(frozen=True, slots=True)
 class Change:

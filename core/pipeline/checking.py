@@ -258,6 +258,7 @@ def _state(
         (any(result.verdict.wrong_side for result in results), State.WRONG_SIDE),
         (any(one.code in RADIUS_ZERO for one in done.findings), State.UNCOMPENSATED),
         (any(one.severity is Severity.ERROR for one in told), State.ERRORS),
+        (not done.moves.lines.any(), State.EMPTY),
     )
     return next((state for holds, state in cases if holds), State.CLEAN)
 
@@ -396,7 +397,9 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
     told = [_pair(pair, one.unit, other.unit) for pair in pairs]
     odd = len(one.stretches) != len(other.stretches)
     if odd:
-        told.append(f"The first program has {len(one.stretches)} contours, the second {len(other.stretches)}.")
+        count = len(one.stretches)
+        which = "1 contour" if count == 1 else f"{count} contours"
+        told.append(f"The first program has {which}, the second {len(other.stretches)}.")
     for name, done in (("first", one), ("second", other)):
         if done.stopped_at is not None:
             told.append(f"The {name} program stops at line {done.stopped_at}; what follows is not compared.")

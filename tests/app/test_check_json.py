@@ -33,6 +33,7 @@ def results(
         ("G21 G90 G1 F9\nG41 X5.\nX9.\nM30\n", "fanuc", "uncompensated"),
         ("N1 GOTO1\n", "fanuc", "not_followed"),
         ("", "fanuc", "empty"),
+        ("O1 (NO MOVES)\nG21\nM30\n", "fanuc", "empty"),
     ],
 )
 def test_the_state_says_what_came_of_a_program(

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import Log
+from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.elsewhere import JUMPS, only_on
 from core.controls.iso.machine import Control, Machine
@@ -373,7 +373,6 @@ class OWords:
         return self._seek(word, _ENDS[opened.word]).row
 
 
-NOT_RUN_TEXT: Final = "What stands behind the end of the program, from this line on, was not run. Check it by itself."
 GIVEN_UP_TEXT: Final = "cutcomp stops here and does not judge the run. Fix the loop or repeat fewer times."
 
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")

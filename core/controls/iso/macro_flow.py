@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import Log
+from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import NOT_RUN_TEXT, Call, Flow, ProgramLibrary, Scope, o_words_of
+from core.controls.iso.flow import Call, Flow, ProgramLibrary, Scope, o_words_of
 from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
@@ -116,7 +116,8 @@ class MacroFlow(Flow):
 
     def _programs(self) -> list[int]:
         """The rows at which the programs of the file begin; files that are called are not among them."""
-        return sorted({self._first_row(), *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
+        first = [self._first_row()] if self.lines else []
+        return sorted({*first, *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
 
     def _called_by_others(self) -> set[int] | None:
         """The rows at which programs begin that other programs of the file call; None where a variable says which."""
@@ -138,7 +139,8 @@ class MacroFlow(Flow):
     def _main_program(self) -> int:
         """The row at which the run begins: the first program that no other one in the file calls."""
         programs, called = self._programs(), self._called_by_others() or set()
-        first, main = programs[0], next((row for row in programs if row not in called), programs[0])
+        first = programs[0] if programs else 0
+        main = next((row for row in programs if row not in called), first)
         if main != first:
             text = (
                 f"{self._name_of(main)} runs; {self._name_of(first)}, which stands before it, is called in this file."

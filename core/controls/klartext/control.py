@@ -8,7 +8,7 @@ from math import isclose
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.control_run import AlarmError, ControlRun, Log
+from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext import cycles, leads, m_functions, path_functions, settings
 from core.controls.klartext.center_path import CenterPathRecorder, Record
@@ -92,6 +92,9 @@ def _check_end(state: State) -> None:
         state.log.tell(Severity.WARNING, "PROGRAM", text, 1, 1)
     elif not any(block.head == "END" for block in reversed(state.blocks)):
         state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
+    end = next((index for index, block in enumerate(state.blocks) if block.head == "END"), len(state.blocks))
+    if behind := state.blocks[end + 1 :]:
+        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind[0])
     if state.applied:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
         state.tell(Severity.WARNING, "PROGRAM", text, last)

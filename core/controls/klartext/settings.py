@@ -57,8 +57,8 @@ def end(state: State, block: Block) -> None:
 
 
 def ignored(state: State, block: Block) -> None:
-    """BLK FORM and the like: nothing that moves."""
-    state.tell(Severity.INFO, "IGNORED", f"{quoted(block.head)} moves nothing and is skipped.", block)
+    """BLK FORM: nothing that moves."""
+    state.tell(Severity.INFO, "IGNORED", "BLK FORM moves nothing and is skipped.", block)
 
 
 def bracketed(state: State, block: Block) -> None:

@@ -57,6 +57,13 @@ def test_a_remark_behind_the_end_is_no_program(control: str) -> None:
     assert not told(ran("%\nG21 G1 X1. F100.\nM30\n%\n(END)\n\n%\n", control), "NOT_RUN")
 
 
+def test_a_second_program_in_klartext_is_named() -> None:
+    text = "BEGIN PGM A MM\nL X+1 Y+0 F100\nEND PGM A MM\n;\nBEGIN PGM B MM\nL X+2\nEND PGM B MM\n"
+    (said,) = told(ran(text, "klartext"), "NOT_RUN")
+    assert (said.severity, said.line) == (Severity.WARNING, 5)
+    assert not told(ran(text[: text.index(";")], "klartext"), "NOT_RUN")
+
+
 O_WORDS = "o<prof> sub\nG1 X5 F100\no<prof> endsub\nG21 G1 X1 F100\no<prof> call\nM2\n"
 
 
