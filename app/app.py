@@ -32,6 +32,7 @@ from app.screens.contour import ContourScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request, advised, derived, lookahead_table
 from app.session.messages import ProgramDerived, TableMade, Tone
+from app.session.posting import CENTER_PATH
 from app.session.session import SEGMENT, Session
 from app.session.work import Work
 from app.terminal.split_keys import TOLD
@@ -129,6 +130,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self._table_wanted: DerivedBlock | None = None
         self._making_table: tuple[DerivedBlock, Work] | None = None
         self.stopped: Program | DerivedBlock | None = None
+        self.posted_for = CENTER_PATH
         """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
         self._advice_timer: Timer | None = None
         self._unit_mentioned = self._unit_settled = False

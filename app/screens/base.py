@@ -102,6 +102,9 @@ class Host(Protocol):
     def stopped(self) -> object:
         """The program, or the block, that is not worked out since Esc has stopped it."""
 
+    posted_for: str
+    """The control for which an NC file was posted last, or the center path."""
+
     def now(self) -> datetime:
         """The time of day, in its zone."""
 

@@ -28,6 +28,7 @@ CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit is a softkey."""
+OLD_VALUE: Final = "The old value is back. Esc again, then a digit: softkey."
 ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
 
@@ -231,7 +232,10 @@ class FormScreen(BaseScreen):
         """The old value back; where there is none to bring back, the next digit is a softkey."""
         self.quiet()
         if self.half_typed or self.current is None:
+            typed = self.half_typed
             self.forget_typed()
+            if typed:
+                self.say(OLD_VALUE)
             return
         self._armed = self.focused
         if isinstance(self.focused, NumberField):

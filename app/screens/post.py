@@ -18,7 +18,7 @@ from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
-from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
+from app.session.posting import OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
 from app.session.work import Work
 from app.widgets.option_rows import OptionRows, control_rows
@@ -62,7 +62,7 @@ class PostScreen(EntryScreen):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
-        self.choice = CENTER_PATH
+        self.choice = ""
         self.made: NcText | None = None
         self.stopped = False
         self._work: Work | None = None
@@ -81,10 +81,11 @@ class PostScreen(EntryScreen):
             yield PlainText(id="post-preview")
 
     def on_mount(self) -> None:
-        """The path of the tool's center is chosen."""
+        """What was posted for the last time is chosen, at first the path of the tool's center."""
+        self.choice = self.host.posted_for
         controls = self.query_one("#post-controls", OptionList)
         controls.border_title = "CONTROL"
-        controls.highlighted = 0
+        controls.highlighted = controls.get_option_index(self.choice)
         self.query_one("#post-preview").border_title = "NC FILE"
         super().on_mount()
 
@@ -178,6 +179,8 @@ class PostScreen(EntryScreen):
 
     def prompt_text(self) -> Sentence:
         """What Enter does."""
+        if self.focused is not None and self.focused.id == "post-controls":
+            return Sentence("Up and down choose which control compensates. Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
         count = len(self.made.against)
@@ -224,6 +227,7 @@ class PostScreen(EntryScreen):
         written = await self.host.write(path, made.text)
         if written is None:
             return
+        self.host.posted_for = self.choice
         lines = made.text.count("\n")
         self.notify(f"Posted: {written}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")

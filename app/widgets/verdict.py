@@ -234,7 +234,7 @@ def chips(case: Case, marks: Marks) -> Content:
     if hint := first_step(case.block):
         return Content.styled(f" {hint}", "$c-label")
     judgment = case.judgment
-    if case.block.side is None or judgment is None:
+    if case.block.side is None or judgment is None or _stopped_short(case):
         return _in_the_way(case, marks)
     gouge = _gouge_chip(judgment, case.unit, marks)
     left = length(judgment.uncut_length, case.unit)
@@ -245,11 +245,19 @@ def chips(case: Case, marks: Marks) -> Content:
     return _row((gouge, uncut, deleted))
 
 
+def _stopped_short(case: Case) -> bool:
+    """Whether the path ends before a segment with an error, and does no harm up to there."""
+    block = case.block
+    open_end = case.row is None and not block.solved.whole and not (case.judgment and case.judgment.gouges)
+    # a run that waits for more numbers is told on the prompt
+    return open_end and any(finding.code not in NOT_YET | {"NOT_YET"} for finding in block.errors)
+
+
 def _in_the_way(case: Case, marks: Marks) -> Content:
     """The first error, as much of its sentence as has room; F10 lists it in full."""
     if not case.block.known or not case.block.errors:
         return Content("")
-    first = case.block.errors[0]
+    first = next((one for one in case.block.errors if one.code not in NOT_YET), case.block.errors[0])
     role = "$c-warn" if first.code in NOT_YET else "$c-err"
     text = f"{marks.gouge} {sentence(first, case.unit)}"
     # the prompt and F10 say what follows

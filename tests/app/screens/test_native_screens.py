@@ -149,6 +149,29 @@ async def test_posting_writes_the_text_that_was_shown(tmp_path, monkeypatch):
         assert not isinstance(one.app.screen, PostScreen)
 
 
+async def test_the_control_of_the_last_post_is_chosen_again(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    async with operator("plate-mm") as one:
+        await run(one, "app.post")
+        screen = one.app.screen
+        assert isinstance(screen, PostScreen)
+        assert screen.choice == "center path"
+        await one.press("f2", "down")
+        assert one.prompt == "Up and down choose which control compensates. Enter goes back to the name."
+        chosen = screen.choice
+        await one.press("enter")
+        await everything(one)
+        assert "Enter posts" in one.prompt
+        await one.press("enter")
+        await everything(one)
+        assert chosen in (tmp_path / "part.nc").read_text()
+        await run(one, "app.post")
+        again = one.app.screen
+        assert isinstance(again, PostScreen)
+        assert again.choice == chosen != "center path"
+        assert again.query_one("#post-controls", OptionList).highlighted == 1
+
+
 async def test_a_gouge_is_posted_only_after_the_phrase_that_says_so(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with operator("notch") as one:

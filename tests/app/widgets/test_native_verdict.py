@@ -12,7 +12,7 @@ from app.session.words import segment_numbers
 from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
-from core.program.model import Number
+from core.program.model import Number, Unread, changed
 from core.units import Unit
 
 
@@ -64,6 +64,22 @@ def test_while_it_is_calculated_the_title_says_how_far_it_is(pocket):
 
 def test_without_a_table_no_value_is_called_best(pocket):
     assert strip(replace(pocket, table=None), MARKS["braille"]).plain.rstrip().endswith(" 20")
+
+
+def test_an_error_behind_a_clean_beginning_is_told_in_place_of_three_times_none():
+    program = load(example("pocket"))
+    block = program.blocks[0]
+    third = changed(block.segments[2], {"x_end": Unread("4.7.5", "not a number")})
+    spoiled = replace(program, blocks=(replace(block, segments=(*block.segments[:2], third, *block.segments[3:])),))
+    found = derive(spoiled).block(1)
+    case = Case(found, look_ahead_table(found, spoiled), program.unit)
+    assert title(case).endswith("segments 1-2 only")
+    assert chips(case, MARKS["braille"]).plain.startswith("✖ ")
+    assert "none" not in chips(case, MARKS["braille"]).plain
+    # a segment that is only not typed to its end is no error
+    blank = changed(block.segments[2], {"x_end": None})
+    waiting = replace(program, blocks=(replace(block, segments=(*block.segments[:2], blank, *block.segments[3:])),))
+    assert "GOUGE none" in chips(Case(derive(waiting).block(1), None, program.unit), MARKS["braille"]).plain
 
 
 def test_an_empty_block_says_what_to_type_first():
