@@ -160,6 +160,9 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     def _paint_behind_messages(self) -> None:
         """Textual may leave a piece of a message standing where something else changes as it goes."""
+        if not self.screen_stack:
+            # the program is ending
+            return
         if self.screen.query("Toast"):
             self.set_timer(MESSAGE_GOES, self._paint_behind_messages)
         else:

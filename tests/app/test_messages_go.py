@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import monotonic
 
 import pytest
@@ -36,6 +37,18 @@ async def test_the_screen_is_painted_as_a_whole_once_the_last_message_has_gone(m
         await pilot.pause(3.0)
         assert painted
         assert set(painted) == {0}
+
+
+async def test_a_program_that_has_ended_paints_nothing() -> None:
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
+    async with program.run_test(notifications=True):
+        later: list[Callable[[], None]] = []
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(program, "set_timer", lambda _seconds, callback: later.append(callback))
+            program.notify("Done.")
+    assert not program.screen_stack
+    assert len(later) == 1
+    later[0]()
 
 
 def test_a_list_that_closes_as_a_message_goes_leaves_nothing_of_it() -> None:
