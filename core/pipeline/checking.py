@@ -157,7 +157,19 @@ def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, 
     if fits is None:
         return row
     fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
+    if row.state is State.GOUGES and _only_leads_gouge(row, done):
+        text = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
+        fits = replace(fits, text=text)
     return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
+
+
+def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
+    """Whether no move gouges but those that turn compensation on or off."""
+    contours = set[int]()
+    for stretch in done.stretches:
+        lines = stretch.programmed.lines.tolist()
+        contours.update(lines[stretch.entry + 1 : len(lines) - stretch.exit])
+    return contours.isdisjoint(finding.line for finding in row.findings if finding.code == "GOUGE")
 
 
 def _with_option(row: Answer, asked: Asked) -> Answer:

@@ -86,6 +86,17 @@ def test_no_tool_is_named_where_a_smaller_one_would_gouge_too() -> None:
     assert row.fits is None
 
 
+LEADS = "G21 G90 F200.\nT1 M6\nG0 X{start} Y-20.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\nY0.\nX0.\nG40 X{end} Y{y}\nM30\n"
+
+
+@pytest.mark.parametrize(("start", "end", "y"), [("10.", "0.", "-20."), ("0.", "-20.", "-2.")])
+def test_where_only_a_lead_gouges_the_lead_is_to_be_moved(start: str, end: str, y: str) -> None:
+    row = answer(LEADS.format(start=start, end=end, y=y).encode(), asked("linuxcnc", CutterTool(1, 10.0)))
+    assert row.gouge is not None
+    assert row.fits is not None
+    assert row.fits.text.startswith("Only a lead-in or lead-out gouges: move its far end.")
+
+
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
     told = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
     assert "fanuc:a: Tool 1 is too big; largest that fits: 0.4000." in told
