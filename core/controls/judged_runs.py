@@ -448,8 +448,10 @@ def _uncut(result: Judged) -> list[Finding]:
     if not verdict.judged or not verdict.uncut:
         return []
     worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
-    text = "{0} of {1} of the surface stays uncut, at most {value} thick at X {x} Y {y}."
-    lengths = (verdict.uncut_length, verdict.surface_length)
+    fine = worst.thickness < SHOWN
+    thick = "less than {2}" if fine else "at most {value}"
+    text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
+    lengths = (verdict.uncut_length, verdict.surface_length, *((DIGIT,) if fine else ()))
     line, at = int(worst.first_number), worst.thickest
     return [Finding("UNCUT", Severity.WARNING, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
 
