@@ -129,8 +129,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self._deriving: tuple[Request, Work] | None = None
         self._table_wanted: DerivedBlock | None = None
         self._making_table: tuple[DerivedBlock, Work] | None = None
-        self.stopped: Program | DerivedBlock | None = None
         self.posted_for = CENTER_PATH
+        self.stopped: Program | DerivedBlock | None = None
         """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
         self._advice_timer: Timer | None = None
         self._unit_mentioned = self._unit_settled = False

@@ -28,7 +28,7 @@ CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit is a softkey."""
-OLD_VALUE: Final = "The old value is back. Esc again, then a digit: softkey."
+OLD_VALUE: Final = "The old value is back. Esc again, then 1 to 8: softkey."
 ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
 

@@ -180,7 +180,7 @@ class PostScreen(EntryScreen):
     def prompt_text(self) -> Sentence:
         """What Enter does."""
         if self.focused is not None and self.focused.id == "post-controls":
-            return Sentence("Up and down choose which control compensates. Enter goes back to the name.")
+            return Sentence("Up and down choose the control. Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
         count = len(self.made.against)

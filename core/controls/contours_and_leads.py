@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import pairwise, product
-from math import cos, radians
+from itertools import pairwise
+from math import cos, pi, radians
 from typing import Final
 
 import numpy as np
@@ -129,16 +129,14 @@ def _longest(places: list[tuple[float, float]]) -> RowRange | None:
 
 
 def _between_blends(path: Path, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
-    """The closed run inside a closed one that starts and ends with leads: around a square corner both arcs of a blend
-    may begin and end at one point."""
-    first, last = rows
-    for begin, end in product(
-        range(first + 1, first + MAX_LEAD_MOVES + 1), range(last - 1, last - MAX_LEAD_MOVES - 1, -1)
-    ):
-        closes = begin < end and places[begin] == places[end] and _encloses(path, (begin, end))
-        if closes and _blends(path, range(begin, first - 1, -1)) and _blends(path, range(end - 1, last)):
-            return begin, end
-    return rows
+    """The closed run inside a closed one that starts and ends with one arc of a quarter turn at most, in line with it:
+    around a square corner both arcs of a blend may begin and end at one point."""
+    begin, end = rows[0] + 1, rows[1] - 1
+    if begin >= end or places[begin] != places[end] or not _encloses(path, (begin, end)):
+        return rows
+    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= pi / 2 + BLEND for row in (begin - 1, end))
+    tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
+    return (begin, end) if arcs and tangent else rows
 
 
 def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:

@@ -14,7 +14,7 @@ from core.units import Unit
 MAX_FINDINGS_OF_A_RULE: Final = 100
 """Findings of one rule that are kept; of the rest only the number is."""
 
-NOT_RUN_TEXT: Final = "What stands behind the end of the program, from this line on, was not run. Check it by itself."
+NOT_RUN_TEXT: Final = "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,8 +89,8 @@ def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
     if not diameters:
         return ()
     text = (
-        "The segments that the look-ahead deleted are not in this program: with a tool smaller than {0} it cuts "
-        "another contour. Post it again for such a tool."
+        "The segments that the look-ahead deleted are not in this program: with a tool smaller than {0} it may "
+        "cut another contour. Post it again for such a tool."
     )
     return (Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(diameters),)),)
 

@@ -158,8 +158,8 @@ def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, 
         return row
     fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
     if row.state is State.GOUGES and _only_leads_gouge(row, done):
-        text = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
-        fits = replace(fits, text=text)
+        said = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
+        fits = replace(fits, text=said)
     return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
 
 
@@ -297,6 +297,8 @@ def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None)
     wrong = any(result.verdict.wrong_side for result in results)
     if wrong:
         return "runs on the wrong side"
+    if not done.moves.lines.any():
+        return "moves nothing"
     if not any(one.code in RADIUS_ZERO for one in done.findings):
         return "runs"
     return f"runs, {'not all' if any(one.radius for one in done.stretches) else 'nothing'} compensated"

@@ -25,7 +25,7 @@ from core.controls.iso.macro import (
     ParameterStore,
     tell_unset,
 )
-from core.controls.iso.reader import Block, is_plain, read_line, whole, without_comments
+from core.controls.iso.reader import Block, has_words, is_plain, read_line, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
@@ -546,10 +546,15 @@ class Flow:
 
     def finish(self, *, alarmed: bool) -> None:
         """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
+        if alarmed:
+            return
         last = max((row for row in range(self.main_lines) if self.ran[row]), default=0)
-        rows = () if alarmed else range(last + 1, self.main_lines)
-        behind = next((row for row in rows if without_comments(self.lines[row]).strip(" \t%")), None)
-        if behind is not None:
+        behind = next((row for row in range(last + 1, self.main_lines) if has_words(self.lines[row])), None)
+        if behind is None:
+            return
+        # a subprogram that a condition leaves out is no matter
+        closed = any(self.lines[row].strip() == "%" for row in range(last, behind))
+        if closed or not self.lines[behind].lstrip().upper().startswith("O"):
             self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind + 1, 1)
 
     def end_of_file(self) -> None:

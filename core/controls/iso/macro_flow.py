@@ -19,7 +19,7 @@ from core.controls.iso.flow import Call, Flow, ProgramLibrary, Scope, o_words_of
 from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
-from core.controls.iso.reader import Block, fill_words, is_words, without_comments
+from core.controls.iso.reader import Block, fill_words, has_words, is_words, without_comments
 from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity
 from core.units import Unit
@@ -42,11 +42,18 @@ _KEYWORD: Final = re.compile(
 )
 _EXTERNAL: Final = re.compile(r"(?:/[0-9]?)?(?:N[0-9]++)?(DPRNT|BPRNT|POPEN|PCLOS|SETVN)")
 _THEN: Final = re.compile(r"TH(?:EN)?")
-_PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])(?![ \t]*+[A-Z]{2})", re.IGNORECASE)
-"""The head of a program; two letters behind the number make it another control's O-word."""
-_NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)[ \t]*+(?:\(|$)", re.IGNORECASE)
-_CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9.])")
-_CALLED: Final = re.compile(r"P([0-9]*+)")
+_NO_O_WORD: Final = (
+    r"(?![ \t]*+(?:sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat|break|continue)\b)"
+)
+"""LinuxCNC's O-words are no heads of programs."""
+_PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])" + _NO_O_WORD, re.IGNORECASE)
+_NAME: Final = re.compile(
+    rf"[ \t]*+(?:(?P<o>O)[ \t]*+(?P<with_o><[^>]*+>){_NO_O_WORD}|(?P<bare><[^>]*+>)[ \t]*+(?:\(|$))", re.IGNORECASE
+)
+_CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9])")
+_CALLED: Final = re.compile(r"(?<![A-Z])P([0-9]*+)")
+NAMES_TOLD: Final = 3
+"""Programs that were not run are named up to here; of the rest only the number is."""
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
 _WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])")
@@ -119,32 +126,30 @@ class MacroFlow(Flow):
         first = [self._first_row()] if self.lines else []
         return sorted({*first, *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
 
-    def _called_by_others(self) -> set[int] | None:
-        """The rows at which programs begin that other programs of the file call; None where a variable says which."""
-        called = set[int]()
+    def _called_by_others(self) -> tuple[set[int], bool]:
+        """The rows at which programs begin that others of the file call, and whether a variable may name one more."""
+        called, by_variable = set[int](), False
         for row, text in enumerate(self.lines):
             if "P" not in (squeezed := "".join(without_comments(capitals(text)).split())):
                 continue
-            number = _CALLED.search(squeezed) if _CALLING.search(squeezed) else None
-            if number is None:
+            numbers = _CALLED.findall(squeezed) if _CALLING.search(squeezed) else []
+            by_variable |= numbers[-1:] == [""]
+            if not numbers or not numbers[-1]:
                 continue
-            if not number[1]:
-                return None
-            # more than four digits hold how often it runs, too
-            for each in {int(number[1]), int(number[1]) % 10_000}:
+            number = int(numbers[-1])
+            # on a Fanuc more than four digits hold how often it runs, too
+            for each in {number} if self.dialect.m97_calls else {number, number % 10_000}:
                 if (begin := self.labels.get(each)) is not None and not begin <= row < self._range_of(begin)[1]:
                     called.add(begin)
-        return called
+        return called, by_variable
 
     def _main_program(self) -> int:
         """The row at which the run begins: the first program that no other one in the file calls."""
-        programs, called = self._programs(), self._called_by_others() or set()
+        programs, (called, _) = self._programs(), self._called_by_others()
         first = programs[0] if programs else 0
         main = next((row for row in programs if row not in called), first)
         if main != first:
-            text = (
-                f"{self._name_of(main)} runs; {self._name_of(first)}, which stands before it, is called in this file."
-            )
+            text = f"cutcomp runs {self._name_of(main)}: {self._name_of(first)}, which stands before it, is called."
             self.log.tell(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
         return main
 
@@ -152,22 +157,33 @@ class MacroFlow(Flow):
         """What the program is called that begins at a row."""
         text = self.lines[row]
         number, name = _PROGRAM.match(text), _NAME.match(text)
-        return f"O{number[1]}" if number else quoted(name[2]) if name else "What stands before the first O"
+        return f"O{number[1]}" if number else quoted(name["with_o"] or name["bare"]) if name else "what stands first"
 
-    def _tell_not_run(self) -> None:
-        """Names the programs of the file that neither ran nor are called, and what stands behind the sign %."""
-        called = self._called_by_others()
-        ranges = (self._range_of(row) for row in (() if called is None else self._programs()))
-        idle = [first for first, last in ranges if first not in (called or ()) and not any(self.ran[first:last])]
+    def _tell_not_run(self, *, alarmed: bool) -> None:
+        """Names the programs of the file that neither ran nor are called, and what stands behind the end."""
+        called, by_variable = self._called_by_others()
+        ranges = (self._range_of(row) for row in self._programs())
+        idle = [first for first, last in ranges if first not in called and not any(self.ran[first:last])]
         if idle:
-            names = [f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle]
-            names[0] = self._name_of(idle[0])
+            names = [self._name_of(idle[0]), *(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[1:])]
+            more = [f"{len(names) - NAMES_TOLD} more"] if len(names) > NAMES_TOLD else []
+            names = [*names[:NAMES_TOLD], *more]
             which = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-            was, them = ("was", "it by itself") if len(names) == 1 else ("were", "them by themselves")
-            text = f"{which} {was} not run, since nothing in this file calls {them.split()[0]}. Check {them}."
+            was, it, by = ("was", "it", "itself") if len(names) == 1 else ("were", "them", "themselves")
+            why = f", since nothing in this file calls {it}"
+            why = ". A call with a variable may call it" if by_variable else "" if alarmed else why
+            text = f"{which} {was} not run{why}. Check {it} by {by}."
             self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
-        if self.unread_line is not None:
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, self.unread_line, 1)
+        behind = self.unread_line if alarmed else self._line_behind_end() or self.unread_line
+        if behind is not None:
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind, 1)
+
+    def _line_behind_end(self) -> int | None:
+        """The first line behind the end of the program that ran, unless its number says that something leads there."""
+        first, last = self.program
+        ended = max((row for row in range(first, last) if self.ran[row]), default=last)
+        behind = next((row for row in range(ended + 1, last) if has_words(self.lines[row])), None)
+        return None if behind is None or _NUMBER.match(self.lines[behind]) else self.numbers[behind]
 
     # rows
 
@@ -190,7 +206,7 @@ class MacroFlow(Flow):
                 self.starts.append(start)
                 program, name = _PROGRAM.match(text), _NAME.match(text)
                 self.ran.append(0)
-                if program or (name and (name[1] or self.dialect.program_names)):
+                if program or (name and (name["o"] or self.dialect.program_names)):
                     self.begins.append(row)
                 if program:
                     self.labels.setdefault(int(program[1]), row)
@@ -638,7 +654,7 @@ class MacroFlow(Flow):
         except FaultError as fault:
             self.log.stop(fault.code, fault.text, block.line, block.column("P"))
 
-    def finish(self, *, alarmed: bool) -> None:  # noqa: ARG002
+    def finish(self, *, alarmed: bool) -> None:
         """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
         text = "\n".join(self.lines).upper()
         if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
@@ -651,7 +667,7 @@ class MacroFlow(Flow):
                 f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
             )
             self.log.tell(Severity.WARNING, "FN-POINT", said, *self.no_point[0])
-        self._tell_not_run()
+        self._tell_not_run(alarmed=alarmed)
 
     def end_of_file(self) -> None:
         """The program ends without M30, M02 or M99."""
@@ -689,10 +705,11 @@ def _between_percents(lines: Sequence[str]) -> list[str]:
 
 
 def _line_behind_percents(lines: Sequence[str]) -> int | None:
-    """The number of the first line with words behind the second sign %, which ends a file."""
+    """The number of the first line with words behind the sign % that ends the file: the second, or the only one."""
     signs = [number for number, line in enumerate(lines, 1) if line.lstrip().startswith("%")]
-    behind = range(signs[1] + 1, len(lines) + 1) if len(signs) > 1 else ()
-    return next((number for number in behind if without_comments(lines[number - 1]).strip(" \t%")), None)
+    only_one_ends = len(signs) == 1 and any(map(has_words, lines[: signs[0] - 1]))
+    end = signs[1] if len(signs) > 1 else signs[0] if only_one_ends else len(lines)
+    return next((number for number in range(end + 1, len(lines) + 1) if has_words(lines[number - 1])), None)
 
 
 def _is_remark(text: str) -> bool:

@@ -247,16 +247,16 @@ class ModalState:
         """Reports an offset's radius (millimeters) that is not the radius of the tool in the spindle, once for each."""
         tool = self.tools.get(self.tool)
         across = 0.0 if tool is None else abs(tool.diameter_mm(self.unit)) / 2
-        difference = abs(radius) - across
-        if radius == 0.0 or across == 0.0 or abs(difference) <= GOUGE or (self.tool, radius) in self.compared_offsets:
+        difference = radius - across
+        if radius <= 0.0 or across == 0.0 or abs(difference) <= GOUGE or (self.tool, radius) in self.compared_offsets:
             return
         self.compared_offsets.add((self.tool, radius))
-        does = "leaves {value} on the part"
+        does = "leaves {value} of stock"
         if difference < 0.0:
-            does = "cuts {value} too deep, unless the program is the path of its center"
+            does = "cuts {value} too deep, unless the program is that of the tool's center"
         text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {does}."
         severity = Severity.WARNING if difference < 0.0 else Severity.INFO
-        lengths = (abs(radius), across)
+        lengths = (radius, across)
         self.log.add(
             Finding("OFFSET", severity, text, value=abs(difference), lengths=lengths, line=line, column=column)
         )

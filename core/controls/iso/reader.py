@@ -269,6 +269,14 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
 
 
+_WORD_ANYWHERE: Final = re.compile(r"[A-Za-z][ \t]*+[-+]?[0-9.#\[<]")
+
+
+def has_words(line: str) -> bool:
+    """Whether a line has words besides its comments: a letter with a number."""
+    return _WORD_ANYWHERE.search(without_comments(line)) is not None
+
+
 def without_comments(upper: str, fill: str = " ") -> str:
     """A line with its comments blanked out and every other character where it was."""
     if "(" not in upper and ";" not in upper:

@@ -93,8 +93,9 @@ def _check_end(state: State) -> None:
     elif not any(block.head == "END" for block in reversed(state.blocks)):
         state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
     end = next((index for index, block in enumerate(state.blocks) if block.head == "END"), len(state.blocks))
-    if behind := state.blocks[end + 1 :]:
-        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind[0])
+    behind = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
+    if behind is not None:
+        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind)
     if state.applied:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
         state.tell(Severity.WARNING, "PROGRAM", text, last)

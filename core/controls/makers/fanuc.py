@@ -362,14 +362,14 @@ class Fanuc(VectorQueue, Control):
         """More blocks without movement than the control looks across."""
         across = self.vector_rules.blocks_read - 2
         why = (
-            "The control does not look past a stop or a move of no length"
+            "The control does not look past a stop, a move of no length or a move to the machine's zero"
             if self.too_many
             else f"More than {across} {'block' if across == 1 else 'blocks'} without movement in the plane "
             f"{'stands' if across == 1 else 'stand'} before the next move (19625 = {self.vector_rules.blocks_read})"
         )
         text = (
             f"{why}: the tool stands square here and the next move runs slanting. It may overcut or leave stock. "
-            f"{'Remove it.' if self.too_many else 'Remove some.'}"
+            f"{'Move it behind G40.' if self.too_many else 'Remove some.'}"
         )
         self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
         self.end_square()

@@ -66,7 +66,8 @@ class Haas(fanuc.Fanuc):
                 "The manuals do not say whether the control looks past a stop, a move of no length or a move to the "
                 "machine's zero under compensation. cutcomp assumes that it does."
             )
-            self.log.tell(Severity.WARNING, "H350", text, block.line, 1)
+            if "HAAS-STOP" not in self.log.counts:
+                self.log.tell(Severity.WARNING, "HAAS-STOP", text, block.line, 1)
             return
         text = (
             f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move. Remove some."

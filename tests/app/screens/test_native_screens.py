@@ -157,7 +157,7 @@ async def test_the_control_of_the_last_post_is_chosen_again(tmp_path, monkeypatc
         assert isinstance(screen, PostScreen)
         assert screen.choice == "center path"
         await one.press("f2", "down")
-        assert one.prompt == "Up and down choose which control compensates. Enter goes back to the name."
+        assert one.prompt == "Up and down choose the control. Enter goes back to the name."
         chosen = screen.choice
         await one.press("enter")
         await everything(one)

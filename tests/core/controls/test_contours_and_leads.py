@@ -67,6 +67,19 @@ def test_blends_that_begin_and_end_at_one_point_are_leads() -> None:
     assert contours_of(cornered(tangent=False)) == ((0, 6),)
 
 
+BIG = (
+    "G21 G17 G90 G40 F200\nT1 M6\nG0 X0 Y-10\nG41 {offset}G1 X0 Y-60\nX30 Y-10\nG3 X0 Y20 I-30 J0\n"
+    "G2 X0 Y20 I0 J3\nG3 X-30 Y-10 I0 J-30\nG1 X0 Y-60\nG40 G1 X0 Y-10\nM30\n"
+)
+"""A teardrop that starts at its sharp inside corner, with a loop at its round end."""
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a"])
+def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
+    done = ran(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)
+    assert any(result.verdict.gouges for result in judge_run(done))
+
+
 def test_nothing_is_split_without_a_blend_or_where_the_contour_closes() -> None:
     for path in (blended(tangent=False), lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0))):
         assert len(split_where_it_closes(path)) == len(path)

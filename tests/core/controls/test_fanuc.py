@@ -301,7 +301,7 @@ def test_a_stop_does_not_hide_the_next_move_from_a_haas(block: str) -> None:
     """A Fanuc is blind behind it; the manuals of Haas do not say."""
     program = f"{ENTERED}X0 Y20\n{block}\nX-40\nG40 Y0\nM30"
     done = ran(program, "haas:a")
-    (said,) = told(done, "H350")
+    (said,) = told(done, "HAAS-STOP")
     assert (said.severity, said.line) == (Severity.WARNING, 6)
     assert not alarms(done)
     assert told(ran(program), "FN-N2")[0].text.startswith("The control does not look past a stop")

@@ -23,7 +23,7 @@ def test_the_offset_of_a_smaller_tool_cuts_too_deep(control: str) -> None:
     assert (said.severity, said.line) == (Severity.WARNING, 4)
     assert sentence(said, Unit.MM) == (
         "D1 has the radius 5.000, tool 2 has 6.000: the cutter cuts 1.000 too deep, "
-        "unless the program is the path of its center."
+        "unless the program is that of the tool's center."
     )
 
 
@@ -31,7 +31,7 @@ def test_the_offset_of_a_smaller_tool_cuts_too_deep(control: str) -> None:
 def test_the_offset_of_a_larger_tool_leaves_stock(control: str) -> None:
     (said,) = told(ran(program(2, "D1"), control, t1=10.0, t2=9.0), "OFFSET")
     assert said.severity is Severity.INFO
-    assert sentence(said, Unit.MM) == "D1 has the radius 5.000, tool 2 has 4.500: the cutter leaves 0.500 on the part."
+    assert sentence(said, Unit.MM) == "D1 has the radius 5.000, tool 2 has 4.500: the cutter leaves 0.500 of stock."
 
 
 @pytest.mark.parametrize("control", CONTROLS)

@@ -17,7 +17,7 @@ def test_the_main_program_runs_wherever_it_stands(control: str) -> None:
     assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0)]
     (said,) = told(done, "PROGRAM")
     assert (said.severity, said.line) == (Severity.INFO, 5)
-    assert said.text == "O5100 runs; O5101, which stands before it, is called in this file."
+    assert said.text == "cutcomp runs O5100: O5101, which stands before it, is called."
     assert not told(ran(f"%\n{MAIN}{SUB}%\n", control), "PROGRAM")
 
 
@@ -38,6 +38,45 @@ def test_programs_that_nothing_calls_are_named() -> None:
     assert not told(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
 
 
+def test_a_call_with_a_variable_hides_no_call_with_a_number() -> None:
+    main = MAIN.replace("M30", "#100=5102\nM98 P#100\nM30")
+    done = ran(f"{SUB}{main}O5102\nX9.\nM99\nO3\nM30\n", "fanuc:a")
+    assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0), (9.0, 0.0)]
+    (said,) = told(done, "NOT_RUN")
+    assert said.text == "O3 was not run. A call with a variable may call it. Check it by itself."
+    exponent = ran(f"{MAIN.replace('M98 P5101', 'G65 A[EXP[1]] P5101')}{SUB}O3\nM30\n", "fanuc:a")
+    assert told(exponent, "NOT_RUN")[0].text.startswith("O3 was not run, since nothing")
+
+
+def test_only_a_fanuc_takes_the_number_of_runs_from_p() -> None:
+    text = "O2 (SUB)\nX9. M99\nO1\nG21 G90 G1 X1. F100.\nM98 P10002\nM30\n"
+    assert told(ran(text, "fanuc:a"), "PROGRAM")
+    assert not told(ran(text, "haas:a"), "PROGRAM")
+
+
+def test_of_many_programs_that_were_not_run_a_few_are_named() -> None:
+    many = "".join(f"O{number}\nM30\n" for number in range(100, 200))
+    (said,) = told(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
+    assert said.text.startswith("O100, O101 (line 10), O102 (line 12) and 97 more were not run, since")
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
+def test_lines_behind_m30_are_named_but_not_what_a_number_or_an_o_leads_to(control: str) -> None:
+    text = "G21 G90 F100.\nG1 X2.\nM30\n"
+    assert told(ran(f"{text}G1 X3.\nM30\n", control), "NOT_RUN")[0].line == 4
+    assert not told(ran(f"{text}(NOTE)\nREMARK\n\x1a\n", control), "NOT_RUN")
+    if control == "linuxcnc":
+        assert not told(ran(f"{text}O7 sub\nG1 X3.\nO7 endsub\n", control), "NOT_RUN")
+    else:
+        assert not told(ran(f"{text}N900 G1 X3.\nM30\n", control), "NOT_RUN")
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_lines_behind_a_single_percent_are_named(control: str) -> None:
+    done = ran("O1\nG21 G90 F100.\nG1 X1.\nM30\n%\nO2\nG1 X2.\nM30\n", control)
+    assert told(done, "NOT_RUN")[0].line == 6
+
+
 def test_a_called_program_that_a_condition_leaves_out_is_no_matter() -> None:
     done = ran(f"O1\n#1=0\nG21\nIF[#1EQ0]GOTO9\nM98 P5101\nN9 M30\n{SUB}", "fanuc:a")
     assert not told(done, "NOT_RUN")
@@ -49,7 +88,7 @@ def test_what_stands_behind_the_end_is_named(control: str) -> None:
     assert lines_and_ends(done) == [(1.0, 0.0)]
     (said,) = told(done, "NOT_RUN")
     assert (said.severity, said.line) == (Severity.WARNING, 6)
-    assert said.text == "What stands behind the end of the program, from this line on, was not run. Check it by itself."
+    assert said.text == "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
@@ -75,7 +114,9 @@ def test_words_of_linuxcnc_are_no_heads_of_programs(text: str, control: str) -> 
     assert [finding.code for finding in done.findings if finding.severity is Severity.ERROR] == ["PS0009"]
 
 
-@pytest.mark.parametrize("head", ["<PART-1>", "O<PART-1>", "O1 (PART)", ":1", "<PART-1> (REV B)"])
+@pytest.mark.parametrize(
+    "head", ["<PART-1>", "O<PART-1>", "O<PART-1> G21", "O1 (PART)", ":1", "O1 G21", "<PART-1> (REV B)"]
+)
 def test_heads_of_programs(head: str) -> None:
     done = ran(f"%\n{head}\nG21 G1 X1. F100.\nM30\n%\n", "fanuc:a")
     assert (done.stopped_at, lines_and_ends(done)) == (None, [(1.0, 0.0)])
