@@ -130,6 +130,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
         self._table_wanted: DerivedBlock | None = None
         self._making_table: tuple[DerivedBlock, Work] | None = None
         self.posted_for = CENTER_PATH
+        """The control for which an NC file was posted last, or the center path."""
         self.stopped: Program | DerivedBlock | None = None
         """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
         self._advice_timer: Timer | None = None

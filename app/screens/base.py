@@ -19,7 +19,7 @@ from abc import abstractmethod
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, cast
+from typing import Any, ClassVar, Final, Protocol, cast
 
 from textual import on
 from textual.app import ComposeResult
@@ -48,6 +48,11 @@ from core.units import Kind
 
 SMALLEST = (60, 20)
 """Columns and rows that the screens are made for at least."""
+
+
+WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
+HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
+"""The style classes of a screen from so many columns and lines on."""
 
 
 class Host(Protocol):
@@ -156,14 +161,8 @@ class BaseScreen(Screen[None]):
     """Moving the cursor repaints two fields, not the screen."""
 
     AUTO_FOCUS: ClassVar[str | None] = ""
-    HORIZONTAL_BREAKPOINTS = [  # noqa: RUF012  # Textual's own is no ClassVar, and mypy takes none for it
-        (0, "-narrow"),
-        (80, "-native"),
-        (100, "-medium"),
-        (132, "-wide"),
-        (190, "-huge"),
-    ]
-    VERTICAL_BREAKPOINTS = [(0, "-short"), (28, "-tall")]  # noqa: RUF012  # as above
+    HORIZONTAL_BREAKPOINTS = WIDTHS
+    VERTICAL_BREAKPOINTS = HEIGHTS
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark", "question_mark", "Help", show=False, priority=True),
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),

@@ -41,7 +41,7 @@ from app.widgets.picture import Picture
 from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import Case, Verdict
+from app.widgets.verdict import STILL_TO_TYPE, Case, Verdict
 from core.finding import Finding, Severity
 from core.program import fields as table
 from core.program.edit import (
@@ -61,8 +61,6 @@ from core.program.model import ArcSegment, BlendSegment, ChamferSegment, LineSeg
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
-NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
-"""Errors that only say that a block is still to be typed."""
 FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
 NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "l": LineSegment,
@@ -446,8 +444,9 @@ class ContourScreen(FormScreen):
         session = self.current_session
         for finding in session.derived_block.findings:
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
-            if here and finding.severity is Severity.ERROR and (session.block.segments or finding.code not in NOT_YET):
-                tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
+            to_type = finding.code in STILL_TO_TYPE
+            if here and finding.severity is Severity.ERROR and (session.block.segments or not to_type):
+                tone = Tone.WARNING if to_type else Tone.ERROR
                 return Sentence(sentence(finding, session.program.unit) + self._or_later(finding), tone)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
         return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
@@ -470,7 +469,7 @@ class ContourScreen(FormScreen):
             text += f" Or F7: point to the end of segment {finding.segment:g}."
         elif len(text) < self.size.width - 1:
             text += f"\n{prompt}"
-        return Sentence(text, Tone.WARNING if finding.code in NOT_YET else Tone.ERROR)
+        return Sentence(text, Tone.WARNING if finding.code in STILL_TO_TYPE else Tone.ERROR)
 
     def prompt_text(self) -> Sentence:
         """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be; in a list what its keys do."""

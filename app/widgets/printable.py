@@ -12,7 +12,7 @@ from textual.filter import LineFilter
 class PrintableFilter(LineFilter):
     """Leaves out what a terminal would take for a command; such characters have no width in the line anyway."""
 
-    def apply(self, segments: list[Segment], background: Color) -> list[Segment]:  # noqa: ARG002  # Textual's interface
+    def apply(self, segments: list[Segment], _background: Color) -> list[Segment]:
         """Only characters that can be printed; the same list where it has no others."""
         if all(segment.text.isprintable() for segment in segments):
             return segments

@@ -33,7 +33,7 @@ HIGHEST: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """Cells of the chips' line on the narrowest screens."""
-NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
+STILL_TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
 
 
@@ -250,15 +250,15 @@ def _stopped_short(case: Case) -> bool:
     block = case.block
     open_end = case.row is None and not block.solved.whole and not (case.judgment and case.judgment.gouges)
     # a run that waits for more numbers is told on the prompt
-    return open_end and any(finding.code not in NOT_YET | {"NOT_YET"} for finding in block.errors)
+    return open_end and any(finding.code not in STILL_TO_TYPE | {"NOT_YET"} for finding in block.errors)
 
 
 def _in_the_way(case: Case, marks: Marks) -> Content:
     """The first error, as much of its sentence as has room; F10 lists it in full."""
     if not case.block.known or not case.block.errors:
         return Content("")
-    first = next((one for one in case.block.errors if one.code not in NOT_YET), case.block.errors[0])
-    role = "$c-warn" if first.code in NOT_YET else "$c-err"
+    first = next((one for one in case.block.errors if one.code not in STILL_TO_TYPE), case.block.errors[0])
+    role = "$c-warn" if first.code in STILL_TO_TYPE else "$c-err"
     text = f"{marks.gouge} {sentence(first, case.unit)}"
     # the prompt and F10 say what follows
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
@@ -284,7 +284,7 @@ def _row(found: Iterable[tuple[str, str]]) -> Content:
 
 def first_step(block: DerivedBlock) -> str:
     """What to do in a block without segments; a text that cannot be read is an error even there."""
-    if block.block.segments or any(finding.code not in NOT_YET for finding in block.errors):
+    if block.block.segments or any(finding.code not in STILL_TO_TYPE for finding in block.errors):
         return ""
     if any(finding.code == "MISSING" for finding in block.errors):
         return "Type START, then right arrow for segment 1."

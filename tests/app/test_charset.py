@@ -18,8 +18,12 @@ BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")
     ("environment", "name"),
     [
         ({}, "ascii"),
+        ({"LANG": ""}, "ascii"),
         ({"LANG": "C"}, "ascii"),
         ({"LANG": "POSIX"}, "ascii"),
+        ({"LANG": "C", "LC_CTYPE": "C"}, "ascii"),
+        ({"LANG": "C", "LC_CTYPE": "C.UTF-8"}, "utf-8"),
+        ({"LC_ALL": "C.UTF-8"}, "utf-8"),
         ({"LANG": "C.UTF-8"}, "utf-8"),
         ({"LANG": "de_DE.utf8"}, "utf-8"),
         ({"LC_CTYPE": "UTF-8"}, "utf-8"),

@@ -47,9 +47,7 @@ _NO_O_WORD: Final = (
 )
 """LinuxCNC's O-words are no heads of programs."""
 _PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])" + _NO_O_WORD, re.IGNORECASE)
-_NAME: Final = re.compile(
-    rf"[ \t]*+(?:(?P<o>O)[ \t]*+(?P<with_o><[^>]*+>){_NO_O_WORD}|(?P<bare><[^>]*+>)[ \t]*+(?:\(|$))", re.IGNORECASE
-)
+_NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)" + _NO_O_WORD, re.IGNORECASE)
 _CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9])")
 _CALLED: Final = re.compile(r"(?<![A-Z])P([0-9]*+)")
 NAMES_TOLD: Final = 3
@@ -113,9 +111,10 @@ class MacroFlow(Flow):
         self.rows_without_progress = 0
         self.least_differences: dict[tuple[int, int], float] = {}
         self.tape_length = 0
-        self._append(_between_percents(lines), 1)
+        kept, self.unread_line = _between_percents(lines)
+        self._append(kept, 1)
         self.calls[0].back = len(self.lines)
-        self.unread_line = _line_behind_percents(lines)
+        self.called_programs, self.calls_by_variable = self._called_by_others()
         self.at = self._main_program()
         self.program = self._range_of(self.at)
 
@@ -145,9 +144,9 @@ class MacroFlow(Flow):
 
     def _main_program(self) -> int:
         """The row at which the run begins: the first program that no other one in the file calls."""
-        programs, (called, _) = self._programs(), self._called_by_others()
+        programs = self._programs()
         first = programs[0] if programs else 0
-        main = next((row for row in programs if row not in called), first)
+        main = next((row for row in programs if row not in self.called_programs), first)
         if main != first:
             text = f"cutcomp runs {self._name_of(main)}: {self._name_of(first)}, which stands before it, is called."
             self.log.tell(Severity.INFO, "PROGRAM", text, self.numbers[main], self.starts[main] + 1)
@@ -155,26 +154,30 @@ class MacroFlow(Flow):
 
     def _name_of(self, row: int) -> str:
         """What the program is called that begins at a row."""
-        text = self.lines[row]
-        number, name = _PROGRAM.match(text), _NAME.match(text)
-        return f"O{number[1]}" if number else quoted(name["with_o"] or name["bare"]) if name else "what stands first"
+        return self._head(self.lines[row]) or "what stands first"
 
-    def _tell_not_run(self, *, alarmed: bool) -> None:
+    def _head(self, text: str) -> str:
+        """The number or the name of the program that begins with a row, empty where none does."""
+        if number := _PROGRAM.match(text):
+            return f"O{number[1]}"
+        bare = without_comments(text)
+        name = _NAME.match(bare)
+        if name is None:
+            return ""
+        alone = self.dialect.program_names and not bare[name.end() :].strip()
+        return quoted(name[2]) if name[1] or alone else ""
+
+    def _tell_not_run(self) -> None:
         """Names the programs of the file that neither ran nor are called, and what stands behind the end."""
-        called, by_variable = self._called_by_others()
         ranges = (self._range_of(row) for row in self._programs())
-        idle = [first for first, last in ranges if first not in called and not any(self.ran[first:last])]
+        idle = [first for first, last in ranges if first not in self.called_programs and not any(self.ran[first:last])]
         if idle:
-            names = [self._name_of(idle[0]), *(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[1:])]
-            more = [f"{len(names) - NAMES_TOLD} more"] if len(names) > NAMES_TOLD else []
-            names = [*names[:NAMES_TOLD], *more]
-            which = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-            was, it, by = ("was", "it", "itself") if len(names) == 1 else ("were", "them", "themselves")
-            why = f", since nothing in this file calls {it}"
-            why = ". A call with a variable may call it" if by_variable else "" if alarmed else why
-            text = f"{which} {was} not run{why}. Check {it} by {by}."
+            names = ", ".join(f"{self._name_of(row)} (line {self.numbers[row]})" for row in idle[:NAMES_TOLD])
+            more = f" and {len(idle) - NAMES_TOLD} more" if len(idle) > NAMES_TOLD else ""
+            which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
+            text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
             self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
-        behind = self.unread_line if alarmed else self._line_behind_end() or self.unread_line
+        behind = self._line_behind_end() or self.unread_line
         if behind is not None:
             self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind, 1)
 
@@ -204,11 +207,10 @@ class MacroFlow(Flow):
                 self.lines.append(text)
                 self.numbers.append(number)
                 self.starts.append(start)
-                program, name = _PROGRAM.match(text), _NAME.match(text)
                 self.ran.append(0)
-                if program or (name and (name["o"] or self.dialect.program_names)):
+                if self._head(text):
                     self.begins.append(row)
-                if program:
+                if program := _PROGRAM.match(text):
                     self.labels.setdefault(int(program[1]), row)
                 sequence = _NUMBER.match(text)
                 if sequence:
@@ -614,7 +616,7 @@ class MacroFlow(Flow):
             text = f"There is no program O{number} in this file or its folder. Add it."
             self.log.stop("PS0076", text, block.line, block.column("P"))
         name, content = program
-        lines = _between_percents(lines_of(content))
+        lines, _ = _between_percents(lines_of(content))
         begin = self._first_row(self._append(lines, self.add_called(name, len(lines), self.numbers[row])))
         if begin not in self.begins:
             self.begins.append(begin)
@@ -667,7 +669,8 @@ class MacroFlow(Flow):
                 f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
             )
             self.log.tell(Severity.WARNING, "FN-POINT", said, *self.no_point[0])
-        self._tell_not_run(alarmed=alarmed)
+        if not alarmed:
+            self._tell_not_run()
 
     def end_of_file(self) -> None:
         """The program ends without M30, M02 or M99."""
@@ -690,26 +693,21 @@ def arguments_of(block: Block) -> dict[int, float]:
     return arguments
 
 
-def _between_percents(lines: Sequence[str]) -> list[str]:
-    """The lines between the signs %, those outside emptied; where there is one % only, up to it or from it on."""
+def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None]:
+    """The lines between the signs %, those outside emptied, and the number of the first line with words behind them.
+
+    Where there is one % only, they go up to it or from it on.
+    """
     signs = [index for index, line in enumerate(lines) if line.lstrip().startswith("%")]
     if not signs:
-        return list(lines)
+        return list(lines), None
     first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
     if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, signs[0]
     kept = [line if first < index < last else "" for index, line in enumerate(lines)]
     if first >= 0 and _PROGRAM.match(head := lines[first].lstrip()[1:]):
         kept[first] = head
-    return kept
-
-
-def _line_behind_percents(lines: Sequence[str]) -> int | None:
-    """The number of the first line with words behind the sign % that ends the file: the second, or the only one."""
-    signs = [number for number, line in enumerate(lines, 1) if line.lstrip().startswith("%")]
-    only_one_ends = len(signs) == 1 and any(map(has_words, lines[: signs[0] - 1]))
-    end = signs[1] if len(signs) > 1 else signs[0] if only_one_ends else len(lines)
-    return next((number for number in range(end + 1, len(lines) + 1) if has_words(lines[number - 1])), None)
+    return kept, next((index + 1 for index in range(last + 1, len(lines)) if has_words(lines[index])), None)
 
 
 def _is_remark(text: str) -> bool:

@@ -360,17 +360,14 @@ class Fanuc(VectorQueue, Control):
 
     def after_too_many(self, block: Block) -> None:
         """More blocks without movement than the control looks across."""
-        across = self.vector_rules.blocks_read - 2
-        why = (
-            "The control does not look past a stop, a move of no length or a move to the machine's zero"
-            if self.too_many
-            else f"More than {across} {'block' if across == 1 else 'blocks'} without movement in the plane "
-            f"{'stands' if across == 1 else 'stand'} before the next move (19625 = {self.vector_rules.blocks_read})"
-        )
-        text = (
-            f"{why}: the tool stands square here and the next move runs slanting. It may overcut or leave stock. "
-            f"{'Move it behind G40.' if self.too_many else 'Remove some.'}"
-        )
+        read = self.vector_rules.blocks_read
+        why = f"Too many blocks without movement in the plane follow (19625 = {read} looks past {read - 2})"
+        remedy = "Remove some."
+        if self.too_many:
+            why = "The control does not look past a stop, a move of no length or a move to the machine's zero"
+            remedy = "Write G40 before it."
+        text = f"{why}: the tool stands square here and the next move runs slanting. It may overcut or leave stock. "
+        text += remedy
         self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
         self.end_square()
 

@@ -33,7 +33,7 @@ def test_programs_that_nothing_calls_are_named() -> None:
     assert (said.severity, said.line) == (Severity.WARNING, 8)
     assert (
         said.text
-        == "O2 and O3 (line 11) were not run, since nothing in this file calls them. Check them by themselves."
+        == "Programs that nothing in this file calls were not run: O2 (line 8), O3 (line 11). Check each by itself."
     )
     assert not told(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
 
@@ -43,9 +43,11 @@ def test_a_call_with_a_variable_hides_no_call_with_a_number() -> None:
     done = ran(f"{SUB}{main}O5102\nX9.\nM99\nO3\nM30\n", "fanuc:a")
     assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0), (9.0, 0.0)]
     (said,) = told(done, "NOT_RUN")
-    assert said.text == "O3 was not run. A call with a variable may call it. Check it by itself."
+    assert said.text == (
+        "Programs that a call with a variable may mean were not run: O3 (line 13). Check each by itself."
+    )
     exponent = ran(f"{MAIN.replace('M98 P5101', 'G65 A[EXP[1]] P5101')}{SUB}O3\nM30\n", "fanuc:a")
-    assert told(exponent, "NOT_RUN")[0].text.startswith("O3 was not run, since nothing")
+    assert told(exponent, "NOT_RUN")[0].text.startswith("Programs that nothing in this file calls were not run: O3")
 
 
 def test_only_a_fanuc_takes_the_number_of_runs_from_p() -> None:
@@ -57,7 +59,7 @@ def test_only_a_fanuc_takes_the_number_of_runs_from_p() -> None:
 def test_of_many_programs_that_were_not_run_a_few_are_named() -> None:
     many = "".join(f"O{number}\nM30\n" for number in range(100, 200))
     (said,) = told(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
-    assert said.text.startswith("O100, O101 (line 10), O102 (line 12) and 97 more were not run, since")
+    assert "were not run: O100 (line 8), O101 (line 10), O102 (line 12) and 97 more." in said.text
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])

@@ -149,7 +149,7 @@ def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
     assert quoted("A" * 100) == "A" * 24 + "..."
 
 
-@pytest.mark.parametrize("piece", ["X1", "(", ")(", " "])
+@pytest.mark.parametrize("piece", ["X1", "(", "()", "1", " ", ";", ")(", "X"])
 def test_a_line_of_a_megabyte_is_read_to_its_end(piece: str) -> None:
     """In a quadratic reader it would take hours."""
     said = alarm(piece * (1_000_000 // len(piece)))
