@@ -331,7 +331,8 @@ class FormScreen(BaseScreen):
         typed = None if field.kind is Kind.TEXT else read_typed(widget.value, field, self.current_session.program.unit)
         if not isinstance(typed, Unread):
             return None
-        return Sentence(f"{widget.value.strip()} is not a number. Still using {widget.resting or 'blank'}.")
+        still = "" if widget.resting in ("", "?") else f" Still using {widget.resting}."
+        return Sentence(f"{widget.value.strip()} is not a number.{still}")
 
     def trouble(self, field: Field) -> Sentence | None:
         """What the verdict on any block says of a field that all blocks share."""
