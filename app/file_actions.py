@@ -420,7 +420,7 @@ class FileActions(App[int]):
 
     def action_save_as(self) -> None:
         """Ask for a name."""
-        from app.screens.file_names import SaveAsScreen
+        from app.screens.save_and_open import SaveAsScreen
 
         path = self.document.file.path if self.proof is None else self.proof.document.file.path
         name = str(path) if path is not None else f"{self.document.title or 'part'}.toml"
@@ -428,7 +428,7 @@ class FileActions(App[int]):
 
     def action_open_path(self) -> None:
         """Ask for the path of a file to open."""
-        from app.screens.file_names import OpenPathScreen
+        from app.screens.save_and_open import OpenPathScreen
 
         folder = self.settings.folder
         self.show_screen(OpenPathScreen(f"{folder}/" if folder else ""))
@@ -566,7 +566,7 @@ class FileActions(App[int]):
 
     def _leave_save_as(self) -> None:
         """Back from SAVE AS, unless somebody has left it while the disk was behind."""
-        from app.screens.file_names import SaveAsScreen
+        from app.screens.save_and_open import SaveAsScreen
 
         if isinstance(self.screen, SaveAsScreen):
             self.pop_screen()
