@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from asyncio import to_thread
+from asyncio import CancelledError, to_thread
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -206,7 +206,7 @@ class ImportScreen(BaseScreen):
     async def _read(self) -> None:
         """Read the file and list its contours; asks whether a damaged one is taken, and for a unit that is missing."""
         try:
-            data = await to_thread(drawing_bytes, self.path)
+            data = await self._in_thread(drawing_bytes, self.path)
             result = await self._read_whole(data)
         except (StoreError, DrawingError) as error:
             self._fail(str(error))
@@ -262,6 +262,13 @@ class ImportScreen(BaseScreen):
             remedy = " F2 LAYERS leaves its layer out." if error.code == "NOT_FLAT" else ""
             self._fail(f"{error.text}{remedy}")
 
+    async def _in_thread(self, function: Callable[..., Result], *arguments: object) -> Result:
+        """The function's result; where the screen was closed meanwhile nobody waits for it, and the task ends."""
+        result = await to_thread(function, *arguments)
+        if not self.stands:
+            raise CancelledError
+        return result
+
     async def _done(self, start: Callable[[], Worker[Result]]) -> Result:
         """The result of a process; its progress is told, Esc ends it."""
         self._stopped, self._failed = False, ""
@@ -269,7 +276,7 @@ class ImportScreen(BaseScreen):
         worker = await to_thread(start)
         try:
             while not self._stopped:
-                message = await to_thread(worker.poll, 0.1)
+                message = await self._in_thread(worker.poll, 0.1)
                 if isinstance(message, Done):
                     return message.value
                 if message is not None:
@@ -520,7 +527,9 @@ class ImportScreen(BaseScreen):
             self._after_fit("The lines are back.")
             return
         self.say("Fitting arcs.")
-        made = await to_thread(lambda: [fitted_contour(contour, options.fit or FIT[self.unit]) for contour in contours])
+        made = await self._in_thread(
+            lambda: [fitted_contour(contour, options.fit or FIT[self.unit]) for contour in contours]
+        )
         better = [new for old, new in zip(contours, made, strict=True) if new.drawn < old.drawn]
         if not better:
             self.say(f"FIT ARCS finds no arc within {length(options.fit, self.unit)}. F4 changes FIT.")
@@ -691,7 +700,7 @@ class ImportScreen(BaseScreen):
             program = empty_program(self.unit)
         self.say("Writing the segments.")
         try:
-            made, blocks = await to_thread(taken, program, contours, side)
+            made, blocks = await self._in_thread(taken, program, contours, side)
         except NotTaken as error:
             self.say(str(error), Tone.ERROR)
             return

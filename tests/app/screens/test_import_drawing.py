@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from itertools import pairwise
@@ -459,6 +460,33 @@ async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatc
         await one.until(lambda: "Esc stops." in one.said)
         await one.press("escape")
         await one.until(lambda: type(app.screen).__name__ == "ContourScreen")
+
+
+async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tmp_path, monkeypatch):
+    shown = asyncio.Event()
+
+    async def late(work: Callable[..., object], *arguments: object) -> object:
+        result = await asyncio.to_thread(work, *arguments)
+        if isinstance(result, Done):
+            shown.set()
+            while importing.query(ContourTable):
+                await asyncio.sleep(0)
+        return result
+
+    monkeypatch.setattr("app.screens.import_drawing.to_thread", late)
+    path = tmp_path / "part.dxf"
+    path.write_bytes(dxf(*square(0, 0, 10)))
+    app = CutcompApp(Session.of(empty_program(Unit.MM)), surroundings=SURROUNDINGS)
+    async with app.run_test(size=(80, 24)) as pilot:
+        one = Importer(app, pilot)
+        await one.settle()
+        app.show_drawing(path)
+        importing = one.importing
+        await asyncio.wait_for(shown.wait(), 30)
+        app.pop_screen()
+        await one.settle()
+        assert importing.listed is None
+        assert not importing.query(ContourTable)
 
 
 def wait_for_ever(*_arguments: object, progress: object) -> int:
