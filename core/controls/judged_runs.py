@@ -18,6 +18,7 @@ from core.controls.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.moves_above import divided, free_heights
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
@@ -66,7 +67,8 @@ class Judged:
     `lead_gouges` what is cut of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
-    too shallow for a digit of the program's unit, and are not in the verdict.
+    too shallow for a digit of the program's unit, and are not in the verdict.  `above`: height and lines of moves
+    above the contour that are not judged.
     """
 
     stretch: Stretch
@@ -81,6 +83,7 @@ class Judged:
     open_lines: frozenset[float] = frozenset()
     uneven: ToleratedArc | None = None
     unseen_gouges: int = 0
+    above: tuple[float, tuple[int, ...]] | None = None
 
 
 def smallest_gouge(unit: Unit) -> float:
@@ -96,10 +99,10 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     """
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
-    least, results = smallest_gouge(run.unit), list[Judged]()
+    least, results, free = smallest_gouge(run.unit), list[Judged](), free_heights(run)
     for done, stretch in enumerate(run.stretches):
         progress(done / len(run.stretches))
-        results += [_seen(result, least) for result in _judge_stretch(run, stretch)]
+        results += [_seen(result, least) for result in _judge_pieces(run, stretch, float(free[stretch.last - 1]))]
     return tuple(results)
 
 
@@ -118,6 +121,69 @@ def programmed_surface(stretch: Stretch) -> Path:
     """What is programmed between the moves that lead in and out."""
     programmed = stretch.programmed
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
+
+
+def _judge_pieces(run: ControlRun, stretch: Stretch, free: float) -> list[Judged]:
+    """The verdicts on a stretch without its moves above; on each of its pieces with what it cuts of the others."""
+    parted = divided(run.moves, stretch, free)
+    judged = [_judge_stretch(run, piece) for piece in parted.pieces]
+    contours = {_shape(result.surface): result.surface for results in judged for result in results}
+    unjudged: list[Judged] = []
+    for results in judged if len(judged) > 1 else ():
+        own = {_shape(result.surface) for result in results}
+        others = [contour for shape, contour in contours.items() if shape not in own]
+        more, unknown, slack = _cuts_of(run, stretch, results[0].center, others)
+        results[0] = _with_gouges(results[0], more, slack, (*others, results[0].center))
+        unjudged += unknown
+    results = _with_unjudged([result for results in judged for result in results], unjudged)
+    over = set(parted.links)
+    for moves in parted.above:
+        more, _, _ = _cuts_of(run, stretch, moves.path(), list(contours.values()))
+        over.update(int(gouge.path_number) for gouge in more)
+    if over:
+        results[0] = replace(results[0], above=(parted.height, tuple(sorted(over))))
+    return results
+
+
+def _cuts_of(
+    run: ControlRun, part: Stretch, center: Path, contours: Sequence[Path]
+) -> tuple[list[Gouge], list[Judged], float]:
+    """What a path cuts of contours, those of them that cannot be judged, and the tolerance that uneven arcs add."""
+    gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
+    for contour in contours:
+        if not len(contour) or not len(center) or not _near(contour, center, part.radius):
+            continue
+        verdict = judge(contour, part.side, part.radius, center, _accepted_difference(run, contour, center))
+        if verdict.judged:
+            gouges += verdict.gouges
+            slack = max(slack, verdict.radius_slack)
+        else:
+            unjudged.append(Judged(part, contour, center, verdict, frozenset()))
+    return gouges, unjudged, slack
+
+
+def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Sequence[Path]) -> Judged:
+    """With these gouges too, and with the uneven arc of these paths where it raised the tolerance more than others."""
+    if not result.verdict.judged:
+        return result
+    gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
+    if slack > (result.uneven.slack if result.uneven else 0.0):
+        result = replace(result, uneven=_most_uneven(slack, *paths))
+    return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
+
+
+def _near(contour: Path, center: Path, radius: float) -> bool:
+    """Whether a path comes near enough to a contour to cut it, by their boxes."""
+    (low, high), (lowest, highest) = (
+        (path.boxes[:2].min(axis=1), path.boxes[2:].max(axis=1)) for path in (contour, center)
+    )
+    return bool((low <= highest + radius).all() and (lowest <= high + radius).all())
+
+
+def _shape(path: Path) -> tuple[bytes, ...]:
+    """The same for paths that are the same to GOUGE, whatever their lines."""
+    grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
+    return (*(grid.tobytes() for grid in grids), path.turns.tobytes())
 
 
 def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
@@ -179,12 +245,7 @@ def _with_other_parts(
         slack = max(slack, verdict.radius_slack)
         others = [gouge for gouge in verdict.gouges if not rows[0] <= gouge.surface_number < rows[1]]
         more += (replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)])) for gouge in others)
-    if not result.verdict.judged:
-        return result, unjudged
-    gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
-    if slack > (result.uneven.slack if result.uneven else 0.0):
-        result = replace(result, uneven=_most_uneven(slack, whole, result.center))
-    return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges))), unjudged
+    return _with_gouges(result, more, slack, (whole, result.center)), unjudged
 
 
 def _numbered(verdict: Verdict, surface: Path) -> Verdict:
@@ -269,6 +330,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
         for result in results
         for finding in (
             *_by_itself(result),
+            *_above(result),
             *_uneven_arc(uneven.get(result)),
             *_cuts(result),
             *_open_contour(result, gouged),
@@ -318,6 +380,17 @@ def _by_itself(result: Judged) -> list[Finding]:
         return []
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
+
+
+def _above(result: Judged) -> list[Finding]:
+    """That moves above the contour are not judged."""
+    if result.above is None:
+        return []
+    height, lines = result.above
+    listed = f"{', '.join(map(str, lines[:MAX_LINES]))}{' ...' if len(lines) > MAX_LINES else ''}"
+    which = f"line {listed}" if len(lines) == 1 else f"lines {listed}"
+    text = f"Moves at Z {{0}} or higher ({which}) count as above the part. Check that they clear it."
+    return [Finding("ABOVE", Severity.INFO, text, lengths=(height,), line=lines[0])]
 
 
 def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:

@@ -128,7 +128,7 @@ class Recorder:
             center = solid(*element.center, element.end_height, self.plane)
             tape.arc(target, center, element.turn, self.plane, element.feed, element.line)
         else:
-            tape.straight(target, element.feed, element.line)
+            tape.straight(target, element.feed, element.line, rapid=element.rapid)
 
     def leave(self) -> None:
         """Compensation is canceled: the next motion in the plane still belongs to the stretch."""

@@ -1,0 +1,156 @@
+"""Moves above the part: rapids and leads as high as the tool was before it went down cut nothing and are no contour."""
+
+from __future__ import annotations
+
+from math import dist
+
+import pytest
+
+from core.controls.control_run import ControlRun
+from core.controls.judged_runs import judge_run, judged_findings
+from core.finding import Finding, Severity
+from core.units import sentence
+from tests.core.controls.hand import ran
+
+ISO = ["fanuc:a", "fanuc:b-arc", "haas:a", "linuxcnc", "rosettacnc:normal"]
+RADIUS = 6.0
+HEAD = "G21 G17 G90 G40\nT1 M6\nS1000 M3\n"
+SQUARE = "G1 Y50.\nX50.\nY0.\nX-10.\n"
+"""Around the outside, from below its corner X0 Y0 to left of it."""
+
+
+def judged(text: str, control: str, *, head: str = HEAD) -> tuple[ControlRun, list[Finding]]:
+    """The run of a program with a tool of 12 mm, and what is found on its stretches."""
+    run = ran(f"{head}{text}M30\n", control, t1=2 * RADIUS)
+    assert run.stopped_at is None, run.findings
+    return run, list(judged_findings(judge_run(run)))
+
+
+def codes(findings: list[Finding]) -> list[str]:
+    """The codes of warnings and errors."""
+    return [finding.code for finding in findings if finding.severity is not Severity.INFO]
+
+
+def above(findings: list[Finding]) -> list[Finding]:
+    """What is told of moves above the part."""
+    return [finding for finding in findings if finding.code == "ABOVE"]
+
+
+def in_and_out(way_in: str, way_out: str, *, up: str = "10.") -> str:
+    """The square with other ways in and out."""
+    return f"{way_in}{SQUARE}G0 Z{up}\n{way_out}"
+
+
+AT_DEPTH = "G0 X-20. Y-20.\nG43 H1 Z10.\nG1 Z-2. F200\nG41 D1 G1 X0. Y-10.\n"
+IN_THE_AIR = "G0 X25. Y25.\nG43 H1 Z50.\nZ10.\nG41 D1 G0 X0. Y-10.\nG1 Z-2. F200\n"
+OUTWARD = "G40 G0 X-30. Y-20.\n"
+ACROSS = "G40 G0 X25. Y25.\n"
+
+
+@pytest.mark.parametrize("control", ISO)
+@pytest.mark.parametrize(
+    ("program", "line"),
+    [
+        (in_and_out(AT_DEPTH, OUTWARD), None),
+        (in_and_out(AT_DEPTH, ACROSS), 13),
+        (in_and_out(AT_DEPTH, ACROSS.replace("G0", "G1")), 13),
+        (in_and_out(IN_THE_AIR, OUTWARD), 7),
+        (in_and_out(IN_THE_AIR.replace("D1 G0", "D1 F200 G1"), OUTWARD), 7),
+    ],
+)
+def test_a_lead_above_the_part_cuts_nothing_and_is_told_where_it_passes_over_it(
+    program: str, line: int | None, control: str
+) -> None:
+    _, findings = judged(program, control)
+    assert not codes(findings)
+    told = above(findings)
+    assert [finding.line for finding in told] == ([line] if line else [])
+    if line:
+        text = f"Moves at Z 10.000 or higher (line {line}) count as above the part. Check that they clear it."
+        assert sentence(told[0], ran(HEAD, control).unit) == text
+
+
+@pytest.mark.parametrize("control", ISO)
+@pytest.mark.parametrize("up", ["-1.", "0.", "9.99"])
+def test_a_lead_lower_than_the_tool_was_before_it_went_down_gouges(up: str, control: str) -> None:
+    _, findings = judged(in_and_out(AT_DEPTH, ACROSS, up=up), control)
+    assert "GOUGE" in codes(findings)
+    assert not above(findings)
+
+
+@pytest.mark.parametrize("control", ISO)
+def test_a_lead_at_the_depth_of_an_earlier_contour_gouges(control: str) -> None:
+    first = f"{AT_DEPTH}{SQUARE}G40 G1 X-30. Y-20.\n"
+    second = f"G41 D1 X0. Y-10.\nZ-4.\n{SQUARE}G0 Z-2.\n{ACROSS}"
+    _, findings = judged(first + second, control)
+    assert "GOUGE" in codes(findings)
+
+
+def between(x: float, link: str = "G0 Z10.\nX-20. Y25.\nX170.\nY-10.\n") -> str:
+    """The square and one to its right at `x`, with compensation on from one to the other."""
+    first = f"{AT_DEPTH}G1 Y50.\nX50.\nY0.\nX-20.\n"
+    second = f"G1 Z-2.\nX{x}\nY50.\nX{x + 50}\nY-20.\nG0 Z10.\n"
+    return f"{first}{link}G1 X{x + 50}\n{second}{OUTWARD}"
+
+
+@pytest.mark.parametrize("control", ISO)
+def test_a_rapid_above_from_one_contour_to_the_next_is_no_contour(control: str) -> None:
+    _, findings = judged(between(100.0), control)
+    assert not codes(findings)
+    (told,) = above(findings)
+    assert "(lines 13, 14, 15, 16)" in told.text
+
+
+@pytest.mark.parametrize("control", ISO)
+@pytest.mark.parametrize("x", [62.5, 61.5, 55.0])
+def test_a_contour_that_cuts_into_one_before_the_rapid_gouges_it(x: float, control: str) -> None:
+    _, findings = judged(between(x), control)
+    cut = [finding for finding in findings if finding.code == "GOUGE"]
+    # by hand: the center runs a radius left of the wall at x, and must stay a radius away from the wall at 50
+    missing = 2 * RADIUS - (x - 50.0)
+    assert bool(cut) is (missing > 0.0)
+    if cut:
+        assert max(finding.value or 0.0 for finding in cut) == pytest.approx(missing, abs=1e-6)
+
+
+@pytest.mark.parametrize("control", ISO)
+def test_depths_with_a_rapid_back_under_compensation_are_clean(control: str) -> None:
+    back = "G0 Z10.\nX-20. Y-20.\nX0. Y-10.\n"
+    passes = "".join(f"{back}G1 Z-{depth}.\n{SQUARE}" for depth in (4, 6))
+    _, findings = judged(f"{AT_DEPTH}{SQUARE}{passes}G0 Z10.\n{OUTWARD}", control)
+    assert not codes(findings)
+
+
+@pytest.mark.parametrize(
+    ("link", "told"), [("G0 X-20. Y25.\nX170.\nY-10.\n", [22]), ("G0 Z10.\nG1 X-20. Y25.\nX170.\nY-10.\n", [])]
+)
+def test_what_may_be_a_contour_stays_one(link: str, told: list[int]) -> None:
+    """A rapid at the depth of the cut, over which only the exit passes; and feed moves above without a rapid."""
+    _, findings = judged(between(100.0, link), "fanuc:a")
+    assert "GOUGE" in codes(findings)
+    assert [finding.line for finding in above(findings)] == told
+
+
+@pytest.mark.parametrize("control", ISO)
+@pytest.mark.parametrize(("y", "wrong"), [("-30.", []), ("-10.", ["GOUGE"])])
+def test_a_piece_that_is_only_an_entry_is_judged_against_the_contour_behind_it(
+    y: str, wrong: list[str], control: str
+) -> None:
+    """By hand: an entry to X0 Y-10 leaves the center at X-2.7 Y-4.6, 5.4 from the corner X0 Y0."""
+    around = "G0 Z10.\nX40. Y-40.\nY-60.\nX-60.\nY-5.\nX80.\nY-10.\nX0.\n"
+    entry = AT_DEPTH.replace("Y-10.", f"Y{y}")
+    _, findings = judged(f"{entry}{around}G1 Z-2.\n{SQUARE}G0 Z10.\n{OUTWARD}", control)
+    assert codes(findings) == wrong
+
+
+def test_klartext_leads_above_the_part_cut_nothing() -> None:
+    program = (
+        "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DR+0\nL X-20 Y-20 R0 FMAX\nL Z+10 R0 FMAX\nL Z-2 R0 F200\n"
+        "L X+0 Y-10 RL F200\nL Y+50\nL X+50\nL Y+0\nL X-10\nL Z+10 FMAX\nL X+25 Y+25 R0 FMAX\nEND PGM A MM\n"
+    )
+    run = ran(program, "heidenhain", t1=2 * RADIUS)
+    assert run.stopped_at is None
+    findings = list(judged_findings(judge_run(run)))
+    assert not codes(findings)
+    assert [finding.line for finding in above(findings)] == [12]
+    assert dist(run.moves.points[-1].tolist(), (25.0, 25.0, 10.0)) < 1e-9
