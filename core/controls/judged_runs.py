@@ -18,11 +18,13 @@ from core.controls.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.moves_above import divided, free_heights
+from core.controls.moves import Moves
+from core.controls.moves_above import Heights, divided
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
-from core.geometry.path import Path, joined
+from core.geometry.nearby import BoxTree, near_pairs
+from core.geometry.path import Path, Rows, joined
 from core.progress import Progress, silent
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
@@ -36,6 +38,8 @@ MAX_GOUGES: Final = 20
 
 MAX_LINES: Final = 6
 """Lines that a finding of several places names."""
+
+Shape = tuple[bytes, ...]
 
 LIMIT_RULE: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
@@ -57,6 +61,16 @@ class ToleratedArc:
     slack: float
 
 
+@dataclass(frozen=True, slots=True)
+class PassedOver:
+    """Moves above the part that pass over it: their lowest place, their lines, and whether any is lower than where the
+    tool came down from."""
+
+    height: float
+    lines: tuple[int, ...]
+    lower: bool
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Judged:
     """A compensated stretch, the surface it cuts, the center path with its leads, and the verdict on them.
@@ -67,8 +81,8 @@ class Judged:
     `lead_gouges` what is cut of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
-    too shallow for a digit of the program's unit, and are not in the verdict.  `above`: height and lines of moves
-    above the contour that are not judged.
+    too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
+    are not judged.
     """
 
     stretch: Stretch
@@ -83,7 +97,27 @@ class Judged:
     open_lines: frozenset[float] = frozenset()
     uneven: ToleratedArc | None = None
     unseen_gouges: int = 0
-    above: tuple[float, tuple[int, ...]] | None = None
+    above: PassedOver | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Contours:
+    """Contours of which only those near a path are judged; `owners`: which one each box of a piece belongs to."""
+
+    paths: list[Path]
+    pieces: BoxTree
+    owners: Rows
+
+    @staticmethod
+    def of(paths: list[Path]) -> Contours:
+        """These contours; at least one."""
+        boxes = np.concatenate([path.boxes for path in paths], axis=1)
+        return Contours(paths, BoxTree.of(boxes), np.repeat(np.arange(len(paths)), [len(path) for path in paths]))
+
+    def near(self, center: Path, radius: float) -> list[Path]:
+        """The contours that the cutter may reach along a path."""
+        found = [np.unique(self.owners[pieces]) for _, pieces in near_pairs(center.boxes, self.pieces, radius)]
+        return [self.paths[row] for row in np.unique(np.concatenate(found)).tolist()] if found else []
 
 
 def smallest_gouge(unit: Unit) -> float:
@@ -99,10 +133,10 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     """
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
-    least, results, free = smallest_gouge(run.unit), list[Judged](), free_heights(run)
+    least, results, heights = smallest_gouge(run.unit), list[Judged](), Heights.of(run)
     for done, stretch in enumerate(run.stretches):
         progress(done / len(run.stretches))
-        results += [_seen(result, least) for result in _judge_pieces(run, stretch, float(free[stretch.last - 1]))]
+        results += [_seen(result, least) for result in _judge_pieces(run, stretch, heights)]
     return tuple(results)
 
 
@@ -123,26 +157,43 @@ def programmed_surface(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _judge_pieces(run: ControlRun, stretch: Stretch, free: float) -> list[Judged]:
+def _judge_pieces(run: ControlRun, stretch: Stretch, heights: Heights) -> list[Judged]:
     """The verdicts on a stretch without its moves above; on each of its pieces with what it cuts of the others."""
-    parted = divided(run.moves, stretch, free)
+    parted = divided(run.moves, stretch, heights.above(stretch.last - 1))
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
-    contours = {_shape(result.surface): result.surface for results in judged for result in results}
+    if not parted.links and not parted.leads:
+        return judged[0]
+    surfaces = {_shape(result.surface): result.surface for results in judged for result in results}
+    contours = Contours.of(list(surfaces.values()))
     unjudged: list[Judged] = []
-    for results in judged if len(judged) > 1 else ():
-        own = {_shape(result.surface) for result in results}
-        others = [contour for shape, contour in contours.items() if shape not in own]
-        more, unknown, slack = _cuts_of(run, stretch, results[0].center, others)
-        results[0] = _with_gouges(results[0], more, slack, (*others, results[0].center))
+    for results in judged:
+        own, center = {_shape(result.surface) for result in results}, results[0].center
+        near = contours.near(center, stretch.radius)
+        others = [contour for contour in near if _shape(contour) not in own]
+        more, unknown, slack = _cuts_of(run, stretch, center, others)
+        results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
     results = _with_unjudged([result for results in judged for result in results], unjudged)
-    over = set(parted.links)
-    for moves in parted.above:
-        more, _, _ = _cuts_of(run, stretch, moves.path(), list(contours.values()))
-        over.update(int(gouge.path_number) for gouge in more)
+    leads = [_over_contours(run, stretch, lead, contours) for lead in parted.leads]
+    over = [moves for moves in (*parted.links, *leads) if len(moves) > 1]
     if over:
-        results[0] = replace(results[0], above=(parted.height, tuple(sorted(over))))
+        approach = float(heights.approach[stretch.last - 1])
+        results[0] = replace(results[0], above=_passed_over(over, approach))
     return results
+
+
+def _over_contours(run: ControlRun, part: Stretch, lead: Moves, contours: Contours) -> Moves:
+    """The lead where it would cut contours, were it as low as they are; else no moves."""
+    path = lead.path()
+    cuts, _, _ = _cuts_of(run, part, path, contours.near(path, part.radius))
+    return lead if cuts else lead.part(0, 0)
+
+
+def _passed_over(over: Sequence[Moves], approach: float) -> PassedOver:
+    """The moves above by their height and lines; `approach` is where the tool came from to cut."""
+    lowest = min(float(moves.points[:, 2].min()) for moves in over)
+    lines = sorted({line for moves in over for line in moves.lines[1:].tolist()})
+    return PassedOver(lowest, tuple(lines), lower=lowest < approach - ON_PATH or approach == -np.inf)
 
 
 def _cuts_of(
@@ -151,8 +202,6 @@ def _cuts_of(
     """What a path cuts of contours, those of them that cannot be judged, and the tolerance that uneven arcs add."""
     gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for contour in contours:
-        if not len(contour) or not len(center) or not _near(contour, center, part.radius):
-            continue
         verdict = judge(contour, part.side, part.radius, center, _accepted_difference(run, contour, center))
         if verdict.judged:
             gouges += verdict.gouges
@@ -172,15 +221,7 @@ def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Seq
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
 
 
-def _near(contour: Path, center: Path, radius: float) -> bool:
-    """Whether a path comes near enough to a contour to cut it, by their boxes."""
-    (low, high), (lowest, highest) = (
-        (path.boxes[:2].min(axis=1), path.boxes[2:].max(axis=1)) for path in (contour, center)
-    )
-    return bool((low <= highest + radius).all() and (lowest <= high + radius).all())
-
-
-def _shape(path: Path) -> tuple[bytes, ...]:
+def _shape(path: Path) -> Shape:
     """The same for paths that are the same to GOUGE, whatever their lines."""
     grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
     return (*(grid.tobytes() for grid in grids), path.turns.tobytes())
@@ -383,14 +424,15 @@ def _by_itself(result: Judged) -> list[Finding]:
 
 
 def _above(result: Judged) -> list[Finding]:
-    """That moves above the contour are not judged."""
-    if result.above is None:
+    """That moves above the part pass over it and are not judged; a warning where they may be too low."""
+    above = result.above
+    if above is None:
         return []
-    height, lines = result.above
-    listed = f"{', '.join(map(str, lines[:MAX_LINES]))}{' ...' if len(lines) > MAX_LINES else ''}"
-    which = f"line {listed}" if len(lines) == 1 else f"lines {listed}"
-    text = f"Moves at Z {{0}} or higher ({which}) count as above the part. Check that they clear it."
-    return [Finding("ABOVE", Severity.INFO, text, lengths=(height,), line=lines[0])]
+    listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
+    which = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
+    text = f"The tool passes over the part at Z {{0}} or higher ({which}). Check that it clears part and clamps."
+    severity = Severity.WARNING if above.lower else Severity.INFO
+    return [Finding("ABOVE", severity, text, lengths=(above.height,), line=above.lines[0])]
 
 
 def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:

@@ -1,7 +1,8 @@
 """Moves above: what a compensated stretch runs higher than it cuts, such as a rapid from one contour to the next.
 
 Nothing in a program says how high a part is.  A move counts as above it when it is as high as the tool was whenever it
-went down to cut.  Such a move cuts nothing, and a rapid there is no contour.
+went down to cut, or higher than all cuts so far and not below zero, where the top of a part usually is.  Such a move
+cuts nothing, and a rapid there is no contour.
 """
 
 from __future__ import annotations
@@ -29,35 +30,53 @@ Z: Final = 2
 class Divided:
     """A stretch in the pieces between its moves above.
 
-    `above`: of the moves the control makes those that run above, each row with the one before it as its start.
-    `links`: the lines of those from one piece to the next, which are not judged as contour either.  `height`: from
-    which on a move is above.
+    Of the moves the control makes `links` are those that run above from one piece to the next, and are not judged as
+    contour either; `leads` those above before the first piece and behind the last one.  Each has the move before it as
+    its start.
     """
 
     pieces: tuple[Stretch, ...]
-    above: tuple[Moves, ...] = ()
-    links: tuple[int, ...] = ()
-    height: float = inf
+    links: tuple[Moves, ...] = ()
+    leads: tuple[Moves, ...] = ()
 
 
-def free_heights(run: ControlRun) -> Floats:
-    """(n,) for each of the run's moves the highest height from which the tool went straight down to cut until then.
+@dataclass(frozen=True, eq=False, slots=True)
+class Heights:
+    """For each of a run's moves what was so far; (n,), -inf before the first cut.
 
-    Of a way down in several moves the last feed moves count: a rapid brings the tool near.  Every feed move in the
-    plane cuts, except the leads of compensated stretches.  -inf before the first one.
+    `approach`: the highest place from which the tool went straight down to cut; of a way down in several moves the last
+    feed moves count, since a rapid brings the tool near.  `cut`: the highest place of a cut.  Every feed move in the
+    plane cuts, except the leads of compensated stretches.
     """
-    moves = run.moves
-    heights, in_plane, falls = moves.points[:, Z], _in_plane(moves), np.zeros(len(moves), np.bool_)
-    falls[1:] = (heights[1:] < heights[:-1]) & ~in_plane[1:]
-    rows = np.flatnonzero(falls)
-    last, starts = [-1], [-inf]
-    for way in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
-        feeds = way[~moves.rapid[way]]
-        last.append(int(way[-1]))
-        starts.append(float(heights[(feeds if len(feeds) else way)[0] - 1]))
-    way_before = np.searchsorted(last, np.arange(len(moves))) - 1
-    cuts = in_plane & ~moves.rapid & ~_leads(run)
-    return np.maximum.accumulate(np.where(cuts, np.array(starts)[way_before], -inf))
+
+    approach: Floats
+    cut: Floats
+
+    @staticmethod
+    def of(run: ControlRun) -> Heights:
+        """Those of a run."""
+        moves = run.moves
+        heights, in_plane, falls = moves.points[:, Z], _in_plane(moves), np.zeros(len(moves), np.bool_)
+        falls[1:] = (heights[1:] < heights[:-1]) & ~in_plane[1:]
+        rows = np.flatnonzero(falls)
+        last, starts = [-1], [-inf]
+        for way in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
+            feeds = way[~moves.rapid[way]]
+            last.append(int(way[-1]))
+            starts.append(float(heights[(feeds if len(feeds) else way)[0] - 1]))
+        way_before = np.searchsorted(last, np.arange(len(moves))) - 1
+        cuts = in_plane & ~moves.rapid & ~_leads(run)
+        reached = np.maximum(heights, np.concatenate((heights[:1], heights[:-1])))
+        return Heights(
+            np.maximum.accumulate(np.where(cuts, np.array(starts)[way_before], -inf)),
+            np.maximum.accumulate(np.where(cuts, reached, -inf)),
+        )
+
+    def above(self, row: int) -> float:
+        """The height from which on a move is above the part, up to a row."""
+        approach, cut = float(self.approach[row]), float(self.cut[row])
+        over_cuts = max(cut + 2.0 * ON_PATH, 0.0)
+        return min(approach - ON_PATH, over_cuts) if approach > -inf else over_cuts
 
 
 def _leads(run: ControlRun) -> Flags:
@@ -70,21 +89,20 @@ def _leads(run: ControlRun) -> Flags:
     return rows
 
 
-def divided(moves: Moves, stretch: Stretch, free: float) -> Divided:
-    """The stretch without what it runs at the height `free` or higher; whole where nothing does or may be a contour."""
+def divided(moves: Moves, stretch: Stretch, height: float) -> Divided:
+    """The stretch without what it runs at this height or higher; whole where nothing does or may be a contour."""
     whole = Divided((stretch,))
     if stretch.plane is not Plane.XY or stretch.changes:
         return whole
     programmed, made = stretch.programmed, moves.part(stretch.first, stretch.last)
-    height = free - ON_PATH if free > -inf else inf
     high = _at_least(programmed, height)
     if _cuts_above(stretch, high):
         return whole
     contours, paths = _between(programmed, high), _between(made, _at_least(made, height))
-    links = [_lines(programmed, last, first) for (_, last), (first, _) in pairwise(contours)]
+    linked = [_lines(programmed, last, first) for (_, last), (first, _) in pairwise(contours)]
     if not paths or len(contours) != len(paths):
         return whole
-    if links != [_lines(made, last, first) for (_, last), (first, _) in pairwise(paths)]:
+    if linked != [_lines(made, last, first) for (_, last), (first, _) in pairwise(paths)]:
         return whole
     last_surface = len(programmed) - 1 - stretch.exit
     pieces = tuple(
@@ -98,20 +116,16 @@ def divided(moves: Moves, stretch: Stretch, free: float) -> Divided:
         )
         for (first, last), (begin, end) in zip(contours, paths, strict=True)
     )
-    ends = [0, *(row for path in paths for row in path), len(made) - 1]
-    gaps = [(first, last) for first, last in zip(ends[::2], ends[1::2], strict=True) if last > first]
-    above = tuple(made.part(first, last + 1) for first, last in gaps)
-    above = tuple(part for part in above if _in_plane(part).any())
-    if not above:
-        return whole
-    return Divided(pieces, above, tuple(sorted({line for lines in links for line in lines})), height)
+    links = tuple(made.part(last, first + 1) for (_, last), (first, _) in pairwise(paths))
+    leads = (made.part(0, paths[0][0] + 1), made.part(paths[-1][1], len(made)))
+    return Divided(pieces, links, tuple(lead for lead in leads if _in_plane(lead).any()))
 
 
 def _in_plane(moves: Moves) -> Flags:
     """(n,) rows that move in the plane XY."""
     moving: Flags = moves.turns != 0
     moving[1:] |= np.any(moves.points[1:, :Z] != moves.points[:-1, :Z], axis=1)
-    moving[0] = False
+    moving[:1] = False
     return moving
 
 

@@ -9,7 +9,7 @@ import pytest
 from core.controls.control_run import ControlRun
 from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Finding, Severity
-from core.units import sentence
+from core.units import Unit, sentence
 from tests.core.controls.hand import ran
 
 ISO = ["fanuc:a", "fanuc:b-arc", "haas:a", "linuxcnc", "rosettacnc:normal"]
@@ -66,16 +66,38 @@ def test_a_lead_above_the_part_cuts_nothing_and_is_told_where_it_passes_over_it(
     told = above(findings)
     assert [finding.line for finding in told] == ([line] if line else [])
     if line:
-        text = f"Moves at Z 10.000 or higher (line {line}) count as above the part. Check that they clear it."
-        assert sentence(told[0], ran(HEAD, control).unit) == text
+        text = (
+            f"The tool passes over the part at Z 10.000 or higher (line {line}). Check that it clears part and clamps."
+        )
+        assert sentence(told[0], Unit.MM) == text
 
 
 @pytest.mark.parametrize("control", ISO)
-@pytest.mark.parametrize("up", ["-1.", "0.", "9.99"])
-def test_a_lead_lower_than_the_tool_was_before_it_went_down_gouges(up: str, control: str) -> None:
-    _, findings = judged(in_and_out(AT_DEPTH, ACROSS, up=up), control)
+def test_a_lead_below_zero_and_below_where_the_tool_came_from_gouges(control: str) -> None:
+    _, findings = judged(in_and_out(AT_DEPTH, ACROSS, up="-1."), control)
     assert "GOUGE" in codes(findings)
     assert not above(findings)
+
+
+@pytest.mark.parametrize("control", ISO)
+@pytest.mark.parametrize(
+    "way_in", [AT_DEPTH, AT_DEPTH.replace("Z10.", "Z50."), AT_DEPTH.replace("G1 Z-2. F200", "G0 Z-2.\nF200")]
+)
+@pytest.mark.parametrize("up", ["0.", "9.99"])
+def test_a_lead_over_all_cuts_but_lower_than_the_tool_came_from_is_a_warning(
+    up: str, way_in: str, control: str
+) -> None:
+    _, findings = judged(in_and_out(way_in, ACROSS, up=up), control)
+    assert codes(findings) == ["ABOVE"]
+    assert f"Z {float(up):.3f} or higher" in sentence(above(findings)[0], Unit.MM)
+
+
+@pytest.mark.parametrize("control", ISO)
+def test_a_lead_lower_than_another_contour_was_cut_gouges(control: str) -> None:
+    high = AT_DEPTH.replace("Z10.", "Z30.").replace("Z-2.", "Z20.")
+    low = f"G0 Z30.\nX-20. Y-20.\nG1 Z-2.\nG41 D1 X0. Y-10.\n{SQUARE}"
+    _, findings = judged(f"{high}{SQUARE}G40 G1 X-30. Y-20.\n{low}G0 Z10.\n{ACROSS}", control)
+    assert "GOUGE" in codes(findings)
 
 
 @pytest.mark.parametrize("control", ISO)
