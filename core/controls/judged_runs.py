@@ -18,7 +18,7 @@ from core.controls.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.moves import Moves
+from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Heights, divided
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
@@ -367,7 +367,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
     return _unseen(results) + tuple(
-        finding
+        _with_axes(finding, result.stretch.plane)
         for result in results
         for finding in (
             *_by_itself(result),
@@ -381,6 +381,12 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
             *_crossing(result),
         )
     )
+
+
+def _with_axes(finding: Finding, plane: Plane) -> Finding:
+    """The finding with the names of a plane's axes."""
+    first, second, _ = ("XYZ"[axis] for axis in plane.axes)
+    return replace(finding, text=finding.text.replace("X {x} Y {y}", f"{first} {{x}} {second} {{y}}"))
 
 
 def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:

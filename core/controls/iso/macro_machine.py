@@ -475,17 +475,21 @@ class MacroMachine(Machine):
         if kind in (1, 10, 11) and not offsets.separate:
             wear = kind == 11 and number in offsets.radii
             memories.append(offsets.radius_wear if wear else offsets.radii)
+        before = self._geometry_radius(number) or 0.0
         for memory in memories:
-            memory[number] = value + (memory.get(number, 0.0) if add else 0.0)
+            known = memory.get(number, before if memory is offsets.radii else 0.0)
+            memory[number] = value + (known if add else 0.0)
 
     def offset_radius(self, number: int) -> float | None:
         """The radius under a D in millimeters, wear included; None where neither program nor table has it."""
-        radius = self.offsets.radii.get(number)
-        if radius is None:
-            tool = self.tools.get(number)
-            radius = None if tool is None else tool.diameter_mm(self.unit) / 2
+        radius = self._geometry_radius(number)
         wear = self.offsets.radius_wear.get(number, 0.0)
         return wear if radius is None and wear else None if radius is None else radius + wear
+
+    def _geometry_radius(self, number: int) -> float | None:
+        """The radius under a D without its wear: the program's, else that of the tool in the table."""
+        radius, tool = self.offsets.radii.get(number), self.tools.get(number)
+        return tool.diameter_mm(self.unit) / 2 if radius is None and tool is not None else radius
 
     # variables
 

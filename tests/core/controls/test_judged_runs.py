@@ -323,3 +323,20 @@ def test_a_full_circle_between_tangent_arcs_is_cut_all_around(control: str, size
     (result,) = judge_run(done)
     assert result.verdict.uncut_length == pytest.approx(0.0, abs=1e-6)
     assert not result.verdict.gouges
+
+
+@pytest.mark.parametrize(
+    ("load", "radius"), [("G91 L12 P1 R.2", 5.2), ("G90 L12 P1 R.2", 0.2), ("G91 L13 P1 R.2", 5.2)]
+)
+def test_a_radius_that_is_added_to_counts_from_that_of_the_tool(load: str, radius: float) -> None:
+    done = ran(
+        f"G21 G17 G90 F300\nT1 M6\nG0 Y-20.\nG10 {load}\nG90\nG41 D1 X10.\nY50.\nG40 X0.\nM30\n", "fanuc:a", t1=10.0
+    )
+    assert [stretch.radius for stretch in done.stretches] == [pytest.approx(radius)]
+
+
+def test_a_place_in_another_plane_has_the_names_of_its_axes() -> None:
+    program = "G21 G18 G90 F100\nT1 M6\nG0 X-20. Z-20.\nG42 D1\nG1 X0. Z0.\nZ50.\nX.5\nZ52.\nX30.\nG40 Z60.\nM30\n"
+    cut = [finding for finding in judged_findings(judge_run(ran(program, "fanuc:a", t1=12.0))) if finding.at]
+    assert cut
+    assert all("at Z {x} X {y}" in finding.text for finding in cut)
