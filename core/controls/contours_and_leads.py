@@ -130,13 +130,21 @@ def _longest(places: list[tuple[float, float]]) -> RowRange | None:
 
 def _between_blends(path: Path, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
     """The closed run inside a closed one that starts and ends with one arc of a quarter turn at most, in line with it:
-    around a square corner both arcs of a blend may begin and end at one point."""
+    around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be half a turn."""
     begin, end = rows[0] + 1, rows[1] - 1
     if begin >= end or places[begin] != places[end] or not _encloses(path, (begin, end)):
         return rows
-    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= pi / 2 + BLEND for row in (begin - 1, end))
+    largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
+    arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + BLEND for row in (begin - 1, end))
     tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
     return (begin, end) if arcs and tangent else rows
+
+
+def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool:
+    """Whether rows are one circle, and arcs that touch it lie inside of it."""
+    turns, centers, radii = (values[slice(*rows)] for values in (path.turns, path.centers, path.radii))
+    circle = bool(turns[0] and (turns == turns[0]).all() and np.abs(centers - centers[0]).max() <= CLOSED)
+    return circle and all(path.turns[arc] == turns[0] and path.radii[arc] < radii[0] for arc in arcs)
 
 
 def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:

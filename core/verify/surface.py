@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -18,6 +19,10 @@ from core.verify.wrong_side import on_part_side, sided
 
 LONG_LEAD: Final = 0.25
 """Share of its segment from which on a lead may be a wall all the same, with START or the last end mistyped."""
+
+
+IN_LINE: Final = 1e-3
+"""Radians between the directions of lines that are one straight line with rounded points."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -79,7 +84,8 @@ def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
 
 def _crossing_of_ends(surface: Surface, *, lead_arcs: bool) -> tuple[Point, float, float] | None:
     """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled
-    there; with `lead_arcs` the elements next to an arc at an end may cross too."""
+    there; lines that continue each other are one element.  With `lead_arcs` the elements next to an arc at an end may
+    cross too."""
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
         # ends that are one point within CLOSED may run past each other all the same
@@ -89,11 +95,21 @@ def _crossing_of_ends(surface: Surface, *, lead_arcs: bool) -> tuple[Point, floa
     if not len(points) or len(walls) < 3:
         return None
     arc_in, arc_out = (int(lead_arcs and bool(walls.arcs[end])) for end in (0, -1))
-    at_ends = places[:, 0] <= walls.stations[1 + arc_in] + JOINED
-    at_ends &= places[:, 1] >= walls.stations[-2 - arc_out] - JOINED
+    begin = _in_line(walls, range(arc_in, len(walls)))
+    end = _in_line(walls, range(len(walls) - 1 - arc_out, -1, -1))
+    at_ends = places[:, 0] <= walls.stations[begin + 1] + JOINED
+    at_ends &= places[:, 1] >= walls.stations[end] - JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
         return None
     return (points[0].real.item(), points[0].imag.item()), float(places[:, 0].min()), float(places[:, 1].max())
+
+
+def _in_line(walls: PieceArrays, rows: range) -> int:
+    """The last of these rows up to which all are one straight line, else the first."""
+    for near, far in pairwise(rows):
+        if walls.arcs[near] or walls.arcs[far] or abs(walls.unit[near] - walls.unit[far]) > IN_LINE:
+            return near
+    return rows[-1]
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

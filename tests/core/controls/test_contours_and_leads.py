@@ -74,6 +74,26 @@ BIG = (
 """A teardrop that starts at its sharp inside corner, with a loop at its round end."""
 
 
+BORE = (
+    "G21 G17 G90 F300\nG0 X0. Y0.\nT1 M6\n{side} D1 G1 X-10.\nG3 X20. I15.\n{circle}G3 X-10. I-15.\nG40 G1 X0.\nM30\n"
+)
+"""Half turns of 15 mm in and out at one point of a circle of 20 mm."""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
+@pytest.mark.parametrize("circle", ["I-20.\n", "G3 X-20. R20.\nX20. R20.\n"])
+def test_half_turns_that_lead_into_a_bore_and_out_at_one_point_are_leads(circle: str, control: str) -> None:
+    (result,) = judge_run(ran(BORE.format(side="G41", circle=circle), control, t1=10.0))
+    assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
+    assert len(result.leads) == 2
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
+def test_half_turns_through_a_boss_gouge_it(control: str) -> None:
+    (result,) = judge_run(ran(BORE.format(side="G42", circle="I-20.\n"), control, t1=10.0))
+    assert result.verdict.gouges
+
+
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a"])
 def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
     done = ran(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)

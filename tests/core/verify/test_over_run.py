@@ -23,10 +23,17 @@ CROSSING_AT_A_JOINT = {
     "no run-out": lines((-1, 0), (0, 0), *SQUARE, (0, 0)),
     "no run-in": lines((0, 0), *SQUARE, (0, 0), (0, 1)),
 }
+IN_SEVERAL_MOVES = {
+    "in and out": lines((-1, 0), (-0.5, 0), *SQUARE, (0, 0.5), (0, 0.8), (0, 1)),
+    "joint at the corner": lines((-1, 0), (-0.5, 0), (0, 0), *SQUARE, (0, 0), (0, 0.5), (0, 1)),
+    "rounded": lines((-1, 0.0001), (-0.5, 0), *SQUARE, (0, 0.5), (-0.0001, 1)),
+    "joints on the wall": lines((-1, 0), (0.5, 0), (1, 0), *SQUARE, (0, -1), (0, 1)),
+}
 OVER_RUNS = {
     "starts at the corner": lines((0, 0), *SQUARE, (0, 0.1)),
     "ends at the corner": lines((-0.1, 0), *SQUARE, (0, 0)),
     **CROSSING_AT_A_JOINT,
+    **IN_SEVERAL_MOVES,
 }
 Motion = Callable[[Path], Path]
 MOTIONS: dict[str, tuple[Motion, Side]] = {
@@ -90,7 +97,7 @@ def test_with_the_tool_inside_the_ends_are_walls(contour: str, motion: str) -> N
     [
         lines((-1, 0), (0, 0), *SQUARE, (0, 0.1), (-1, 0.1)),
         lines((-1, 0.1), (-1, 0), (0, 0), *SQUARE, (0, 0.1)),
-        lines((-1, 0), (-0.6, 0), (0, 0), *SQUARE, (-0.3, -1.5), (-0.3, 1)),
+        lines((-1, 0), (-0.6, 0.1), (0, 0), *SQUARE, (-0.3, -1.5), (-0.3, 1)),
         lines((-8, 0), (0, 0), *SQUARE, (0, 0.1)),
     ],
 )
