@@ -20,6 +20,7 @@ from core.controls.contours_and_leads import (
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Heights, divided
+from core.controls.rapids_at_depth import CutContour, RapidCut, highest_cut, rapids_through
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
@@ -82,7 +83,7 @@ class Judged:
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
-    are not judged.
+    are not judged.  `rapids`, of a run's first part: what rapids without compensation cut of all contours.
     """
 
     stretch: Stretch
@@ -98,6 +99,7 @@ class Judged:
     uneven: ToleratedArc | None = None
     unseen_gouges: int = 0
     above: PassedOver | None = None
+    rapids: tuple[RapidCut, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -137,7 +139,19 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     for done, stretch in enumerate(run.stretches):
         progress(done / len(run.stretches))
         results += [_seen(result, least) for result in _judge_pieces(run, stretch, heights)]
+    if results:
+        cuts = tuple(cut for cut in rapids_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
+        results[0] = replace(results[0], rapids=cuts)
     return tuple(results)
+
+
+def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour]:
+    return [
+        CutContour(
+            result.surface, result.stretch, highest_cut(result.stretch), _accepted_difference(run, result.surface)
+        )
+        for result in results
+    ]
 
 
 def _seen(result: Judged, least: float) -> Judged:
@@ -379,6 +393,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
             *_contact(result),
             *_uncut(result),
             *_crossing(result),
+            *_rapids(result),
         )
     )
 
@@ -427,6 +442,23 @@ def _by_itself(result: Judged) -> list[Finding]:
         return []
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
+
+
+def _rapids(result: Judged) -> list[Finding]:
+    """Rapids without compensation through a contour: a warning, for what stood there may be cut away by then."""
+    text = "This rapid at Z {{0}} cuts the contour of line {} at X {{x}} Y {{y}}. Raise the tool before it."
+    return [
+        Finding(
+            "RAPID",
+            Severity.WARNING,
+            text.format(int(cut.gouge.surface_number)),
+            at=cut.gouge.surface_at,
+            value=cut.gouge.depth,
+            lengths=(cut.height,),
+            line=_line(cut.gouge.path_number),
+        )
+        for cut in result.rapids
+    ]
 
 
 def _above(result: Judged) -> list[Finding]:

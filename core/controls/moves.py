@@ -17,7 +17,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import EMPTY, Flags, Floats, Path
 
 Point3 = tuple[float, float, float]
 
@@ -111,6 +111,14 @@ class Moves:
             self.feeds[rows],
             self.lines[rows],
         )
+
+    def moving_in(self, plane: Plane) -> Flags:
+        """(n,) the rows that move in a plane."""
+        flat = self.points[:, list(plane.axes[:2])]
+        moving: Flags = self.turns != 0
+        moving[1:] |= np.any(flat[1:] != flat[:-1], axis=1)
+        moving[:1] = False
+        return moving
 
     def path(self, plane: Plane = Plane.XY) -> Path:
         """The moves as seen on a plane, numbered by their lines; arcs of other planes are straight there."""

@@ -56,7 +56,7 @@ class Heights:
     def of(run: ControlRun) -> Heights:
         """Those of a run."""
         moves = run.moves
-        heights, in_plane, falls = moves.points[:, Z], _in_plane(moves), np.zeros(len(moves), np.bool_)
+        heights, in_plane, falls = moves.points[:, Z], moves.moving_in(Plane.XY), np.zeros(len(moves), np.bool_)
         falls[1:] = (heights[1:] < heights[:-1]) & ~in_plane[1:]
         rows = np.flatnonzero(falls)
         last, starts = [-1], [-inf]
@@ -84,7 +84,7 @@ def _leads(run: ControlRun) -> Flags:
     rows = np.zeros(len(run.moves), np.bool_)
     for stretch in run.stretches:
         made = slice(stretch.first + 1, stretch.last)
-        surface = stretch.programmed.lines[_surface(stretch)]
+        surface = stretch.programmed.lines[surface_rows(stretch)]
         rows[made] |= ~np.isin(run.moves.lines[made], surface)
     return rows
 
@@ -118,15 +118,7 @@ def divided(moves: Moves, stretch: Stretch, height: float) -> Divided:
     )
     links = tuple(made.part(last, first + 1) for (_, last), (first, _) in pairwise(paths))
     leads = (made.part(0, paths[0][0] + 1), made.part(paths[-1][1], len(made)))
-    return Divided(pieces, links, tuple(lead for lead in leads if _in_plane(lead).any()))
-
-
-def _in_plane(moves: Moves) -> Flags:
-    """(n,) rows that move in the plane XY."""
-    moving: Flags = moves.turns != 0
-    moving[1:] |= np.any(moves.points[1:, :Z] != moves.points[:-1, :Z], axis=1)
-    moving[:1] = False
-    return moving
+    return Divided(pieces, links, tuple(lead for lead in leads if lead.moving_in(Plane.XY).any()))
 
 
 def _at_least(moves: Moves, height: float) -> Flags:
@@ -136,9 +128,9 @@ def _at_least(moves: Moves, height: float) -> Flags:
     return high
 
 
-def _surface(stretch: Stretch) -> Flags:
+def surface_rows(stretch: Stretch) -> Flags:
     """(n,) rows of what is programmed that move in the plane and are no leads."""
-    rows = _in_plane(stretch.programmed)
+    rows = stretch.programmed.moving_in(Plane.XY)
     rows[: stretch.entry + 1] = False
     rows[len(rows) - stretch.exit :] = False
     return rows
@@ -146,7 +138,7 @@ def _surface(stretch: Stretch) -> Flags:
 
 def _cuts_above(stretch: Stretch, high: Flags) -> bool:
     """Whether feed moves so high may be a contour: they are too many in a row, or no rapid is among them."""
-    surface, rapid = _surface(stretch), stretch.programmed.rapid
+    surface, rapid = surface_rows(stretch), stretch.programmed.rapid
     for run in np.split(np.arange(len(high)), np.flatnonzero(high[1:] != high[:-1]) + 1):
         feeds = int((surface & ~rapid)[run].sum())
         if high[run[0]] and feeds and (feeds > MAX_LEAD_MOVES or not (surface & rapid)[run].any()):
@@ -156,7 +148,7 @@ def _cuts_above(stretch: Stretch, high: Flags) -> bool:
 
 def _between(moves: Moves, above: Flags) -> list[tuple[int, int]]:
     """The parts between moves above that run in the plane: the row of the point where each starts, and its last row."""
-    in_plane = _in_plane(moves)
+    in_plane = moves.moving_in(Plane.XY)
     low = np.flatnonzero(in_plane & ~above)
     if not len(low):
         return []
@@ -175,4 +167,4 @@ def _between(moves: Moves, above: Flags) -> list[tuple[int, int]]:
 def _lines(moves: Moves, last: int, first: int) -> frozenset[int]:
     """The lines of the moves in the plane from the end of one part to the start of the next."""
     rows = np.arange(last + 1, first + 1)
-    return frozenset(moves.lines[rows[_in_plane(moves)[rows]]].tolist())
+    return frozenset(moves.lines[rows[moves.moving_in(Plane.XY)[rows]]].tolist())

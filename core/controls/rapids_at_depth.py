@@ -1,0 +1,90 @@
+"""Rapids at depth: uncompensated rapids that run through a contour no higher than it is cut.
+
+A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Feed moves are not
+looked at: without compensation they may cut anything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.controls.control_run import ControlRun, Stretch
+from core.controls.moves import Moves, Plane
+from core.controls.moves_above import surface_rows
+from core.geometry.nearby import near_pairs
+from core.geometry.path import Path, Rows
+from core.tolerance import ON_PATH
+from core.verify.judge import judge
+from core.verify.verdict import Gouge
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CutContour:
+    """A contour of a stretch, the highest place where it is cut, and by how much radii of its arcs may differ."""
+
+    path: Path
+    stretch: Stretch
+    top: float
+    accepted: float
+
+
+def highest_cut(stretch: Stretch) -> float:
+    """The highest place at which a stretch in XY cuts its contour; -inf without a feed move."""
+    programmed = stretch.programmed
+    rows = np.flatnonzero(surface_rows(stretch) & ~programmed.rapid)
+    return float(programmed.points[np.concatenate((rows, rows - 1)), 2].max(initial=-np.inf))
+
+
+@dataclass(frozen=True, slots=True)
+class RapidCut:
+    """What a rapid cuts of a contour, and its height in millimeters."""
+
+    gouge: Gouge
+    height: float
+
+
+def rapids_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[RapidCut, ...]:
+    """The rapids outside the compensated stretches that cut contours in XY, each with its deepest cut.
+
+    The tool is the one of the stretch before, at the beginning that of the first stretch.
+    """
+    contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
+    if not contours:
+        return ()
+    low = _low_rapids(run, max(contour.top for contour in contours))
+    ends = np.array([stretch.last for stretch in run.stretches])
+    cuts = dict[int, RapidCut]()
+    for rows in np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if len(low) else ():
+        moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
+        before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
+        for cut in _cuts(moves, run.stretches[before].radius, contours):
+            known = cuts.get(int(cut.gouge.path_number))
+            if known is None or cut.gouge.depth > known.gouge.depth:
+                cuts[int(cut.gouge.path_number)] = cut
+    return tuple(cuts[line] for line in sorted(cuts))
+
+
+def _low_rapids(run: ControlRun, top: float) -> Rows:
+    """The rows of rapids in the plane outside the stretches that are no higher than this."""
+    moves = run.moves
+    low = moves.points[:, 2] <= top + ON_PATH
+    low[1:] &= low[:-1]
+    low &= moves.rapid & moves.moving_in(Plane.XY)
+    for stretch in run.stretches:
+        low[stretch.first + 1 : stretch.last] = False
+    rows: Rows = np.flatnonzero(low)
+    return rows
+
+
+def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour]) -> list[RapidCut]:
+    path, height = moves.path(), float(moves.points[:, 2].max())
+    cuts = list[RapidCut]()
+    for contour in contours:
+        if height > contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
+            continue
+        verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted)
+        cuts += [RapidCut(gouge, height) for gouge in verdict.gouges]
+    return cuts

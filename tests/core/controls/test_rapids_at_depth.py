@@ -1,0 +1,70 @@
+"""Rapids without compensation at the depth of a cut: through a contour they are told, beside it and above it not."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.controls.judged_runs import judge_run, judged_findings
+from core.finding import Finding, Severity
+from core.units import Unit, sentence
+from tests.core.controls.hand import ran
+
+CONTROLS = ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"]
+BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
+"""A hole of 20 mm about X20 Y20, by a tool of 10 mm."""
+
+
+def rapids(program: str, control: str = "fanuc:a") -> list[Finding]:
+    """What is told of rapids at depth."""
+    run = ran(program, control, t1=10.0)
+    assert run.stopped_at is None, run.findings
+    return [finding for finding in judged_findings(judge_run(run)) if finding.code == "RAPID"]
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_forgotten_retract_is_a_warning_with_its_line(control: str) -> None:
+    (told,) = rapids(f"{BORE}G0 X70.\nZ50.\nM30\n", control)
+    assert (told.line, told.severity) == (9, Severity.WARNING)
+    assert sentence(told, Unit.MM) == (
+        "This rapid at Z -5.000 cuts the contour of line 7 at X 30.000 Y 20.000. Raise the tool before it."
+    )
+
+
+@pytest.mark.parametrize(
+    ("behind", "count"),
+    [
+        ("G0 Z5.\nX70.\n", 0),
+        ("G0 Z-4.9\nX70.\n", 0),
+        ("G0 Z-8.\nX70.\n", 1),
+        ("G0 X70. Z5.\n", 0),
+        ("G1 X70.\n", 0),
+        ("G0 X24.\nX16.\n", 0),
+        ("G0 X26.\nX20.\n", 1),
+        ("G0 X70.\nX20.\n", 2),
+    ],
+)
+def test_only_rapids_no_higher_than_the_cut_are_told_and_only_where_they_cut(behind: str, count: int) -> None:
+    told = rapids(f"{BORE}{behind}G0 Z50.\nM30\n")
+    assert len(told) == count
+    if "X26." in behind:
+        assert told[0].value == pytest.approx(1.0)  # by hand: 6 from the middle and 5 of the tool reach 11 of 10
+
+
+def test_a_rapid_before_the_cut_and_one_on_the_way_to_the_next_are_told() -> None:
+    before = BORE.replace("Z5.\nG1 Z-5. F300\n", "Z-5.\nX70.\nX20.\nF300\n")
+    assert [finding.line for finding in rapids(f"{before}G0 Z5.\nM30\n")] == [5, 6]
+    after = "G0 X70.\nG41 D1 G1 X80.\nG3 I-10.\nG40 G1 X70.\nG0 Z5.\nM30\n"
+    assert [finding.line for finding in rapids(BORE + after)] == [9]
+
+
+def test_the_highest_pass_counts() -> None:
+    deeper = "G1 Z-10.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
+    assert [finding.line for finding in rapids(f"{BORE}{deeper}G0 Z-7.\nX70.\nZ5.\nM30\n")] == [14]
+
+
+def test_klartext_rapids_are_told_too() -> None:
+    program = (
+        "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
+        "C X+30 Y+20 DR+\nL X+20 R0\nL X+70 FMAX\nL Z+50 FMAX\nEND PGM A MM\n"
+    )
+    assert [finding.line for finding in rapids(program, "heidenhain")] == [9]
