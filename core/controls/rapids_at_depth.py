@@ -68,9 +68,12 @@ def rapids_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Rap
 
 
 def _low_rapids(run: ControlRun, top: float) -> Rows:
-    """The rows of rapids in the plane outside the stretches that are no higher than this."""
-    moves = run.moves
-    low = moves.points[:, 2] <= top + ON_PATH
+    """The rows of rapids in the plane outside the stretches that are no higher than this.
+
+    Where the tool is before the program moves it up or down is not known.
+    """
+    moves, heights = run.moves, run.moves.points[:, 2]
+    low = (heights <= top + ON_PATH) & np.logical_or.accumulate(heights != heights[0])
     low[1:] &= low[:-1]
     low &= moves.rapid & moves.moving_in(Plane.XY)
     for stretch in run.stretches:
