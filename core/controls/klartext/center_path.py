@@ -220,7 +220,7 @@ class CenterPathRecorder:
                 self._leave(step)
 
     def finish(self) -> None:
-        """The program ends: the last element ends square to the contour, compensated or not."""
+        """Nothing follows under compensation: the last element ends square to the contour, compensated or not."""
         self._run_out()
         self.record.close()
 

@@ -96,7 +96,7 @@ def _check_end(state: State) -> None:
     behind = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
     if behind is not None:
         state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind)
-    if state.applied:
+    if state.applied and state.side:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
         state.tell(Severity.WARNING, "PROGRAM", text, last)
 

@@ -130,6 +130,12 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
         state.feed = state.tool_feed = state.length(block, words, "F")
     if not name and not words.keys() & ({"DR"} | _PLANES.keys()):
         return
+    if state.applied and not state.side:
+        text = "cutcomp assumes that R0 with the tool axis alone cancels compensation where the tool is changed."
+        state.tell(Severity.INFO, "INTERPRETED", text, block)
+        state.waiting.flush()
+        state.waiting.center.finish()
+        state.release()
     if state.applied:
         text = "The tool cannot be changed under compensation. Cancel it with R0 or DEP first."
         state.stop("TOOL", text, block)

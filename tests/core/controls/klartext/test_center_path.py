@@ -109,6 +109,17 @@ def test_sides_set_without_moving_in_the_plane_take_effect_with_the_next_line() 
     assert points(made) == [NEAR(point) for point in want]
 
 
+def test_r0_in_the_tool_axis_alone_is_enough_for_a_tool_change_and_the_end() -> None:
+    contour = (START, "L Z-5 R0 F100", "L X+0 Y+0 RL", "L X+30", "L Z+50 R0 FMAX")
+    made = runs(*contour, "TOOL DEF 2 L+0 R+3", "TOOL CALL 2 Z S1000", "L X+60 Y+0 FMAX")
+    assert (codes(made), made.stopped_at) == ([("INTERPRETED", 8), ("INTERPRETED", 10)], None)
+    want = [(-20, 0, -5), (0, 5, -5), (30, 5, -5), (30, 5, 50), (60, 0, 50)]
+    assert points(made) == [NEAR(point) for point in want]
+    assert codes(runs(*contour)) == [("INTERPRETED", 8)]
+    assert codes(runs(*contour[:-1]))[-1][0] == "PROGRAM"
+    assert codes(runs(*contour[:-1], "TOOL CALL 2 Z S1000"))[-1] == ("TOOL", 8)
+
+
 def test_m97_takes_the_meeting_at_an_outside_corner() -> None:
     made = clean(START, "L X+0 Y+0 RL F100", "L X+30 M97", "L Y-0.5", "L X+60", "L Y+40 R0", radius=5)
     assert flat(made)[1:4] == [NEAR(want) for want in [(35, 5), (35, 4.5), (60, 4.5)]]
