@@ -72,7 +72,7 @@ def cycle(state: State, block: Block) -> None:
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in _MOVED or number >= _FIRST_PROBE:
         text = f"Cycle {number} moves or transforms the contour, which is not supported."
-        state.stop("WORD", text, block)
+        state.stop("BEYOND", text, block)
     else:
         _define(state, block, number)
 
@@ -144,7 +144,7 @@ def call(state: State, block: Block) -> None:
     if state.cycle is None:
         state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
     if state.cycle == _PROGRAM:
-        state.stop("CYCLE", "Cycle 12 runs another file. Copy its blocks in.", block)
+        state.stop("BEYOND", "Cycle 12 runs another file. Copy its blocks in.", block)
     _pass_over(state, block, state.cycle, _end_height(state))
 
 

@@ -64,7 +64,7 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
         return _CORNERS[code]
     elif code in _MOVING:
         text = f"{quoted(name)} moves the axes, which is not supported."
-        state.stop("WORD", text, block, name)
+        state.stop("BEYOND", text, block, name)
     elif code in _DIFFERENT:
         state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT[code]}.", block, name)
     elif code not in _SILENT:

@@ -100,7 +100,9 @@ def unknown(state: State, block: Block) -> NoReturn:
         state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
     whole = block.head + block.body
     why = next((why for pattern, why in _UNSUPPORTED if pattern.match(whole)), "")
-    state.stop("WORD", f"{quoted(whole)} {why or 'is not a Klartext block. Write L, C, CR, CT, APPR or DEP.'}", block)
+    if why:
+        state.stop("BEYOND", f"{quoted(whole)} {why}", block)
+    state.stop("WORD", f"{quoted(whole)} is not a Klartext block. Write L, C, CR, CT, APPR or DEP.", block)
 
 
 def tool(state: State, block: Block) -> None:

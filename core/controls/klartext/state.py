@@ -114,14 +114,15 @@ class State:
         return words
 
     def _unknown(self, block: Block, name: str, number: str) -> NoReturn:
+        code = "BEYOND"
         if name in OTHER_AXES and number:
             text = f"{name} is a rotary or parallel axis, which is not supported."
         elif name == "R" and number in ("+", "-"):
             text = "R+ and R- are for single-axis blocks, which are not supported. Write L with R0, RL or RR."
         else:
             written = block.body[block.column_of(name) - block.column :].split(maxsplit=1)[0]
-            text = f"A {quoted(block.head)} block takes no word {quoted(written)}."
-        self.stop("WORD", text, block, name)
+            code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
+        self.stop(code, text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:
         """The number of a word, as written."""
