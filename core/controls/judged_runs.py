@@ -19,7 +19,7 @@ from core.controls.contours_and_leads import (
 )
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
-from core.controls.moves_above import Heights, divided
+from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, RapidCut, highest_cut, rapids_through
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
@@ -64,12 +64,10 @@ class ToleratedArc:
 
 @dataclass(frozen=True, slots=True)
 class PassedOver:
-    """Moves above the part that pass over it: their lowest place, their lines, and whether any is lower than where the
-    tool came down from."""
+    """Moves above the part that pass over it: their lowest place and their lines."""
 
     height: float
     lines: tuple[int, ...]
-    lower: bool
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -135,10 +133,10 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     """
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
-    least, results, heights = smallest_gouge(run.unit), list[Judged](), Heights.of(run)
+    least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
     for done, stretch in enumerate(run.stretches):
         progress(done / len(run.stretches))
-        results += [_seen(result, least) for result in _judge_pieces(run, stretch, heights)]
+        results += [_seen(result, least) for result in _judge_above(run, stretch, float(heights[stretch.last - 1]))]
     if results:
         cuts = tuple(cut for cut in rapids_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
         results[0] = replace(results[0], rapids=cuts)
@@ -171,43 +169,46 @@ def programmed_surface(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _judge_pieces(run: ControlRun, stretch: Stretch, heights: Heights) -> list[Judged]:
-    """The verdicts on a stretch without its moves above; on each of its pieces with what it cuts of the others."""
-    parted = divided(run.moves, stretch, heights.above(stretch.last - 1))
+def _judge_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
+    """The verdicts on a stretch; where it gouges and more so than without its moves at this height or higher, on what
+    is left of it."""
+    whole = _judge_stretch(run, stretch)
+    if not any(result.verdict.gouges or result.verdict.wrong_side for result in whole):
+        return whole
+    parted = divided(run.moves, stretch, height)
+    pieces = None if parted is None else _judge_pieces(run, stretch, parted)
+    return whole if pieces is None or _count_gouges(pieces) >= _count_gouges(whole) else pieces
+
+
+def _count_gouges(results: Sequence[Judged]) -> int:
+    return sum(len(result.verdict.gouges) + len(result.verdict.wrong_side) for result in results)
+
+
+def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Judged]:
+    """The verdicts on the pieces of a stretch, each with what it cuts of the others."""
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
-    if not parted.links and not parted.leads:
-        return judged[0]
     surfaces = {_shape(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
     unjudged: list[Judged] = []
     for results in judged:
         own, center = {_shape(result.surface) for result in results}, results[0].center
-        near = contours.near(center, stretch.radius)
-        others = [contour for contour in near if _shape(contour) not in own]
+        others = [contour for contour in contours.near(center, stretch.radius) if _shape(contour) not in own]
         more, unknown, slack = _cuts_of(run, stretch, center, others)
         results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
     results = _with_unjudged([result for results in judged for result in results], unjudged)
-    leads = [_over_contours(run, stretch, lead, contours) for lead in parted.leads]
-    over = [moves for moves in (*parted.links, *leads) if len(moves) > 1]
+    over = (*parted.links, *(lead for lead in parted.leads if _passes_over(run, stretch, lead, contours)))
     if over:
-        approach = float(heights.approach[stretch.last - 1])
-        results[0] = replace(results[0], above=_passed_over(over, approach))
+        lines = sorted({line for moves in over for line in moves.lines[1:].tolist()})
+        lowest = min(float(moves.points[:, 2].min()) for moves in over)
+        results[0] = replace(results[0], above=PassedOver(lowest, tuple(lines)))
     return results
 
 
-def _over_contours(run: ControlRun, part: Stretch, lead: Moves, contours: Contours) -> Moves:
-    """The lead where it would cut contours, were it as low as they are; else no moves."""
+def _passes_over(run: ControlRun, part: Stretch, lead: Moves, contours: Contours) -> bool:
+    """Whether a lead would cut contours, were it as low as they are."""
     path = lead.path()
-    cuts, _, _ = _cuts_of(run, part, path, contours.near(path, part.radius))
-    return lead if cuts else lead.part(0, 0)
-
-
-def _passed_over(over: Sequence[Moves], approach: float) -> PassedOver:
-    """The moves above by their height and lines; `approach` is where the tool came from to cut."""
-    lowest = min(float(moves.points[:, 2].min()) for moves in over)
-    lines = sorted({line for moves in over for line in moves.lines[1:].tolist()})
-    return PassedOver(lowest, tuple(lines), lower=lowest < approach - ON_PATH or approach == -np.inf)
+    return bool(_cuts_of(run, part, path, contours.near(path, part.radius))[0])
 
 
 def _cuts_of(
@@ -462,15 +463,14 @@ def _rapids(result: Judged) -> list[Finding]:
 
 
 def _above(result: Judged) -> list[Finding]:
-    """That moves above the part pass over it and are not judged; a warning where they may be too low."""
+    """That moves above the part pass over it and are not judged: no program says how high it is."""
     above = result.above
     if above is None:
         return []
     listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
     which = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
     text = f"The tool passes over the part at Z {{0}} or higher ({which}). Check that it clears part and clamps."
-    severity = Severity.WARNING if above.lower else Severity.INFO
-    return [Finding("ABOVE", severity, text, lengths=(above.height,), line=above.lines[0])]
+    return [Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])]
 
 
 def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:

@@ -1,8 +1,7 @@
-"""Moves above: what a compensated stretch runs higher than it cuts, such as a rapid from one contour to the next.
+"""Moves above: what a compensated stretch runs higher than anything was cut, such as a rapid between two contours.
 
-Nothing in a program says how high a part is.  A move counts as above it when it is as high as the tool was whenever it
-went down to cut, or higher than all cuts so far and not below zero, where the top of a part usually is.  Such a move
-cuts nothing, and a rapid there is no contour.
+Nothing in a program says how high a part is.  A move counts as above it when it is higher than all cuts so far and not
+below zero, where the top of a part usually is.  Such a move cuts nothing, and a rapid there is no contour.
 """
 
 from __future__ import annotations
@@ -13,70 +12,41 @@ from math import inf
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from core.controls.contours_and_leads import MAX_LEAD_MOVES
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
-from core.geometry.path import Floats
+from core.geometry.path import Flags, Floats
 from core.tolerance import ON_PATH
 
-Flags = NDArray[np.bool_]
-
 Z: Final = 2
+
+RowRange = tuple[int, int]
+"""The row of the point where moves start, and the row of the last of them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Divided:
     """A stretch in the pieces between its moves above.
 
-    Of the moves the control makes `links` are those that run above from one piece to the next, and are not judged as
-    contour either; `leads` those above before the first piece and behind the last one.  Each has the move before it as
-    its start.
+    Of the moves the control makes `links` run above from one piece to the next, and `leads` before the first piece and
+    behind the last one.  Each has the move before it as its start.
     """
 
     pieces: tuple[Stretch, ...]
-    links: tuple[Moves, ...] = ()
-    leads: tuple[Moves, ...] = ()
+    links: tuple[Moves, ...]
+    leads: tuple[Moves, ...]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Heights:
-    """For each of a run's moves what was so far; (n,), -inf before the first cut.
+def heights_above(run: ControlRun) -> Floats:
+    """(n,) the height from which on each of a run's moves is above the part.
 
-    `approach`: the highest place from which the tool went straight down to cut; of a way down in several moves the last
-    feed moves count, since a rapid brings the tool near.  `cut`: the highest place of a cut.  Every feed move in the
-    plane cuts, except the leads of compensated stretches.
+    Every feed move in the plane cuts, except the leads of compensated stretches.
     """
-
-    approach: Floats
-    cut: Floats
-
-    @staticmethod
-    def of(run: ControlRun) -> Heights:
-        """Those of a run."""
-        moves = run.moves
-        heights, in_plane, falls = moves.points[:, Z], moves.moving_in(Plane.XY), np.zeros(len(moves), np.bool_)
-        falls[1:] = (heights[1:] < heights[:-1]) & ~in_plane[1:]
-        rows = np.flatnonzero(falls)
-        last, starts = [-1], [-inf]
-        for way in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
-            feeds = way[~moves.rapid[way]]
-            last.append(int(way[-1]))
-            starts.append(float(heights[(feeds if len(feeds) else way)[0] - 1]))
-        way_before = np.searchsorted(last, np.arange(len(moves))) - 1
-        cuts = in_plane & ~moves.rapid & ~_leads(run)
-        reached = np.maximum(heights, np.concatenate((heights[:1], heights[:-1])))
-        return Heights(
-            np.maximum.accumulate(np.where(cuts, np.array(starts)[way_before], -inf)),
-            np.maximum.accumulate(np.where(cuts, reached, -inf)),
-        )
-
-    def above(self, row: int) -> float:
-        """The height from which on a move is above the part, up to a row."""
-        approach, cut = float(self.approach[row]), float(self.cut[row])
-        over_cuts = max(cut + 2.0 * ON_PATH, 0.0)
-        return min(approach - ON_PATH, over_cuts) if approach > -inf else over_cuts
+    moves = run.moves
+    heights = moves.points[:, Z]
+    reached = np.maximum(heights, np.concatenate((heights[:1], heights[:-1])))
+    cuts = moves.moving_in(Plane.XY) & ~moves.rapid & ~_leads(run)
+    return np.maximum(np.maximum.accumulate(np.where(cuts, reached, -inf)) + 2.0 * ON_PATH, 0.0)
 
 
 def _leads(run: ControlRun) -> Flags:
@@ -84,26 +54,29 @@ def _leads(run: ControlRun) -> Flags:
     rows = np.zeros(len(run.moves), np.bool_)
     for stretch in run.stretches:
         made = slice(stretch.first + 1, stretch.last)
-        surface = stretch.programmed.lines[surface_rows(stretch)]
-        rows[made] |= ~np.isin(run.moves.lines[made], surface)
+        rows[made] |= ~np.isin(run.moves.lines[made], stretch.programmed.lines[surface_rows(stretch)])
     return rows
 
 
-def divided(moves: Moves, stretch: Stretch, height: float) -> Divided:
-    """The stretch without what it runs at this height or higher; whole where nothing does or may be a contour."""
-    whole = Divided((stretch,))
+def divided(moves: Moves, stretch: Stretch, height: float) -> Divided | None:
+    """The stretch without its moves at this height or higher; None without any, or where they may cut something."""
     if stretch.plane is not Plane.XY or stretch.changes:
-        return whole
+        return None
     programmed, made = stretch.programmed, moves.part(stretch.first, stretch.last)
-    high = _at_least(programmed, height)
-    if _cuts_above(stretch, high):
-        return whole
-    contours, paths = _between(programmed, high), _between(made, _at_least(made, height))
-    linked = [_lines(programmed, last, first) for (_, last), (first, _) in pairwise(contours)]
-    if not paths or len(contours) != len(paths):
-        return whole
-    if linked != [_lines(made, last, first) for (_, last), (first, _) in pairwise(paths)]:
-        return whole
+    high, made_high = _at_least(programmed, height), _at_least(made, height)
+    if (surface_rows(stretch) & ~programmed.rapid & high).any():
+        return None
+    contours, paths = _between(programmed, high), _between(made, made_high)
+    gaps = _gaps(paths, len(made))
+    linked = [_lines(programmed, gap) for gap in _gaps(contours, len(programmed))[1:-1]]
+    if not paths or len(contours) != len(paths) or linked != [_lines(made, gap) for gap in gaps[1:-1]]:
+        return None
+    if not all(made_high[last + 1 : first + 1].all() for last, first in gaps):
+        return None
+    above = [made.part(last, first + 1) for last, first in gaps]
+    leads = tuple(lead for lead in (above[0], above[-1]) if lead.moving_in(Plane.XY).any())
+    if not leads and len(above) == 2:
+        return None
     last_surface = len(programmed) - 1 - stretch.exit
     pieces = tuple(
         replace(
@@ -116,9 +89,7 @@ def divided(moves: Moves, stretch: Stretch, height: float) -> Divided:
         )
         for (first, last), (begin, end) in zip(contours, paths, strict=True)
     )
-    links = tuple(made.part(last, first + 1) for (_, last), (first, _) in pairwise(paths))
-    leads = (made.part(0, paths[0][0] + 1), made.part(paths[-1][1], len(made)))
-    return Divided(pieces, links, tuple(lead for lead in leads if lead.moving_in(Plane.XY).any()))
+    return Divided(pieces, tuple(above[1:-1]), leads)
 
 
 def _at_least(moves: Moves, height: float) -> Flags:
@@ -136,35 +107,24 @@ def surface_rows(stretch: Stretch) -> Flags:
     return rows
 
 
-def _cuts_above(stretch: Stretch, high: Flags) -> bool:
-    """Whether feed moves so high may be a contour: they are too many in a row, or no rapid is among them."""
-    surface, rapid = surface_rows(stretch), stretch.programmed.rapid
-    for run in np.split(np.arange(len(high)), np.flatnonzero(high[1:] != high[:-1]) + 1):
-        feeds = int((surface & ~rapid)[run].sum())
-        if high[run[0]] and feeds and (feeds > MAX_LEAD_MOVES or not (surface & rapid)[run].any()):
-            return True
-    return False
-
-
-def _between(moves: Moves, above: Flags) -> list[tuple[int, int]]:
-    """The parts between moves above that run in the plane: the row of the point where each starts, and its last row."""
+def _between(moves: Moves, high: Flags) -> list[RowRange]:
+    """The moves that lie between high ones and of which some run in the plane."""
     in_plane = moves.moving_in(Plane.XY)
-    low = np.flatnonzero(in_plane & ~above)
-    if not len(low):
-        return []
-    high = np.flatnonzero(in_plane & above)
-    cuts = np.searchsorted(high, low)
-    groups = np.split(low, np.flatnonzero(np.diff(cuts)) + 1)
-    parts = list[tuple[int, int]]()
-    for group in groups:
-        before, behind = high[high < group[0]], high[high > group[-1]]
+    low, above = np.flatnonzero(in_plane & ~high), np.flatnonzero(in_plane & high)
+    parts = list[RowRange]()
+    for group in np.split(low, np.flatnonzero(np.diff(np.searchsorted(above, low))) + 1) if len(low) else ():
+        before, behind = above[above < group[0]], above[above > group[-1]]
         first = int(before[-1]) if len(before) else 0
-        last = int(behind[0]) - 1 if len(behind) else len(moves) - 1
-        parts.append((first, last))
+        parts.append((first, int(behind[0]) - 1 if len(behind) else len(moves) - 1))
     return parts
 
 
-def _lines(moves: Moves, last: int, first: int) -> frozenset[int]:
-    """The lines of the moves in the plane from the end of one part to the start of the next."""
-    rows = np.arange(last + 1, first + 1)
-    return frozenset(moves.lines[rows[moves.moving_in(Plane.XY)[rows]]].tolist())
+def _gaps(parts: list[RowRange], count: int) -> list[RowRange]:
+    """What of so many rows lies before, between and behind parts; without any the whole."""
+    return list(pairwise([0, *(row for part in parts for row in part), count - 1]))[::2]
+
+
+def _lines(moves: Moves, gap: RowRange) -> frozenset[int]:
+    """The lines of the moves of a gap that run in the plane."""
+    part = moves.part(gap[0], gap[1] + 1)
+    return frozenset(part.lines[part.moving_in(Plane.XY)].tolist())
