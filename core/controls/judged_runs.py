@@ -623,15 +623,12 @@ def _crossing(result: Judged) -> list[Finding]:
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
     """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
-    first, last = _line(surface.numbers[0]), _line(surface.numbers[-1])
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
-        return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=first)
-    length, line = max(over_run.lead_in, over_run.lead_out), last
-    text = "The contour begins on this line, whose last {value} is taken for lead-out. Check where it begins."
+        return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=_first_line(surface))
+    length, line = max(over_run.lead_in, over_run.lead_out), _line(over_run.last_number)
+    text = "The contour begins on this line; {value} behind that is taken for lead-out. Check where it begins."
     if over_run.lead_in > over_run.lead_out:
-        text, line = (
-            "The contour ends on this line, whose first {value} is taken for lead-in. Check where it ends.",
-            first,
-        )
+        line = _line(over_run.first_number)
+        text = "The contour ends on this line; {value} before that is taken for lead-in. Check where it ends."
     return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length, line=line)

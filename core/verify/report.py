@@ -58,7 +58,7 @@ def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) 
     return (
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
-        *_crossing(verdict, surface),
+        *_crossing(verdict),
         *_uncut_findings(verdict, surface),
     )
 
@@ -131,24 +131,25 @@ def _wrong_side(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("WRONG_SIDE", Severity.ERROR, text),)
 
 
-def _crossing(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
+def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
     if verdict.over_run is not None:
-        return (_over_run(verdict.over_run, surface),)
+        return (_over_run(verdict.over_run),)
     if not verdict.crosses_itself:
         return ()
     text = "The contour crosses itself at X {x} Y {y}."
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _over_run(over_run: OverRun, surface: Path) -> Finding:
+def _over_run(over_run: OverRun) -> Finding:
     """That the contour's ends are leads; a warning where START or the last end may be mistyped."""
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at)
-    length, (first, last) = max(over_run.lead_in, over_run.lead_out), surface.numbers[[0, -1]].tolist()
-    text = f"START is on segment {_number(last)}, whose last {{value}} is taken for lead-out. Check START."
+    length, on = max(over_run.lead_in, over_run.lead_out), _number(over_run.last_number)
+    text = f"START is on segment {on}; {{value}} behind it is taken for lead-out. Check START."
     if over_run.lead_in > over_run.lead_out:
-        text = f"The contour ends on segment {_number(first)}, whose first {{value}} is taken for lead-in. Check START."
+        on = _number(over_run.first_number)
+        text = f"The contour ends on segment {on}; {{value}} before that is taken for lead-in. Check START."
     return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, value=length)
 
 

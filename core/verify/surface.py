@@ -8,7 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Path
+from core.geometry.distance import distance
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import CLOSED, JOINED
@@ -46,10 +47,48 @@ class Surface:
         With `lead_arcs` an arc at either end may lead to the first element and from the last one.
         """
         with np.errstate(all="ignore"):
-            walls = piece_arrays(path)
-            closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
-            whole = Surface(path, side, walls, closed, self_crossings(walls, closed=closed))
-            return _without_over_run(whole, lead_arcs=lead_arcs) or whole
+            whole = Surface._of(path, side)
+            left = _without_over_run(whole, lead_arcs=lead_arcs)
+            shorter = None if left is not None else _without_overlap(whole)
+            if shorter is None:
+                return left or whole
+            once = Surface._of(shorter, side)
+            left = _without_over_run(once, lead_arcs=lead_arcs)
+            return left or (once if once.closed and not len(once.crossings) else whole)
+
+    @staticmethod
+    def _of(path: Path, side: Side) -> Surface:
+        walls = piece_arrays(path)
+        closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
+        return Surface(path, side, walls, closed, self_crossings(walls, closed=closed))
+
+
+def _without_overlap(surface: Surface) -> Path | None:
+    """The path without what its last element runs along its first one again; None where it does not.
+
+    Many contours are closed so: the cutter leaves a little beyond the place where it began.
+    """
+    walls, path = surface.walls, surface.path
+    if len(walls) < 3 or not (_same_line(walls) or _same_circle(walls)):
+        return None
+    first, last = walls.take(np.array([0])), walls.take(np.array([len(walls) - 1]))
+    if distance(first, last.end).item() > JOINED or abs(last.end - first.start).item() <= JOINED:
+        return None
+    row = int(walls.rows[-1])
+    if distance(first, last.start).item() <= JOINED:
+        return _ended_at(path, row - 1, path.points[row])
+    return _ended_at(path, row, path.points[0]) if distance(last, first.start).item() <= JOINED else None
+
+
+def _same_line(walls: PieceArrays) -> bool:
+    straight = not walls.arcs[0] and not walls.arcs[-1]
+    return bool(straight and abs(walls.unit[0] - walls.unit[-1]) <= IN_LINE)
+
+
+def _same_circle(walls: PieceArrays) -> bool:
+    (center, radius), (other, large) = ((walls.center[end], walls.radius[end]) for end in (0, -1))
+    arcs = walls.arcs[0] and walls.turn[0] == walls.turn[-1]
+    return bool(arcs and max(abs(center - other), abs(radius - large)) <= JOINED)
 
 
 def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
@@ -74,11 +113,16 @@ def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
     runs += [_run_out(surface, last, at)] if lead_out > JOINED else []
     if not all(_is_clear(run, left, surface.side) for run in runs):
         return None
+    # leads that are moves of their own are none by mistake
     if lead_in > JOINED:
-        share = lead_in / float(walls.length[0]) if begin == 0 else 0.0
+        own = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
+        share = 0.0 if own else lead_in / float(stations[begin + 1])
     else:
-        share = lead_out / float(walls.length[-1]) if end == len(walls) - 1 else 0.0
-    over_run = OverRun(at, lead_in, lead_out, doubtful=len(runs) == 1 and share > LONG_LEAD)
+        own = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
+        share = 0.0 if own else lead_out / float(stations[-1] - stations[end])
+    first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
+    doubtful = len(runs) == 1 and share > LONG_LEAD
+    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
 
 
@@ -114,9 +158,20 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:
     """The path's pieces from one row to another, begun and ended at a point; those outside have no length."""
+    ended = _ended_at(path, end, np.array(at))
+    points, centers, turns = ended.points.copy(), ended.centers.copy(), ended.turns.copy()
+    points[: begin + 1] = at
+    turns[:begin] = 0
+    lines = turns == 0
+    centers[lines] = points[:-1][lines]
+    return Path(points, centers, turns, path.numbers)
+
+
+def _ended_at(path: Path, row: int, at: Floats) -> Path:
+    """The path up to a row, that piece ended at a point; those behind it have no length."""
     points, centers, turns = path.points.copy(), path.centers.copy(), path.turns.copy()
-    points[: begin + 1], points[end + 1 :] = at, at
-    turns[:begin], turns[end + 1 :] = 0, 0
+    points[row + 1 :] = at
+    turns[row + 1 :] = 0
     lines = turns == 0
     centers[lines] = points[:-1][lines]
     return Path(points, centers, turns, path.numbers)

@@ -165,13 +165,16 @@ class UnevenArc:
 class OverRun:
     """Where a contour's first and last element meet, `at`, and how long what lies before and behind that is: leads.
 
-    `doubtful` is one lead alone that is so long a part of its segment that it may be a wall: the contour's other end,
-    START or the last one, lies on that segment and may be mistyped.
+    `first_number` and `last_number` are those of the pieces that meet.  `doubtful` is one lead alone that is so long a
+    part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that segment and
+    may be mistyped.
     """
 
     at: Point
     lead_in: float
     lead_out: float
+    first_number: float
+    last_number: float
     doubtful: bool
 
 

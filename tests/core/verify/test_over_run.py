@@ -82,6 +82,66 @@ def test_a_lead_that_nicks_the_corner_gouges_by_its_depth_there(contour: str, mo
     assert judge(move(OVER_RUNS[contour]), side, R, move(around(R - 0.01))).depth == pytest.approx(0.01)
 
 
+OVERLAPS = {
+    "begun in a wall": (lines((0.5, 0), *SQUARE, (0, 0), (0.9, 0)), lines((0, 0), *SQUARE, (0, 0))),
+    "ended in an arc": (
+        Path.from_pieces(
+            [
+                Line((-1, 0), (1.5, 0)),
+                *lines(*SQUARE, (0, -0.3)),
+                Arc((0, -0.3), (0.3, 0), (0.3, -0.3), Turn.CW),
+                Line((0.3, 0), (0.8, 0)),
+            ]
+        ),
+        Path.from_pieces(
+            [
+                Line((0.3, 0), (1.5, 0)),
+                *lines(*SQUARE, (0, -0.3)),
+                Arc((0, -0.3), (0.3, 0), (0.3, -0.3), Turn.CW),
+            ]
+        ),
+    ),
+    "begun in an arc": (
+        Path.from_pieces(
+            [
+                Arc((0.3 - 0.18, -0.06), (0.3 + 0.18, -0.06), (0.3, -0.3), Turn.CW),
+                *lines((0.48, -0.06), (2, -0.06), (2, -2), (0, -2), (0, -0.3)),
+                Arc((0, -0.3), (0.3, 0), (0.3, -0.3), Turn.CW),
+            ]
+        ),
+        Path.from_pieces(
+            [
+                Arc((0, -0.3), (0.3 + 0.18, -0.06), (0.3, -0.3), Turn.CW),
+                *lines((0.48, -0.06), (2, -0.06), (2, -2), (0, -2), (0, -0.3)),
+            ]
+        ),
+    ),
+}
+
+
+@pytest.mark.parametrize("motion", [name for name in MOTIONS if "reversed" not in name])
+@pytest.mark.parametrize("name", OVERLAPS)
+@pytest.mark.parametrize("radius", [R, 0.1])
+def test_a_contour_that_runs_on_along_its_first_wall_is_judged_as_without_that(
+    radius: float, name: str, motion: str
+) -> None:
+    (move, side), (overlapped, once) = MOTIONS[motion], OVERLAPS[name]
+    path = move(around(R))
+    verdict, wanted = (judge(move(contour), side, radius, path) for contour in (overlapped, once))
+    assert not verdict.crosses_itself
+    assert verdict.depth == pytest.approx(wanted.depth, abs=1e-9)
+    assert verdict.surface_length == pytest.approx(wanted.surface_length)
+    assert verdict.uncut_length == pytest.approx(wanted.uncut_length, abs=1e-9)
+    assert verdict.wrong_side == wanted.wrong_side
+
+
+def test_a_last_wall_beside_or_against_the_first_one_is_a_wall() -> None:
+    for end in ((0.9, 0.1), (0.9, -0.1)):
+        assert judge(lines((0.5, 0), *SQUARE, (0, 0), end), Side.LEFT, R, around(R)).surface_length > 6.0
+    back = judge(lines((0.5, 0), *SQUARE, (0, 0.0), (0, -0.7)), Side.LEFT, R, around(R))
+    assert back.surface_length == pytest.approx(6.2)
+
+
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("contour", OVER_RUNS)
 def test_with_the_tool_inside_the_ends_are_walls(contour: str, motion: str) -> None:
@@ -168,10 +228,14 @@ def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
 @pytest.mark.parametrize(
     ("contour", "text"),
     [
-        (lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 0)), "START is on segment 4, whose last {value} is taken for"),
+        (lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 0)), "START is on segment 4; {value} behind it"),
+        (
+            lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 1.2), (0, 0)),
+            "START is on segment 4; {value} behind it",
+        ),
         (
             lines((0, 0), (0, 2), (2, 2), (2, 0), (0, 1.5)),
-            "The contour ends on segment 1, whose first {value} is taken",
+            "The contour ends on segment 1; {value} before that",
         ),
     ],
 )
