@@ -49,7 +49,6 @@ from core.units import Kind
 SMALLEST = (60, 20)
 """Columns and rows that the screens are made for at least."""
 
-
 WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
 HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
 """The style classes of a screen from so many columns and lines on."""

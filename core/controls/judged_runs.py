@@ -136,7 +136,10 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
     for done, stretch in enumerate(run.stretches):
         progress(done / len(run.stretches))
-        results += [_seen(result, least) for result in _judge_above(run, stretch, float(heights[stretch.last - 1]))]
+        results += [
+            _seen(result, least)
+            for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
+        ]
     if results:
         cuts = tuple(cut for cut in rapids_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
         results[0] = replace(results[0], rapids=cuts)
@@ -144,6 +147,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
 
 
 def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour]:
+    """The contours of these results with how high each is cut."""
     return [
         CutContour(
             result.surface, result.stretch, highest_cut(result.stretch), _accepted_difference(run, result.surface)
@@ -169,9 +173,9 @@ def programmed_surface(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _judge_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
-    """The verdicts on a stretch; where it gouges and more so than without its moves at this height or higher, on what
-    is left of it."""
+def _judge_without_moves_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
+    """The verdicts on a stretch; where it gouges, without its moves at this height or higher if that leaves fewer
+    gouges."""
     whole = _judge_stretch(run, stretch)
     if not any(result.verdict.gouges or result.verdict.wrong_side for result in whole):
         return whole
@@ -227,7 +231,7 @@ def _cuts_of(
 
 
 def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Sequence[Path]) -> Judged:
-    """With these gouges too, and with the uneven arc of these paths where it raised the tolerance more than others."""
+    """The result with more gouges, and with the most uneven arc of these paths where that raises the tolerance."""
     if not result.verdict.judged:
         return result
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)

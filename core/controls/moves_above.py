@@ -108,7 +108,7 @@ def surface_rows(stretch: Stretch) -> Flags:
 
 
 def _between(moves: Moves, high: Flags) -> list[RowRange]:
-    """The moves that lie between high ones and of which some run in the plane."""
+    """The parts of the moves between high ones; each has moves in the plane, all of them low."""
     in_plane = moves.moving_in(Plane.XY)
     low, above = np.flatnonzero(in_plane & ~high), np.flatnonzero(in_plane & high)
     parts = list[RowRange]()

@@ -114,17 +114,26 @@ class Importer(Operator):
 async def importer(
     source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
 ) -> AsyncIterator[Importer]:
-    """An operator who opens a drawing with an empty program in front of him."""
+    """An operator who has opened a drawing with an empty program in front of him."""
     path = source if isinstance(source, Path) else tmp_path / "part.dxf"
     if isinstance(source, bytes):
         path.write_bytes(source)
+    async with opening(path, unit=unit, fresh=fresh, size=size) as one:
+        await one.pilot.pause()
+        await one.ready()
+        yield one
+
+
+@asynccontextmanager
+async def opening(
+    path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
+) -> AsyncIterator[Importer]:
+    """An operator whose drawing is still being read."""
     app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
     async with app.run_test(size=size) as pilot:
         one = Importer(app, pilot)
         await one.settle()
         app.show_drawing(path, fresh=fresh)
-        await pilot.pause()
-        await one.ready()
         yield one
 
 
@@ -451,24 +460,20 @@ async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatc
     monkeypatch.setattr("app.documents.drawing_files._read_and_list", wait_for_ever)
     path = tmp_path / "slow.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    app = CutcompApp(Session.of(empty_program(Unit.MM)), surroundings=SURROUNDINGS)
-    async with app.run_test(size=(80, 24)) as pilot:
-        one = Importer(app, pilot)
-        await one.settle()
-        app.show_drawing(path)
-        await pilot.pause()
+    async with opening(path) as one:
+        await one.pilot.pause()
         await one.until(lambda: "Esc stops." in one.said)
         await one.press("escape")
-        await one.until(lambda: type(app.screen).__name__ == "ContourScreen")
+        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
 
 
 async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tmp_path, monkeypatch):
-    shown = asyncio.Event()
+    listed = asyncio.Event()
 
     async def late(work: Callable[..., object], *arguments: object) -> object:
         result = await asyncio.to_thread(work, *arguments)
         if isinstance(result, Done):
-            shown.set()
+            listed.set()
             while importing.query(ContourTable):
                 await asyncio.sleep(0)
         return result
@@ -476,14 +481,10 @@ async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tm
     monkeypatch.setattr("app.screens.import_drawing.to_thread", late)
     path = tmp_path / "part.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    app = CutcompApp(Session.of(empty_program(Unit.MM)), surroundings=SURROUNDINGS)
-    async with app.run_test(size=(80, 24)) as pilot:
-        one = Importer(app, pilot)
-        await one.settle()
-        app.show_drawing(path)
+    async with opening(path) as one:
         importing = one.importing
-        await asyncio.wait_for(shown.wait(), 30)
-        app.pop_screen()
+        await asyncio.wait_for(listed.wait(), 30)
+        one.app.pop_screen()
         await one.settle()
         assert importing.listed is None
         assert not importing.query(ContourTable)
