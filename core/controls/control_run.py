@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final, NoReturn
@@ -12,7 +13,10 @@ from core.geometry.piece import Side
 from core.units import Unit
 
 MAX_FINDINGS_OF_A_RULE: Final = 100
-"""Findings of one rule that are kept; of the rest only the number is."""
+"""Warnings and errors of one rule that are kept; of the rest only the number is."""
+
+MAX_ALIKE: Final = 3
+"""Pieces of information of one rule with the same text that are kept: more of them would bury what matters."""
 
 NOT_RUN_TEXT: Final = "The lines from here on stand behind the end of the program and were not run. Check them."
 
@@ -101,13 +105,15 @@ class AlarmError(Exception):
 
 @dataclass(slots=True)
 class Log:
-    """Findings of a run: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it.
+    """Findings of a run: at most one of a rule on a line, MAX_FINDINGS_OF_A_RULE of it, and MAX_ALIKE for information.
 
+    `left_out` counts by rule what was not kept, `counts` by rule what was told, information by its text too.
     `rule_names` are a control's own numbers for alarms, by the ids of the rules that controls share.
     """
 
     findings: list[Finding] = field(default_factory=list)
-    counts: dict[str, int] = field(default_factory=dict)
+    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
+    left_out: Counter[str] = field(default_factory=Counter)
     seen: set[tuple[str, int | None]] = field(default_factory=set)
     rule_names: Mapping[str, str] = field(default_factory=dict)
 
@@ -117,9 +123,13 @@ class Log:
         if key in self.seen:
             return
         self.seen.add(key)
-        count = self.counts[finding.code] = self.counts.get(finding.code, 0) + 1
-        if count <= MAX_FINDINGS_OF_A_RULE:
+        informs = finding.severity is Severity.INFO
+        kind = finding.code, finding.text if informs else ""
+        self.counts[kind] += 1
+        if self.counts[kind] <= (MAX_ALIKE if informs else MAX_FINDINGS_OF_A_RULE):
             self.findings.append(finding)
+        else:
+            self.left_out[finding.code] += 1
 
     def tell(
         self,
@@ -153,8 +163,7 @@ class Log:
     def closed(self) -> tuple[Finding, ...]:
         """All findings by line, with one more for each rule that has too many."""
         more = [
-            Finding(code, Severity.INFO, f"{code}: {count - MAX_FINDINGS_OF_A_RULE} more lines like these.")
-            for code, count in self.counts.items()
-            if count > MAX_FINDINGS_OF_A_RULE
+            Finding(code, Severity.INFO, f"{code}: {count} more {'line' if count == 1 else 'lines'} like these.")
+            for code, count in self.left_out.items()
         ]
         return (*sorted(self.findings, key=lambda finding: (finding.line or 0, finding.column or 0)), *more)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_run import MAX_FINDINGS_OF_A_RULE, AlarmError, Log
+from core.controls.control_run import MAX_ALIKE, MAX_FINDINGS_OF_A_RULE, AlarmError, Log
 from core.finding import Severity
 
 
@@ -22,6 +22,17 @@ def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
     told = log.closed()
     assert len(told) == MAX_FINDINGS_OF_A_RULE + 1
     assert "50 more" in told[-1].text
+
+
+def test_information_that_repeats_itself_buries_nothing_else() -> None:
+    log = Log()
+    for line in range(1, 51):
+        log.tell(Severity.INFO, "A", "Skipped.", line, 1)
+    log.tell(Severity.INFO, "A", "Another text.", 60, 1)
+    log.tell(Severity.WARNING, "A", "A warning.", 61, 1)
+    *told, more = log.closed()
+    assert [finding.line for finding in told] == [*range(1, MAX_ALIKE + 1), 60, 61]
+    assert more.text == f"A: {50 - MAX_ALIKE} more lines like these."
 
 
 def test_an_alarm_stops_at_its_own_line_or_another() -> None:
