@@ -9,12 +9,14 @@ from __future__ import annotations
 import os
 import re
 import signal
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
+from app.terminal.split_keys import DELAY
 from tests.bench.keys import until_rest
 from tests.reports.terminals import Colors, Kind, sent
 from tests.terminal import Terminal, cutcomp, running
@@ -91,6 +93,9 @@ def recorded(
                 terminal.resize(*step)
             elif step is not None:
                 terminal.send(sent(step))
+            if step == "escape":
+                # the program rests while it waits for the rest of a key
+                time.sleep(2 * DELAY)
             settle(terminal)
             shown = picture(terminal)
             os.kill(terminal.pid, signal.SIGWINCH)
