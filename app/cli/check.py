@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from multiprocessing import active_children, get_context
 from pathlib import Path
+from shlex import quote
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
@@ -225,11 +226,12 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
 
 def _print_missing(answers: tuple[Answer, ...]) -> None:
     """How the tools are given for whose diameter a control stops."""
-    missing = sorted({one.missing for one in answers if one.missing is not None})
+    missing = sorted({one.missing for one in answers if one.missing is not None}, key=str)
     if missing:
         told = " and ".join(map(str, missing))
-        sizes = " ".join(f"--tool {number}=0.5" for number in missing)
-        print(f"No diameter of tool {told} is known: add {sizes} with the real diameter, or --tools TABLE.")
+        sizes = " ".join(f"--tool {quote(str(tool))}=0.5" for tool in missing)
+        table = ", or --tools TABLE" if all(isinstance(tool, int) for tool in missing) else ""
+        print(f"No diameter of tool {told} is known: add {sizes} with the real diameter{table}.")
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.documents.files import read_file, why
 from app.documents.nc_text import MAX_NC_BYTES
-from core.controls.control_tools import CutterTool, ToolTable, read_table
+from core.controls.control_tools import CutterTool, ToolTable, read_table, tool_id
 from core.controls.program_text import quoted
 from core.program.tools import table_faults
 from core.units import Kind, Unit, Unreadable, parse
@@ -33,7 +33,8 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in after it: 1=.5, 2=6mm, 3=1/2",
+        help="a tool's diameter in the program's unit, or with mm or in after it: 1=.5, 2=6mm, 3=1/2; "
+        "a Klartext tool by its name: ROUGH_D10=10",
     )
 
 
@@ -64,17 +65,18 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
 
 
 def _tool(text: str) -> CutterTool:
-    """A tool written N=DIAMETER, the diameter as in a field of a form: `1=.5`, `2=6mm`, `3=1/2`."""
-    number, _, diameter = text.partition("=")
+    """A tool written N=DIAMETER or NAME=DIAMETER, the diameter as in a field of a form: `1=.5`, `2=6mm`, `3=1/2`."""
+    name, _, diameter = text.rpartition("=")
     inches, millimeters = (parse(diameter, Kind.LENGTH, unit) for unit in (Unit.IN, Unit.MM))
-    if not number.strip().isdecimal() or isinstance(inches, Unreadable) or isinstance(millimeters, Unreadable):
+    if not name.strip() or isinstance(inches, Unreadable) or isinstance(millimeters, Unreadable):
         reason = f" {inches.reason}" if isinstance(inches, Unreadable) and diameter.strip() else ""
-        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5, 2=6mm or 3=1/2.{reason}")
+        raise Unusable(f"--tool {quoted(text)}: write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2.{reason}")
+    tool = tool_id(name.strip())
     if inches == millimeters:
         # no unit is written: it is the program's
-        return CutterTool(int(number), inches)
+        return CutterTool(tool, inches)
     metric = "mm" in diameter.lower()
-    return CutterTool(int(number), millimeters if metric else inches, unit=Unit.MM if metric else Unit.IN)
+    return CutterTool(tool, millimeters if metric else inches, unit=Unit.MM if metric else Unit.IN)
 
 
 def bytes_of(path: Path) -> bytes:

@@ -16,7 +16,7 @@ from core.progress import Progress, part, silent
 from core.units import Unit
 
 if TYPE_CHECKING:
-    from core.controls.control_tools import ToolTable
+    from core.controls.control_tools import ToolId, ToolTable
     from core.draw.scene import Layer, Scene
     from core.finding import Finding
     from core.pipeline.checking import Answer, Asked
@@ -27,8 +27,11 @@ RUN_SHARE: Final = 0.5
 MAX_GUESS_LINES: Final = 200
 """Lines that are looked at to guess which control a program is for."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
-_REMEMBERED: Final = re.compile(r"(\d{1,4})=([-+.e\d]{1,25})(in|mm)")
-_TOOL: Final = re.compile(r"(?<![A-Z])(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])", re.IGNORECASE)
+_REMEMBERED: Final = re.compile(r'(?<!\S)(?:(\d{1,4})|"([^"]+)")=([-+.e\d]{1,25})(in|mm)(?!\S)')
+_TOOL: Final = re.compile(
+    r'(?<![A-Z])(?:TOOL\s+(?:DEF|CALL)\s+"([^"]+)"|(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.]))',
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -151,19 +154,20 @@ def _asked(question: Question, control: str) -> Asked:
 
 
 def tools_text(tools: ToolTable) -> str:
-    """Tools and diameters in a line, `1=0.5in 2=12.0mm`."""
-    return " ".join(f"{tool.number}={tool.diameter!r}{tool.unit or ''}".lower() for tool in tools.tools.values())
+    """Tools and diameters in a line, `1=0.5in 2=12.0mm "ROUGH D10"=10.0mm`."""
+    names = {each: f'"{each}"' if isinstance(each, str) else str(each) for each in tools.tools}
+    return " ".join(f"{names[each]}={tool.diameter!r}{tool.unit or ''}".lower() for each, tool in tools.tools.items())
 
 
 def read_tools(text: str) -> ToolTable:
     """The tools in such a line; what is no tool in it is passed over."""
     # this loads the controls, which the first paint does without
-    from core.controls.control_tools import CutterTool, ToolTable
+    from core.controls.control_tools import CutterTool, ToolTable, tool_id
 
     tools = []
-    for found in filter(None, map(_REMEMBERED.fullmatch, text.split())):
+    for number, name, diameter, unit in _REMEMBERED.findall(text):
         with suppress(ValueError):
-            tools.append(CutterTool(int(found[1]), float(found[2]), unit=Unit(found[3].upper())))
+            tools.append(CutterTool(tool_id(number or name), float(diameter), unit=Unit(unit.upper())))
     return ToolTable.of(*tools)
 
 
@@ -182,13 +186,14 @@ def likely_control(text: NcText, usual: str = "") -> str:
     return known if isinstance(known, str) and not is_klartext(known) else "linuxcnc"
 
 
-def first_tool(text: NcText) -> int:
-    """The number of the first tool or offset a text names outside its comments, 1 without any."""
+def first_tool(text: NcText) -> ToolId:
+    """The number or name of the first tool or offset a text names outside its comments, 1 without any."""
     # this loads the controls, which the first paint does without
+    from core.controls.control_tools import tool_id
     from core.controls.iso.reader import without_comments
 
     for row in range(min(MAX_GUESS_LINES, len(text))):
         found = _TOOL.search(without_comments(text.text(row).upper()))
-        if found and int(found[1]):
-            return int(found[1])
+        if found and (tool := tool_id(found[1] or found[2])):
+            return tool
     return 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
@@ -48,7 +48,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolId, ToolTable, tool_id
 from core.finding import Finding, Severity
 from core.progress import Progress, Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
@@ -67,7 +67,7 @@ ZOOM: Final = 1.25
 """One press enlarges by this factor."""
 ORDER: Final = tuple(Severity)
 """The gravest first."""
-_NUMBERED: Final = re.compile(r"\s*(\d{1,4})\s*=(.*)")
+_NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 
 
 class ProofScreen(BaseScreen):
@@ -129,7 +129,7 @@ class ProofScreen(BaseScreen):
         if asked is not None:
             tools = self.given.with_tools(asked.tools)
             self.question = Question(text, asked.control or control, tools, asked.unit, folder)
-            self.tool = min(asked.tools.tools, default=self.tool)
+            self.tool = next(iter(asked.tools.tools), self.tool)
         self.result: Result | None = None
         self.dotted_control = ""
         """Another control whose path is drawn dotted, empty for none."""
@@ -609,24 +609,24 @@ class ProofScreen(BaseScreen):
     async def action_tool(self) -> None:
         """Give a tool or an offset another diameter."""
         missing = None if self.result is None else self.result.answer.missing
-        number = self.tool if missing is None else missing
+        named = self.tool if missing is None else missing
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         lines = [
-            f"Tool and diameter in {self.unit}: {number}={own} or {number}={other}.",
-            f"A diameter alone: tool {number}. {number}= takes it away.",
+            f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
+            f"A diameter alone: tool {named}. {named}= takes it away.",
         ]
 
         def refusal(text: str) -> str:
-            tool = read_tool(text, number, self.unit)
-            return tool if isinstance(tool, str) and text.strip() else ""
+            typed = read_tool(text, named, self.unit)
+            return typed.reason if isinstance(typed, NoTool) and text.strip() else ""
 
         text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines, refusal))
-        tool = read_tool(text, number, self.unit)
-        if isinstance(tool, int):
-            self._with_tools(self.given.without(tool), self.question.tools.without(tool))
-            self.say(f"Tool {tool} has no diameter any more.")
-        elif isinstance(tool, CutterTool):
-            self._with_tool(tool)
+        typed = read_tool(text, named, self.unit)
+        if isinstance(typed, CutterTool):
+            self._with_tool(typed)
+        elif typed.tool is not None:
+            self._with_tools(self.given.without(typed.tool), self.question.tools.without(typed.tool))
+            self.say(f"Tool {typed.tool} has no diameter any more.")
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool, typed = tool.number, ToolTable.of(tool)
@@ -677,14 +677,22 @@ class ProofScreen(BaseScreen):
         )
 
 
-def read_tool(text: str, number: int, unit: Unit) -> CutterTool | int | str:
-    """A tool as typed, `2=.5` or a diameter alone; the number of one that `2=` takes away; or why it is none."""
-    found = _NUMBERED.fullmatch(text)
-    number, size = (int(found[1]), found[2]) if found else (number, text)
+@dataclass(frozen=True, slots=True)
+class NoTool:
+    """A tool that has no diameter any more, or why what was typed is no tool."""
+
+    tool: ToolId | None = None
+    reason: str = ""
+
+
+def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | NoTool:
+    """A tool as typed, `2=.5`, `ROUGH=10` or a diameter alone; `2=` takes one away."""
+    found = _NAMED.fullmatch(text)
+    tool, size = (tool_id(found[1]), found[2]) if found else (tool, text)
     if found and not size.strip():
-        return number
+        return NoTool(tool)
     value = parse(size, Kind.LENGTH, unit)
-    return value.reason if isinstance(value, Unreadable) else CutterTool(number, value, unit=unit)
+    return NoTool(reason=value.reason) if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
 
 
 def _while_wanted(worker: Worker[object]) -> Progress:

@@ -131,6 +131,10 @@ class Log:
         else:
             self.left_out[finding.code] += 1
 
+    def has(self, code: str) -> bool:
+        """Whether anything of this rule was told."""
+        return any(code == told for told, _ in self.counts)
+
     def tell(
         self,
         severity: Severity,

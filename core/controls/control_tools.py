@@ -4,21 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 from core.controls.program_text import lines_of
 from core.finding import Finding
 from core.program.tools import table_lines
 from core.units import Unit, to_mm
 
+MAX_DIGITS: Final = 8
+"""Digits of a tool's number; what has more of them is a name."""
+
+
+ToolId = int | str
+"""A tool's number, or in Klartext the name it is called by, in capitals."""
+
+
+def tool_id(text: str) -> ToolId:
+    """What a tool goes by: its number where that is written, else its name."""
+    return int(text) if text.isdecimal() and len(text) <= MAX_DIGITS else text.upper()
+
 
 @dataclass(frozen=True, slots=True)
 class CutterTool:
-    """One tool: its diameter (negative where a control allows it), length and lathe orientation.
+    """One tool: its number or name, diameter (negative where a control allows it), length and lathe orientation.
 
     `unit` None means the unit in which the program is when it takes the tool.
     """
 
-    number: int
+    number: ToolId
     diameter: float
     length: float = 0.0
     orientation: int = 0
@@ -35,24 +48,24 @@ class CutterTool:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ToolTable:
-    """The tools a control knows, by number."""
+    """The tools a control knows, by number or name."""
 
-    tools: Mapping[int, CutterTool] = field(default_factory=dict)
+    tools: Mapping[ToolId, CutterTool] = field(default_factory=dict)
 
     @staticmethod
     def of(*tools: CutterTool) -> ToolTable:
-        """A table of these tools; a later one of the same number replaces an earlier one."""
+        """A table of these tools; a later one of the same number or name replaces an earlier one."""
         return ToolTable({tool.number: tool for tool in tools})
 
-    def get(self, number: int) -> CutterTool | None:
-        """The tool of a number, None where the table has none."""
+    def get(self, number: ToolId) -> CutterTool | None:
+        """The tool of a number or name, None where the table has none."""
         return self.tools.get(number)
 
     def with_tools(self, other: ToolTable) -> ToolTable:
         """This table with another's tools over it."""
         return ToolTable({**self.tools, **other.tools})
 
-    def without(self, number: int) -> ToolTable:
+    def without(self, number: ToolId) -> ToolTable:
         """This table without a tool."""
         return ToolTable({each: tool for each, tool in self.tools.items() if each != number})
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum, auto
+from shlex import quote
 from typing import Final
 
 from core.controls import shop_rules
@@ -13,7 +14,7 @@ from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import shown_name
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import ToolTable
+from core.controls.control_tools import ToolId, ToolTable, tool_id
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
 from core.controls.iso.modal_state import RADIUS_ZERO
@@ -32,7 +33,7 @@ NOT_FOLLOWED: Final = (
 """Rules at which not the control stops but the reading of the program."""
 NOTHING: Final = "EMPTY"
 """The rule of a program in which there is nothing to run."""
-_NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|diameter of tool|Offset) (\d+)")
+_NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
 """How the controls say that they know no size of a tool."""
 _NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
 """How Klartext says that it knows no tool at all."""
@@ -113,12 +114,12 @@ class Answer:
         return "" if self.why is None else sentence(self.why, self.unit)
 
     @property
-    def missing(self) -> int | None:
-        """The number of the tool for whose diameter the control stops, if it does."""
+    def missing(self) -> ToolId | None:
+        """The number or name of the tool for whose diameter the control stops, if it does."""
         if self.stopped_at is None:
             return None
         found = (_NO_SIZE.search(one.text) for one in self.findings if one.severity is Severity.ERROR)
-        return next((int(one[1]) for one in found if one), None)
+        return next((tool_id(one[1] or one[2]) for one in found if one), None)
 
     @property
     def count(self) -> int:
@@ -179,7 +180,8 @@ def _with_option(row: Answer, asked: Asked) -> Answer:
     size = _NO_SIZE.search(row.why.text)
     if size is None and not _NO_TOOL.match(row.why.text):
         return row
-    text = f"{row.why.text} On the command line: --tool {size[1] if size else 1}=DIAMETER."
+    tool = quote(size[1] or size[2]) if size else "1"
+    text = f"{row.why.text} On the command line: --tool {tool}=DIAMETER."
     why = replace(row.why, text=text)
     return replace(row, why=why, findings=tuple(why if one is row.why else one for one in row.findings))
 

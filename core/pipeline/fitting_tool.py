@@ -8,7 +8,7 @@ from math import ceil
 from typing import Final
 
 from core.controls.control_run import ControlRun
-from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolTable, tool_id
 from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import deepest_gouge, judge_run
 from core.controls.registry import UnknownControl, run
@@ -25,7 +25,7 @@ MAX_TOOLS: Final = 8
 SMALLEST_SHARE: Final = 20
 """The smallest size tried is the diameter divided by this: with a tiny tool every fault looks small."""
 
-_NUMBER: Final = re.compile(rb"(?:[TD]|CALL|DEF)\s*(\d+)", re.IGNORECASE)
+_NAMED: Final = re.compile(rb'(?:[TD]|CALL|DEF)\s*(?:(\d+)|"([^"]+)")', re.IGNORECASE)
 """Where a program names a tool or an offset."""
 
 
@@ -70,6 +70,6 @@ def largest_tool(
 
 def _named(text: bytes, tools: ToolTable) -> tuple[CutterTool, ...]:
     """The tools of the table that the text names."""
-    numbers = dict.fromkeys(int(number) for number in _NUMBER.findall(text) if len(number) < 9)
-    named = (tools.get(number) for number in numbers)
+    names = dict.fromkeys(tool_id((number or name).decode(errors="replace")) for number, name in _NAMED.findall(text))
+    named = map(tools.get, names)
     return tuple(tool for tool in named if tool is not None)[:MAX_TOOLS]

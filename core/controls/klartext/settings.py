@@ -6,6 +6,7 @@ import re
 from math import inf
 from typing import Final, NoReturn
 
+from core.controls.control_tools import tool_id
 from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
@@ -155,7 +156,7 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
 
 def _take_radius(state: State, block: Block, delta: float) -> None:
     """Radius of the tool in force: of the tool table if it has the tool, else of TOOL DEF, with the deltas."""
-    listed = state.tools.get(int(state.tool)) if state.tool.isdecimal() and len(state.tool) < 9 else None
+    listed = state.tools.get(tool_id(state.tool))
     defined = state.defined.get(state.tool)
     if listed is not None:
         radius = listed.diameter_mm(state.unit) / 2.0

@@ -338,7 +338,7 @@ class Fanuc(VectorQueue, Control):
 
     def _tell_parameters(self, line: int) -> None:
         """Names the parameters that are assumed, once."""
-        if "FN-PARAM" not in self.log.counts:
+        if not self.log.has("FN-PARAM"):
             self.log.tell(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
 
     def assumed_parameters(self) -> str:

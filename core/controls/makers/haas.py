@@ -66,7 +66,7 @@ class Haas(fanuc.Fanuc):
                 "The manuals do not say whether the control looks past a stop, a move of no length or a move to the "
                 "machine's zero under compensation. cutcomp assumes that it does."
             )
-            if "HAAS-STOP" not in self.log.counts:
+            if not self.log.has("HAAS-STOP"):
                 self.log.tell(Severity.WARNING, "HAAS-STOP", text, block.line, 1)
             return
         text = (

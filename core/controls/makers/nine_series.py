@@ -173,7 +173,7 @@ class NineSeries(ElementQueue, Control):
 
     def _assumed(self, rule: str, text: str, line: int) -> None:
         """Reports a value that the machine builder sets, once."""
-        if rule not in self.log.counts:
+        if not self.log.has(rule):
             words = f"This depends on a value the machine builder sets (first at this line): {text}"
             self.log.tell(Severity.INFO, rule, words, line, 1)
 

@@ -391,6 +391,25 @@ async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp
         assert one.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
+async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
+    text = (
+        b'0 BEGIN PGM A MM\n1 TOOL CALL "Rough D10" Z S3000 F500\n2 L X-20 Y-20 Z-5 R0 FMAX\n'
+        b"3 L X+0 Y+0 RL F300\n4 L Y+50\n5 L X+50\n6 L X+70 Y+50 R0\n7 END PGM A MM\n"
+    )
+    async with at_proof(tmp_path, text) as one:
+        await with_tool(one, "10")
+        assert one.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
+        assert one.prompt == "Tool ROUGH D10 is 10 MM across."
+        assert one.proof.result.answer.stopped_at is None
+        known = one.app.settings.tools_of(tmp_path / "p.nc")
+        assert read_tools(known).tools == one.proof.question.tools.tools
+        await with_tool(one, "rough d10=12")
+        assert one.proof.question.tools.get("ROUGH D10").diameter == 12.0
+        await with_tool(one, "Rough D10=")
+        assert not one.proof.question.tools.tools
+        assert one.proof.result.answer.missing == "ROUGH D10"
+
+
 async def test_a_line_that_is_being_typed_is_not_saved_and_says_so(tmp_path):
     async with at_proof(tmp_path) as one:
         title, name = one.proof.query_one("#proof-mode", Label), one.proof.query_one("#proof-file", Label)
@@ -470,7 +489,7 @@ def test_a_tool_is_typed_with_its_number_or_as_a_diameter_alone(text, tool):
 
 
 def test_a_diameter_that_cannot_be_read_is_a_sentence():
-    assert isinstance(read_tool("2=abc", 1, Unit.IN), str)
+    assert read_tool("2=abc", 1, Unit.IN).reason.startswith("abc is not a number")
 
 
 async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_path):
