@@ -354,7 +354,7 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
     surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
-    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, lead_arcs=contours == 1)
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, lead_moves=contours == 1)
     if stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
@@ -627,6 +627,10 @@ def _crossing(result: Judged) -> list[Finding]:
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
     """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
+    if over_run.bent_numbers:
+        which = " and ".join(f"line {number:.0f}" for number in over_run.bent_numbers)
+        text = f"Over-run at X {{x}} Y {{y}}: {which} counts as lead, not as contour. Check that nothing is cut there."
+        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.bent_numbers[0]))
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=_first_line(surface))

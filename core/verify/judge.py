@@ -27,7 +27,7 @@ def judge(
     center: Path,
     arc_radii: float = ARC_RADII,
     *,
-    lead_arcs: bool = False,
+    lead_moves: bool = False,
 ) -> Verdict:
     """What a cutter of this radius does whose center runs along `center`, lead moves included, beside `surface`.
 
@@ -35,9 +35,9 @@ def judge(
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
     `arc_radii`, or at all with both ends on one ray from the center, give a verdict that is not `judged` and so never
-    clean.  With `lead_arcs` arcs at the surface's two ends may be leads of an over-run.
+    clean.  With `lead_moves` one more move at either end of the surface may belong to an over-run's leads.
     """
-    return judge_together(surface, side, radius, (center,), arc_radii, lead_arcs=lead_arcs)
+    return judge_together(surface, side, radius, (center,), arc_radii, lead_moves=lead_moves)
 
 
 def judge_together(
@@ -47,7 +47,7 @@ def judge_together(
     centers: Sequence[Path],
     arc_radii: float = ARC_RADII,
     *,
-    lead_arcs: bool = False,
+    lead_moves: bool = False,
 ) -> Verdict:
     """The verdict on several center paths that are all cut, such as the loops of one contour.
 
@@ -57,7 +57,7 @@ def judge_together(
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, None, (), NOTHING, 0.0, crosses_itself=False)
-    return judge_prepared(Surface.prepare(surface, side, lead_arcs=lead_arcs), radius, centers, arc_radii)
+    return judge_prepared(Surface.prepare(surface, side, lead_moves=lead_moves), radius, centers, arc_radii)
 
 
 def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc_radii: float = ARC_RADII) -> Verdict:

@@ -41,19 +41,19 @@ class Surface:
     over_run: OverRun | None = None
 
     @staticmethod
-    def prepare(path: Path, side: Side, *, lead_arcs: bool = False) -> Surface:
+    def prepare(path: Path, side: Side, *, lead_moves: bool = False) -> Surface:
         """The surface of a contour that can be judged.
 
-        With `lead_arcs` an arc at either end may lead to the first element and from the last one.
+        With `lead_moves` one move at either end may lead to the first element and from the last one.
         """
         with np.errstate(all="ignore"):
             whole = Surface._of(path, side)
-            left = _without_over_run(whole, lead_arcs=lead_arcs)
+            left = _without_over_run(whole, lead_moves=lead_moves)
             shorter = None if left is not None else _without_overlap(whole)
             if shorter is None:
                 return left or whole
             once = Surface._of(shorter, side)
-            left = _without_over_run(once, lead_arcs=lead_arcs)
+            left = _without_over_run(once, lead_moves=lead_moves)
             return left or (once if once.closed and not len(once.crossings) else whole)
 
     @staticmethod
@@ -91,7 +91,7 @@ def _same_circle(walls: PieceArrays) -> bool:
     return bool(arcs and max(abs(center - other), abs(radius - large)) <= JOINED)
 
 
-def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
+def _without_over_run(surface: Surface, *, lead_moves: bool) -> Surface | None:
     """The surface between the crossing of its first and its last element.
 
     One of them may begin, end or join the next element at the crossing, as long as either runs beyond it.  None where
@@ -99,7 +99,7 @@ def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
     that.
     """
     walls, stations = surface.walls, surface.walls.stations
-    crossing = _crossing_of_ends(surface, lead_arcs=lead_arcs)
+    crossing = _crossing_of_ends(surface, lead_moves=lead_moves)
     if crossing is None:
         return None
     at, first, last = crossing
@@ -122,14 +122,18 @@ def _without_over_run(surface: Surface, *, lead_arcs: bool) -> Surface | None:
         share = 0.0 if own else lead_out / float(stations[-1] - stations[end])
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
-    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful)
+    bent = _bent(walls, range(begin, -1, -1)) if first > stations[begin] + JOINED else []
+    bent += _bent(walls, range(end, len(walls))) if last < stations[end + 1] - JOINED else []
+    bent_numbers = tuple(surface.path.numbers[walls.rows[bent]].tolist())
+    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, bent_numbers)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
 
 
-def _crossing_of_ends(surface: Surface, *, lead_arcs: bool) -> tuple[Point, float, float] | None:
-    """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled
-    there; lines that continue each other are one element.  With `lead_arcs` the elements next to an arc at an end may
-    cross too."""
+def _crossing_of_ends(surface: Surface, *, lead_moves: bool) -> tuple[Point, float, float] | None:
+    """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled.
+
+    Lines that continue each other are one element.  With `lead_moves` the elements next to those may cross too.
+    """
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
         # ends that are one point within CLOSED may run past each other all the same
@@ -138,9 +142,10 @@ def _crossing_of_ends(surface: Surface, *, lead_arcs: bool) -> tuple[Point, floa
     places, points = crossings.places, crossings.points
     if not len(points) or len(walls) < 3:
         return None
-    arc_in, arc_out = (int(lead_arcs and bool(walls.arcs[end])) for end in (0, -1))
-    begin = _in_line(walls, range(arc_in, len(walls)))
-    end = _in_line(walls, range(len(walls) - 1 - arc_out, -1, -1))
+    begin, end = _in_line(walls, range(len(walls))), _in_line(walls, range(len(walls) - 1, -1, -1))
+    if lead_moves:
+        begin = _in_line(walls, range(min(begin + 1, len(walls) - 1), len(walls)))
+        end = _in_line(walls, range(max(end - 1, 0), -1, -1))
     at_ends = places[:, 0] <= walls.stations[begin + 1] + JOINED
     at_ends &= places[:, 1] >= walls.stations[end] - JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
@@ -154,6 +159,12 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
         if walls.arcs[near] or walls.arcs[far] or abs(walls.unit[near] - walls.unit[far]) > IN_LINE:
             return near
     return rows[-1]
+
+
+def _bent(walls: PieceArrays, rows: range) -> list[int]:
+    """Those of the rows from the crossing outward that are lines and do not continue the element that crosses."""
+    straight = _in_line(walls, rows)
+    return [row for row in rows if not walls.arcs[row] and abs(row - rows[0]) > abs(straight - rows[0])]
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

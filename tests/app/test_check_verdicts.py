@@ -95,6 +95,36 @@ def test_an_over_run_at_a_corner_is_a_lead_and_said_once(
     assert f"{shown_name(control)}: runs;" in outcome
 
 
+BENT = """G21 G90 G17 G40
+T1 M6
+G0 X-20. Y-20.
+G43 H1 Z5.
+G1 Z-5. F200.
+G41 D1 G1 X-12. Y-15.
+X0. Y-5.
+Y40.
+X40.
+Y0.
+X-15.
+G40 X-30. Y0.
+M30
+"""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a", "linuxcnc", "nine-series:a"])
+def test_compensation_that_begins_a_move_before_the_over_run_is_a_warning(
+    control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, findings, outcome = checked(capsys, tmp_path, BENT, control)
+    (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
+    assert over_run["severity"] == "warning"
+    assert over_run["line"] == 7
+    assert str(over_run["text"]).startswith("Over-run at X 0.000 Y 0.000: line 7 counts as lead, not as contour.")
+    assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
+    assert status == 0, findings
+    assert f"{shown_name(control)}: runs;" in outcome
+
+
 SEED = """N10G0G90X-1.Y1.T1M6
 N20G41{offset}Y0Z0
 N21G1X0Y0F20.

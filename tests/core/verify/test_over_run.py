@@ -209,20 +209,46 @@ def test_arcs_that_lead_to_an_over_run_are_leads_where_they_may_be(part: slice, 
     move, side = MOTIONS[motion]
     contour = move(Path.from_pieces(list(WITH_ARCS)[part]))
     assert judge(contour, side, R, move(around(R))).over_run_at is None
-    verdict = judge(contour, side, R, move(around(R)), lead_arcs=True)
+    verdict = judge(contour, side, R, move(around(R)), lead_moves=True)
     assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
     assert verdict.surface_length == pytest.approx(6.0)
     assert verdict.clean
-    assert judge(contour, side, R, move(around(R - 0.01)), lead_arcs=True).depth == pytest.approx(0.01)
+    assert judge(contour, side, R, move(around(R - 0.01)), lead_moves=True).depth == pytest.approx(0.01)
 
 
 def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
     into = Arc((0, 1), (0.5, -0.5), (-2.75, -0.75), Turn.CW)
-    verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), lead_arcs=True)
+    verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), lead_moves=True)
     assert verdict.over_run_at is None
     assert verdict.crosses_itself
-    lines_only = Path.from_pieces([*TAIL, Line((0, 1), (-1, 1))])
-    assert judge(lines_only, Side.LEFT, R, around(R), lead_arcs=True).over_run_at is None
+
+
+@pytest.mark.parametrize("motion", MOTIONS)
+@pytest.mark.parametrize(
+    ("part", "bent"), [(slice(None), (1.0, 6.0)), (slice(1, None), (5.0,)), (slice(None, -1), (1.0,))]
+)
+def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, bent: tuple[float, ...], motion: str) -> None:
+    """Compensation that begins a move before the over-run, or goes on a move longer."""
+    move, side = MOTIONS[motion]
+    pieces = [Line((-1.5, -0.5), (-1, 0)), *TAIL, Line((0, 1), (-1, 1))][part]
+    contour = move(Path.from_pieces(pieces))
+    assert judge(contour, side, R, move(around(R))).over_run_at is None
+    verdict = judge(contour, side, R, move(around(R)), lead_moves=True)
+    assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert verdict.over_run is not None
+    assert verdict.clean
+    assert judge(contour, side, R, move(around(R - 0.01)), lead_moves=True).depth == pytest.approx(0.01)
+    wanted = [len(pieces) + 1 - number for number in bent] if "reversed" in motion else bent
+    assert sorted(verdict.over_run.bent_numbers) in (sorted(wanted), sorted(bent))
+
+
+def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
+    once = Path.from_pieces([*TAIL, Line((0, 1), (-1, 1))])
+    twice = Path.from_pieces([*once, Line((-1, 1), (-1, 2))])
+    for contour, side in ((twice, Side.LEFT), (once, Side.RIGHT)):
+        verdict = judge(contour, side, R, around(R), lead_moves=True)
+        assert verdict.over_run_at is None
+        assert verdict.crosses_itself
 
 
 @pytest.mark.parametrize(
