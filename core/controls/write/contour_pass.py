@@ -164,8 +164,12 @@ def programmed_elements(compensated: Compensated) -> ProgrammedElements | Findin
 
 
 def _rows(compensated: Compensated) -> list[int]:
-    """Rows of the contour that the path and its overlap run along."""
-    numbers = [*compensated.path.numbers.tolist(), *overlap(compensated).numbers.tolist()]
+    """Rows of the contour that the path and its overlap run along.
+
+    The way from the path's end to its start, which a corner of next to no angle leaves there, is no element.
+    """
+    again = dict.fromkeys(overlap(compensated).numbers.tolist())
+    numbers = [*compensated.path.numbers.tolist(), *again]
     row_of = {number: row for row, number in enumerate(compensated.contour.numbers.tolist())}
     return [row_of[number] for number in numbers if number in row_of]
 

@@ -192,6 +192,23 @@ def test_a_clean_program_of_ours_is_clean_to_the_judge_of_programs(control: str,
     assert not codes & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE", "CROSSES", "UNCUT"}
 
 
+@pytest.mark.parametrize("control", EVERY)
+@pytest.mark.parametrize("off", [-0.0001, 0.0001])
+@pytest.mark.parametrize("side", Side)
+def test_a_start_in_the_middle_of_a_wall_may_be_off_its_line_by_a_digit(control: str, off: float, side: Side) -> None:
+    """Both parts of that wall meet in a corner of next to no angle, where the path overlaps."""
+    square = outline((1, off), (2, 0), (2, 2), (0, 2), (0, 0), (1, off))
+    one = compensate(square, side, 0.25 * INCH, 4, closed=True, blend=0.125 * INCH, overlap=0.1 * INCH)
+    elements = programmed_elements(one)
+    assert not isinstance(elements, Finding)
+    assert elements.segments == (1.0, 2.0, 3.0, 4.0, 5.0, 1.0)
+    if control == "threeblock" or (side is Side.LEFT and control in ("rosettacnc:nist", "rosettacnc:easy")):
+        assert re.search("rule (B11-COLLINEAR|C6):", refused(control, cut(one)).text)
+        return
+    done = made_by(control, text_of(control, cut(one)), cut(one))
+    assert not {finding.code for finding in judged_findings(judge_run(done))} & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE"}
+
+
 def moved(x: float, y: float, z: float, feed: float | None = 10.0, turn: int = 0) -> CenterMove:
     """A move in inches; its arc turns around X1 Y0."""
     return CenterMove(x * INCH, y * INCH, z * INCH, None if feed is None else feed * INCH, turn, (1.0 * INCH, 0.0))
