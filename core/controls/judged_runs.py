@@ -627,10 +627,10 @@ def _crossing(result: Judged) -> list[Finding]:
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
     """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
-    if over_run.bent_numbers:
-        which = " and ".join(f"line {number:.0f}" for number in over_run.bent_numbers)
-        text = f"Over-run at X {{x}} Y {{y}}: {which} counts as lead, not as contour. Check that nothing is cut there."
-        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.bent_numbers[0]))
+    if not over_run.doubtful and over_run.long_numbers:
+        which = " and ".join(f"line {number:.0f}" for number in over_run.long_numbers)
+        text = f"Over-run at X {{x}} Y {{y}}: all or most of {which} is taken for lead. Check that no wall is there."
+        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.long_numbers[0]))
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=_first_line(surface))

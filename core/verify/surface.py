@@ -14,13 +14,19 @@ from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import CLOSED, JOINED
 from core.verify.pairs import nearest, pairs_of, rounding_of
-from core.verify.self_crossings import NO_CROSSINGS, SelfCrossings, self_crossings
+from core.verify.self_crossings import NO_CROSSINGS, SelfCrossings, at_joints, self_crossings
 from core.verify.verdict import OverRun
 from core.verify.wrong_side import on_part_side, sided
 
 LONG_LEAD: Final = 0.25
 """Share of its segment from which on a lead may be a wall all the same, with START or the last end mistyped."""
 
+
+MOST: Final = 0.5
+"""Share of its segment from which on a lead may be a wall, although the other end has a lead too."""
+
+BLEND: Final = 0.02
+"""Radians between the directions of an arc and of the wall beside it up to which it leads off that wall."""
 
 IN_LINE: Final = 1e-3
 """Radians between the directions of lines that are one straight line with rounded points."""
@@ -122,17 +128,22 @@ def _without_over_run(surface: Surface, *, lead_moves: bool) -> Surface | None:
         share = 0.0 if own else lead_out / float(stations[-1] - stations[end])
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
-    bent = _bent(walls, range(begin, -1, -1)) if first > stations[begin] + JOINED else []
-    bent += _bent(walls, range(end, len(walls))) if last < stations[end + 1] - JOINED else []
-    bent_numbers = tuple(surface.path.numbers[walls.rows[bent]].tolist())
-    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, bent_numbers)
+    beyond = [] if first <= stations[begin] + JOINED else _bent(walls, range(begin, -1, -1))
+    beyond += [] if last >= stations[end + 1] - JOINED else _bent(walls, range(end, len(walls)))
+    if first - stations[begin] > MOST * (stations[begin + 1] - stations[begin]):
+        beyond.append(begin)
+    if stations[end + 1] - last > MOST * (stations[end + 1] - stations[end]):
+        beyond.append(end)
+    long_numbers = tuple(surface.path.numbers[walls.rows[sorted(beyond)]].tolist())
+    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, long_numbers)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
 
 
 def _crossing_of_ends(surface: Surface, *, lead_moves: bool) -> tuple[Point, float, float] | None:
     """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled.
 
-    Lines that continue each other are one element.  With `lead_moves` the elements next to those may cross too.
+    Lines that continue each other are one element.  With `lead_moves` the elements next to those may cross too, and an
+    arc at an end that runs on tangent from its neighbor may not: it is a lead, and a wall that it crosses is cut.
     """
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
@@ -148,9 +159,21 @@ def _crossing_of_ends(surface: Surface, *, lead_moves: bool) -> tuple[Point, flo
         end = _in_line(walls, range(max(end - 1, 0), -1, -1))
     at_ends = places[:, 0] <= walls.stations[begin + 1] + JOINED
     at_ends &= places[:, 1] >= walls.stations[end] - JOINED
+    if lead_moves:
+        at_ends &= places[:, 0] >= walls.stations[int(_blends(walls, 0, 1))] - JOINED
+        at_ends &= places[:, 1] <= walls.stations[len(walls) - int(_blends(walls, -1, -2))] + JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
         return None
     return (points[0].real.item(), points[0].imag.item()), float(places[:, 0].min()), float(places[:, 1].max())
+
+
+def _blends(walls: PieceArrays, end: int, beside: int) -> bool:
+    """Whether the piece at an end is an arc that is tangent to the one beside it."""
+    if not walls.arcs[end]:
+        return False
+    before, after = sorted((end % len(walls), beside % len(walls)))
+    leaving, coming = at_joints(walls, np.array([before]), np.array([after]))[:, 0]
+    return bool(abs(np.angle(coming * np.conj(leaving))) <= BLEND)
 
 
 def _in_line(walls: PieceArrays, rows: range) -> int:

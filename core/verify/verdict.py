@@ -167,7 +167,7 @@ class OverRun:
 
     `first_number` and `last_number` are those of the pieces that meet.  `doubtful` is one lead alone that is so long a
     part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that segment and
-    may be mistyped.  `bent_numbers` are those of whole lines beyond the pieces that meet: leads that may be walls.
+    may be mistyped.  `long_numbers` are those of lines of which all or most lies beyond: leads that may be walls.
     """
 
     at: Point
@@ -176,7 +176,7 @@ class OverRun:
     first_number: float
     last_number: float
     doubtful: bool
-    bent_numbers: tuple[float, ...] = ()
+    long_numbers: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -119,10 +119,48 @@ def test_compensation_that_begins_a_move_before_the_over_run_is_a_warning(
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "warning"
     assert over_run["line"] == 7
-    assert str(over_run["text"]).startswith("Over-run at X 0.000 Y 0.000: line 7 counts as lead, not as contour.")
+    assert str(over_run["text"]).startswith("Over-run at X 0.000 Y 0.000: all or most of line 7 is taken for lead.")
     assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
     assert f"{shown_name(control)}: runs;" in outcome
+
+
+OPEN = """G21 G90 G17 G40
+T1 M6
+G0 X-30. Y20.
+G43 H1 Z5.
+G1 Z-5. F200.
+G41 D1 G1 X-10. Y10.
+G3 X0. Y20. R10.
+G1 Y50.
+X80.
+Y0.
+X{end}
+Y25.
+{lead_out}
+G40 G1 X-30.
+M30
+"""
+
+
+@pytest.mark.parametrize("end", ["5.", "2.", ".2", "-3."])
+def test_a_lead_arc_that_crosses_the_first_wall_of_an_open_contour_cuts_it(
+    end: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """The last wall was to end on X0, where the first one stands; with a tool of 12.7 it is cut into."""
+    text = OPEN.format(end=end, lead_out=f"G3 X{float(end) - 10.0:.1f} Y35. R10.")
+    status, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
+    assert "GOUGE" in rules(findings)
+    assert "OVER_RUN" not in rules(findings)
+    assert status == 1
+
+
+def test_an_over_run_that_is_most_of_its_line_is_a_warning(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    text = OPEN.format(end="5.", lead_out="X-10.").replace("G3 X0. Y20. R10.\n", "").replace("X-10. Y10.", "X0. Y20.")
+    _, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
+    (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
+    assert over_run["severity"] == "warning"
+    assert "most of line 12 is" in str(over_run["text"])
 
 
 SEED = """N10G0G90X-1.Y1.T1M6

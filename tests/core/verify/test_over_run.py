@@ -239,7 +239,7 @@ def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, bent: tup
     assert verdict.clean
     assert judge(contour, side, R, move(around(R - 0.01)), lead_moves=True).depth == pytest.approx(0.01)
     wanted = [len(pieces) + 1 - number for number in bent] if "reversed" in motion else bent
-    assert sorted(verdict.over_run.bent_numbers) in (sorted(wanted), sorted(bent))
+    assert sorted(verdict.over_run.long_numbers) in (sorted(wanted), sorted(bent))
 
 
 def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
