@@ -20,6 +20,12 @@ MAX_CONTOURS: Final = 32
 BLEND: Final = radians(1.0)
 """How far the directions of a lead and of the contour may be apart where they run on tangent."""
 
+LONG: Final = 0.5
+"""Share of the longest contour from which on moves that lead to one or away from it may be walls."""
+
+OVERLAP: Final = 1e-3
+"""Radians between the directions of a wall and of a move that runs along it again, with rounded ends."""
+
 RowRange = tuple[int, int]
 """First row and one after the last."""
 
@@ -29,14 +35,17 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
 
     A closed run of pieces is a contour, the longest one before all others.  What is before, between and after closed
     ones is a contour too where it has more than MAX_LEAD_MOVES pieces, an open one: nothing says that it is no surface.
+    Pieces behind the longest one that run along its beginning again count as neither.
     """
     whole = (0, len(path))
     places = _places(path)
-    longest = _longest(places)
+    sums = _sums(path)
+    longest = _longest(sums, places)
     if longest is None:
         return (whole,)
-    first, last = longest = _between_blends(path, places, longest)
-    contours = (*_within(path, places, (0, first)), longest, *_within(path, places, (last, len(path))))
+    longest = _between_leads(path, sums, places, longest)
+    behind = _behind_overlap(path, longest)
+    contours = (*_within(sums, places, (0, longest[0])), longest, *_within(sums, places, (behind, len(path))))
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
@@ -50,19 +59,22 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
 
 
 def split_where_it_closes(path: Path) -> Path:
-    """The path with the line split in two that runs on over the point at which a blend led in.
+    """The path with lines split in two that run on over the point at which the contour begins.
 
-    A control that allows no two moves on one line has such contours: they close within their last line.
+    It begins behind at most MAX_LEAD_MOVES moves, or ends before so many.  Contours are cut a little further than to
+    where they close, once more as a whole, or from a start beyond their corner.
     """
-    if contours_of(path) != ((0, len(path)),):
-        return path
-    for lead in range(min(MAX_LEAD_MOVES, len(path) - 2)):
-        if not _blends(path, range(lead + 1, lead - 1, -1)):
-            continue
-        point, way = path.ends[lead], path.start_directions[lead + 1]
-        for row in range(lead + 2, len(path)):
-            if not path.turns[row] and _runs_over(path, row, point, way):
-                return _split(path, row, point)
+    forward = _split_at_start(path)
+    return forward if len(forward) > len(path) else _split_at_start(path.reversed()).reversed()
+
+
+def _split_at_start(path: Path) -> Path:
+    """The path with lines split in two that run on over the point behind its first moves, of most moves first."""
+    for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
+        point, way = path.points[lead], path.start_directions[lead]
+        rows = [row for row in range(lead + 2, len(path)) if not path.turns[row] and _runs_over(path, row, point, way)]
+        if rows:
+            return _split(path, rows, point)
     return path
 
 
@@ -74,12 +86,20 @@ def _runs_over(path: Path, row: int, point: Floats, way: Floats) -> bool:
     return inside and off <= CLOSED and float(along @ way) > cos(BLEND)
 
 
-def _split(path: Path, row: int, point: Floats) -> Path:
-    """The path with a line in two pieces of its number."""
-    points = np.insert(path.points, row + 1, point, axis=0)
-    centers = np.insert(path.centers, row + 1, point, axis=0)
-    turns, numbers = np.insert(path.turns, row + 1, 0), np.insert(path.numbers, row + 1, path.numbers[row])
+def _split(path: Path, rows: list[int], point: Floats) -> Path:
+    """The path with lines in two pieces of their number each."""
+    behind = [row + 1 for row in rows]
+    points, centers = np.insert(path.points, behind, point, axis=0), np.insert(path.centers, behind, point, axis=0)
+    turns, numbers = np.insert(path.turns, behind, 0), np.insert(path.numbers, behind, path.numbers[rows])
     return Path.of(points, centers, turns, numbers)
+
+
+def has_long_leads(path: Path, contours: tuple[RowRange, ...]) -> bool:
+    """Whether the moves before the first contour, behind the last one or between two are long beside the longest."""
+    length = np.concatenate((np.zeros(1), np.cumsum(path.lengths)))
+    ends = length[[0, *(row for both in contours for row in both), len(path)]]
+    ways, around = ends[1::2] - ends[::2], ends[2::2] - ends[1:-1:2]
+    return bool(ways.max() > LONG * around.max())
 
 
 def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
@@ -117,23 +137,26 @@ def _places(path: Path) -> list[tuple[float, float]]:
     return [(x, y) for x, y in np.round(path.points / CLOSED).tolist()]
 
 
-def _longest(places: list[tuple[float, float]]) -> RowRange | None:
-    """The longest run of pieces that ends where it begins."""
+def _longest(sums: Floats, places: list[tuple[float, float]]) -> RowRange | None:
+    """The run of most pieces that ends where it begins and encloses something."""
     first_seen: dict[tuple[float, float], int] = {}
     best = (0, 0)
     for index, place in enumerate(places):
         begin = first_seen.setdefault(place, index)
-        if index - begin > best[1] - best[0]:
+        if index - begin > best[1] - best[0] and _encloses(sums, (begin, index)):
             best = (begin, index)
     return best if best[1] else None
 
 
-def _between_blends(path: Path, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
-    """The closed run inside a closed one that starts and ends with one arc of a quarter turn at most, in line with it:
-    around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be half a turn."""
+def _between_leads(path: Path, sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
+    """The closed run inside a closed one that starts and ends with a lead: a line there and back, or an arc of a
+    quarter turn at most, in line with it.  Around a square corner both arcs of a blend may begin and end at one point;
+    in a bore they may be half a turn."""
     begin, end = rows[0] + 1, rows[1] - 1
-    if begin >= end or places[begin] != places[end] or not _encloses(path, (begin, end)):
+    if begin >= end or places[begin] != places[end] or not _encloses(sums, (begin, end)):
         return rows
+    if not path.turns[begin - 1] and not path.turns[end]:
+        return begin, end
     largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
     arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + BLEND for row in (begin - 1, end))
     tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
@@ -147,7 +170,7 @@ def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool
     return circle and all(path.turns[arc] == turns[0] and path.radii[arc] < radii[0] for arc in arcs)
 
 
-def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:
+def _within(sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:
     """The contours among rows outside the longest one: closed runs in their order, and what is long between them."""
     begin, end = rows
     last_seen = {places[index]: index for index in range(begin, end + 1)}
@@ -155,7 +178,7 @@ def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> li
     at = open_from = begin
     while at < end:
         close = last_seen[places[at]]
-        if close > at and _encloses(path, (at, close)):
+        if close > at and _encloses(sums, (at, close)):
             contours += [*_open((open_from, at)), (at, close)]
             at = open_from = close
         else:
@@ -163,10 +186,37 @@ def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> li
     return [*contours, *_open((open_from, end))]
 
 
-def _encloses(path: Path, rows: RowRange) -> bool:
-    """Whether a closed run is more than a line there and back."""
+def _sums(path: Path) -> Floats:
+    """(2, n + 1) twice the area and the length up to each of the path's points."""
+    corners = (path.points - path.points[:1]).T
+    areas = corners[0, :-1] * corners[1, 1:] - corners[1, :-1] * corners[0, 1:]
+    areas += np.where(path.turns != 0, path.radii**2 * (path.sweeps - np.sin(path.sweeps)), 0.0)
+    return np.concatenate((np.zeros((2, 1)), np.cumsum((areas, path.lengths), axis=1)), axis=1)
+
+
+def _encloses(sums: Floats, rows: RowRange) -> bool:
+    """Whether a closed run is more than a way there and back."""
+    area, length = (sums[:, rows[1]] - sums[:, rows[0]]).tolist()
+    return bool(abs(area) > CLOSED * length)
+
+
+def _behind_overlap(path: Path, rows: RowRange) -> int:
+    """The first row behind a closed run that does not run along its beginning again."""
     first, last = rows
-    return last - first > 2 or bool(path.turns[first:last].any())
+    behind = last
+    while behind < len(path) and behind - last < last - first and _runs_along(path, behind, first + behind - last):
+        behind += 1
+    return behind
+
+
+def _runs_along(path: Path, row: int, other: int) -> bool:
+    """Whether a piece runs along another one from its start, no longer than that."""
+    apart = [path.points[row] - path.points[other]]
+    if path.turns[row]:
+        apart.append(path.centers[row] - path.centers[other])
+    same = bool(path.turns[row] == path.turns[other] and np.abs(apart).max() <= CLOSED)
+    along = float(path.start_directions[row] @ path.start_directions[other]) > cos(OVERLAP)
+    return same and along and float(path.lengths[row]) <= float(path.lengths[other]) + CLOSED
 
 
 def _open(rows: RowRange) -> list[RowRange]:

@@ -14,6 +14,7 @@ from core.controls.contours_and_leads import (
     RowRange,
     blend_leads,
     contours_of,
+    has_long_leads,
     open_contours,
     split_where_it_closes,
 )
@@ -32,6 +33,7 @@ from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import DIGIT, SHOWN, contact_findings, or_more
+from core.verify.surface import Leads
 from core.verify.verdict import Gouge, OverRun, Verdict
 
 MAX_GOUGES: Final = 20
@@ -76,8 +78,9 @@ class Judged:
 
     Surface and center path are without the passes that they repeat, each by itself; `lines` are those of the whole
     surface, since of two equal passes one may be kept of the surface and the other of the path.
-    `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, and
-    `lead_gouges` what is cut of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
+    `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, which
+    is doubtful where they are `long_leads`, and `lead_gouges` what is cut of them, measured with `lead_slack` of extra
+    tolerance: they may be surface after all.
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
@@ -90,6 +93,7 @@ class Judged:
     verdict: Verdict
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
+    long_leads: bool = False
     lead_gouges: tuple[Gouge, ...] = ()
     lead_slack: float = 0.0
     by_itself: bool = False
@@ -329,12 +333,18 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
     leads = whole.numbers[~inside].tolist()
     if leads:
         surface = without_repeats(whole)
-        verdict = judge(surface, stretch.side, stretch.radius, center, accepted)
+        long = has_long_leads(whole, tuple(contours))
+        ends = Leads.NONE if long else Leads.SEGMENTS
+        verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=ends)
         gouges = verdict.gouges if verdict.judged else ()
         doubtful = set(leads) - {float(whole.numbers[row]) for row in blend_leads(whole, tuple(contours))}
         lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in doubtful)
         results[0] = replace(
-            results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges, lead_slack=verdict.radius_slack
+            results[0],
+            leads=tuple(dict.fromkeys(map(int, leads))),
+            long_leads=long,
+            lead_gouges=lead_gouges,
+            lead_slack=verdict.radius_slack,
         )
         if not verdict.judged:
             results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
@@ -354,7 +364,8 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
     surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
-    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, lead_moves=contours == 1)
+    leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
     if stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
@@ -557,14 +568,17 @@ def _leads(result: Judged) -> list[Finding]:
     text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
     if len(result.leads) == 1:
         text = "A move before or after a closed contour is treated as a lead move, not part."
-    listed = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
+    severity = Severity.INFO
+    if result.long_leads:
+        severity, text = Severity.WARNING, f"{text} They are long: check that no wall is among them."
+    listed = [Finding("LEADS", severity, text, line=result.leads[0])]
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
         slack = (result.lead_slack,) if result.lead_slack > 0.0 else ()
         text += " It is judged with {0} extra tolerance." if slack else ""
         line, at = _line(gouge.path_number), gouge.surface_at
-        listed.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=at, value=gouge.depth, lengths=slack, line=line))
+        listed.append(Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line))
     return listed
 
 

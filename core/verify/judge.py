@@ -14,7 +14,7 @@ from core.tolerance import ARC_RADII, GOUGE
 from core.verify.contact import backwards, loose
 from core.verify.gouge import closest, gouges, gouging
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
-from core.verify.surface import Surface
+from core.verify.surface import Leads, Surface
 from core.verify.uncut import covered_walls, uncut
 from core.verify.verdict import NOTHING, UnevenArc, Verdict
 from core.verify.wrong_side import sided, wrong_side
@@ -27,7 +27,7 @@ def judge(
     center: Path,
     arc_radii: float = ARC_RADII,
     *,
-    lead_moves: bool = False,
+    leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
     """What a cutter of this radius does whose center runs along `center`, lead moves included, beside `surface`.
 
@@ -35,9 +35,9 @@ def judge(
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
     `arc_radii`, or at all with both ends on one ray from the center, give a verdict that is not `judged` and so never
-    clean.  With `lead_moves` one more move at either end of the surface may belong to an over-run's leads.
+    clean.  `leads` says what of the surface's ends may belong to an over-run.
     """
-    return judge_together(surface, side, radius, (center,), arc_radii, lead_moves=lead_moves)
+    return judge_together(surface, side, radius, (center,), arc_radii, leads=leads)
 
 
 def judge_together(
@@ -47,7 +47,7 @@ def judge_together(
     centers: Sequence[Path],
     arc_radii: float = ARC_RADII,
     *,
-    lead_moves: bool = False,
+    leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
     """The verdict on several center paths that are all cut, such as the loops of one contour.
 
@@ -57,7 +57,7 @@ def judge_together(
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, None, (), NOTHING, 0.0, crosses_itself=False)
-    return judge_prepared(Surface.prepare(surface, side, lead_moves=lead_moves), radius, centers, arc_radii)
+    return judge_prepared(Surface.prepare(surface, side, leads=leads), radius, centers, arc_radii)
 
 
 def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc_radii: float = ARC_RADII) -> Verdict:

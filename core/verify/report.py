@@ -142,6 +142,10 @@ def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
 
 def _over_run(over_run: OverRun) -> Finding:
     """That the contour's ends are leads; a warning where START or the last end may be mistyped."""
+    if not over_run.doubtful and over_run.long_numbers:
+        which = " and ".join(f"segment {_number(number)}" for number in over_run.long_numbers)
+        text = f"Over-run at X {{x}} Y {{y}}: all or most of {which} is taken for lead. Check that no wall is there."
+        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at)
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum, auto
 from itertools import pairwise
 from typing import Final
 
@@ -32,6 +33,17 @@ IN_LINE: Final = 1e-3
 """Radians between the directions of lines that are one straight line with rounded points."""
 
 
+class Leads(Enum):
+    """What of a contour's ends may be leads, where they run past each other, and no walls.
+
+    NONE: nothing.  SEGMENTS: the first and the last segment beyond their crossing.  MOVES: one more move at each end.
+    """
+
+    NONE = auto()
+    SEGMENTS = auto()
+    MOVES = auto()
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
     """The walls of a contour on whose `side` the cutter runs, and where they meet themselves.
@@ -47,19 +59,18 @@ class Surface:
     over_run: OverRun | None = None
 
     @staticmethod
-    def prepare(path: Path, side: Side, *, lead_moves: bool = False) -> Surface:
-        """The surface of a contour that can be judged.
-
-        With `lead_moves` one move at either end may lead to the first element and from the last one.
-        """
+    def prepare(path: Path, side: Side, *, leads: Leads = Leads.SEGMENTS) -> Surface:
+        """The surface of a contour that can be judged."""
         with np.errstate(all="ignore"):
             whole = Surface._of(path, side)
-            left = _without_over_run(whole, lead_moves=lead_moves)
+            if leads is Leads.NONE:
+                return whole
+            left = _without_over_run(whole, leads=leads)
             shorter = None if left is not None else _without_overlap(whole)
             if shorter is None:
                 return left or whole
             once = Surface._of(shorter, side)
-            left = _without_over_run(once, lead_moves=lead_moves)
+            left = _without_over_run(once, leads=leads)
             return left or (once if once.closed and not len(once.crossings) else whole)
 
     @staticmethod
@@ -97,7 +108,7 @@ def _same_circle(walls: PieceArrays) -> bool:
     return bool(arcs and max(abs(center - other), abs(radius - large)) <= JOINED)
 
 
-def _without_over_run(surface: Surface, *, lead_moves: bool) -> Surface | None:
+def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     """The surface between the crossing of its first and its last element.
 
     One of them may begin, end or join the next element at the crossing, as long as either runs beyond it.  None where
@@ -105,7 +116,7 @@ def _without_over_run(surface: Surface, *, lead_moves: bool) -> Surface | None:
     that.
     """
     walls, stations = surface.walls, surface.walls.stations
-    crossing = _crossing_of_ends(surface, lead_moves=lead_moves)
+    crossing = _crossing_of_ends(surface, leads=leads)
     if crossing is None:
         return None
     at, first, last = crossing
@@ -128,21 +139,18 @@ def _without_over_run(surface: Surface, *, lead_moves: bool) -> Surface | None:
         share = 0.0 if own else lead_out / float(stations[-1] - stations[end])
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
-    beyond = [] if first <= stations[begin] + JOINED else _bent(walls, range(begin, -1, -1))
-    beyond += [] if last >= stations[end + 1] - JOINED else _bent(walls, range(end, len(walls)))
-    if first - stations[begin] > MOST * (stations[begin + 1] - stations[begin]):
-        beyond.append(begin)
-    if stations[end + 1] - last > MOST * (stations[end + 1] - stations[end]):
-        beyond.append(end)
-    long_numbers = tuple(surface.path.numbers[walls.rows[sorted(beyond)]].tolist())
+    rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
+    long = _may_be_walls(walls, rows_in, first - stations[begin], lead_in, last - first)
+    long |= _may_be_walls(walls, rows_out, stations[end + 1] - last, lead_out, last - first)
+    long_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
     over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, long_numbers)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
 
 
-def _crossing_of_ends(surface: Surface, *, lead_moves: bool) -> tuple[Point, float, float] | None:
+def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, float] | None:
     """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled.
 
-    Lines that continue each other are one element.  With `lead_moves` the elements next to those may cross too, and an
+    Lines that continue each other are one element.  With MOVES the elements next to those may cross too, and an
     arc at an end that runs on tangent from its neighbor may not: it is a lead, and a wall that it crosses is cut.
     """
     walls, crossings = surface.walls, surface.crossings
@@ -154,12 +162,12 @@ def _crossing_of_ends(surface: Surface, *, lead_moves: bool) -> tuple[Point, flo
     if not len(points) or len(walls) < 3:
         return None
     begin, end = _in_line(walls, range(len(walls))), _in_line(walls, range(len(walls) - 1, -1, -1))
-    if lead_moves:
+    if leads is Leads.MOVES:
         begin = _in_line(walls, range(min(begin + 1, len(walls) - 1), len(walls)))
         end = _in_line(walls, range(max(end - 1, 0), -1, -1))
     at_ends = places[:, 0] <= walls.stations[begin + 1] + JOINED
     at_ends &= places[:, 1] >= walls.stations[end] - JOINED
-    if lead_moves:
+    if leads is Leads.MOVES:
         at_ends &= places[:, 0] >= walls.stations[int(_blends(walls, 0, 1))] - JOINED
         at_ends &= places[:, 1] <= walls.stations[len(walls) - int(_blends(walls, -1, -2))] + JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
@@ -184,10 +192,21 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
     return rows[-1]
 
 
-def _bent(walls: PieceArrays, rows: range) -> list[int]:
-    """Those of the rows from the crossing outward that are lines and do not continue the element that crosses."""
-    straight = _in_line(walls, rows)
-    return [row for row in rows if not walls.arcs[row] and abs(row - rows[0]) > abs(straight - rows[0])]
+def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, lead: float, left: float) -> set[int]:
+    """Those of the rows from the crossing outward that are taken for leads and may be walls.
+
+    `beyond`: how much of the first of these rows lies beyond the crossing, `lead` how long all leads of them are, and
+    `left` how long the contour is without leads.
+    """
+    rows = {outward[-1]} if lead > MOST * left else set[int]()
+    if beyond <= JOINED:
+        # the crossing is a joint, and the moves beyond it are leads by intention
+        return rows
+    inward = range(outward[0], len(walls)) if outward.step < 0 else range(outward[0], -1, -1)
+    far, near = _in_line(walls, outward), _in_line(walls, inward)
+    rows |= {row for row in outward if not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0])}
+    element = float(walls.length[min(far, near) : max(far, near) + 1].sum())
+    return rows | {outward[0]} if beyond > MOST * element else rows
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

@@ -147,7 +147,7 @@ M30
 def test_a_lead_arc_that_crosses_the_first_wall_of_an_open_contour_cuts_it(
     end: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """The last wall was to end on X0, where the first one stands; with a tool of 12.7 it is cut into."""
+    """The last wall was to end on X0, where the first one stands."""
     text = OPEN.format(end=end, lead_out=f"G3 X{float(end) - 10.0:.1f} Y35. R10.")
     status, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
     assert "GOUGE" in rules(findings)

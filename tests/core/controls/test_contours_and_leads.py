@@ -100,9 +100,79 @@ def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
     assert any(result.verdict.gouges for result in judge_run(done))
 
 
-def test_nothing_is_split_without_a_blend_or_where_the_contour_closes() -> None:
-    for path in (blended(tangent=False), lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0))):
+@pytest.mark.parametrize("turned_round", [False, True])
+def test_lines_are_split_wherever_they_run_over_the_start(turned_round: bool) -> None:
+    square = ((0, 2), (2, 2), (2, 0), (0, 0))
+    laps = lines_through((-1, 1), (0, 1), *square, *square, (0, 1.2), (-1, 1.2))
+    split = split_where_it_closes(laps.reversed() if turned_round else laps)
+    assert len(split) == len(laps) + 2
+    ((first, last),) = contours_of(split)
+    assert np.allclose(split.points[first], split.points[last])
+    assert last - first == 10
+
+
+def test_nothing_is_split_where_the_contour_closes_or_is_run_over_the_other_way() -> None:
+    back = lines_through((0, 0), (2, 0), (2, 2), (1, 2), (1, 0), (0.5, 0), (-1, 0))
+    for path in (lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0)), back):
         assert len(split_where_it_closes(path)) == len(path)
+
+
+FRAME = "G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}\nG1 Z-3.\n{cut}\nM30\n"
+ARC_IN = "G41 D1 G1 X-10. Y10.\nG3 X0. Y20. R10.\nG1 Y50.\nX80.\nY0.\n"
+LAP = "Y50.\nX80.\nY0.\nX0.\n"
+OUT = "G40 X-30."
+GOOD = {
+    "an overlap, an arc and a line": ("-30. Y10.", f"{ARC_IN}X0.\nY25.\nG3 X-10. Y35. R10.\nG1 X-20.\n{OUT}"),
+    "from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
+    "in and out square": ("-30. Y10.", f"G41 D1 X0. Y10.\n{LAP}Y15.\nX-10.\n{OUT}"),
+    "in and out square in two moves": ("-30. Y25.", f"G41 D1 X-20. Y25.\nX0.\n{LAP}Y25.\nX-20.\nG40 Y30."),
+    "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
+}
+"""The start and the blocks of a plate of 80 by 50 that is not gouged."""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
+@pytest.mark.parametrize("name", GOOD)
+def test_leads_and_laps_of_good_programs_are_no_gouges(name: str, control: str) -> None:
+    start, cut = GOOD[name]
+    text = FRAME.format(start=start, cut=cut.replace("D1 ", "") if control == "linuxcnc" else cut)
+    done = ran(text, control, t1=10.0)
+    assert done.stopped_at is None
+    (result,) = judge_run(done)
+    assert result.verdict.clean
+    # a square lead-out leaves a cusp
+    assert result.verdict.uncut_length <= 10.0 + 1e-6
+
+
+def test_of_two_laps_each_is_judged() -> None:
+    start, cut = GOOD["two laps"]
+    narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))
+    assert any(result.verdict.gouges for result in judge_run(ran(narrow, "fanuc:a", t1=10.0)))
+
+
+SPIKES = {
+    "there and back": "X60.\nY-40.\nY0.\nX100.",
+    "an arc there and back": "X60.\nG2 X70. Y-40. R60.\nG3 X60. Y0. R60.\nG1 X100.",
+}
+
+
+@pytest.mark.parametrize("name", SPIKES)
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_way_there_and_back_is_no_closed_contour(name: str, control: str) -> None:
+    """The walls beside it are cut, and are no leads."""
+    text = FRAME.format(start="-30. Y10.", cut=f"G41 D1 X-20. Y0.\n{SPIKES[name]}\nG40 Y20.")
+    found = judged_findings(judge_run(ran(text, control, t1=10.0)))
+    assert {finding.code for finding in found if finding.severity is Severity.ERROR} >= {"GOUGE"}
+    assert "LEADS" not in {finding.code for finding in found}
+
+
+def test_long_moves_beside_a_small_loop_may_be_walls() -> None:
+    cut = "G41 D1 X-20. Y0.\nX40.\nX50. Y-20.\nX30. Y-20.\nX40. Y0.\nX100.\nG40 Y20."
+    found = judged_findings(judge_run(ran(FRAME.format(start="-30. Y10.", cut=cut), "fanuc:a", t1=10.0)))
+    (leads,) = [finding for finding in found if finding.code == "LEADS"]
+    assert leads.severity is Severity.WARNING
+    cuts = [finding for finding in found if finding.code == "LEAD-GOUGE"]
+    assert [finding.severity for finding in cuts] == [Severity.WARNING] * 2
 
 
 def test_more_pieces_next_to_a_closed_contour_are_a_contour() -> None:

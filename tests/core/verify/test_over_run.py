@@ -12,6 +12,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.verify.judge import judge
 from core.verify.report import verdict_findings
+from core.verify.surface import Leads
 from tests.core.verify.shapes import lines, mirrored
 
 R = 0.25
@@ -209,16 +210,16 @@ def test_arcs_that_lead_to_an_over_run_are_leads_where_they_may_be(part: slice, 
     move, side = MOTIONS[motion]
     contour = move(Path.from_pieces(list(WITH_ARCS)[part]))
     assert judge(contour, side, R, move(around(R))).over_run_at is None
-    verdict = judge(contour, side, R, move(around(R)), lead_moves=True)
+    verdict = judge(contour, side, R, move(around(R)), leads=Leads.MOVES)
     assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
     assert verdict.surface_length == pytest.approx(6.0)
     assert verdict.clean
-    assert judge(contour, side, R, move(around(R - 0.01)), lead_moves=True).depth == pytest.approx(0.01)
+    assert judge(contour, side, R, move(around(R - 0.01)), leads=Leads.MOVES).depth == pytest.approx(0.01)
 
 
 def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
     into = Arc((0, 1), (0.5, -0.5), (-2.75, -0.75), Turn.CW)
-    verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), lead_moves=True)
+    verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), leads=Leads.MOVES)
     assert verdict.over_run_at is None
     assert verdict.crosses_itself
 
@@ -233,11 +234,11 @@ def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, bent: tup
     pieces = [Line((-1.5, -0.5), (-1, 0)), *TAIL, Line((0, 1), (-1, 1))][part]
     contour = move(Path.from_pieces(pieces))
     assert judge(contour, side, R, move(around(R))).over_run_at is None
-    verdict = judge(contour, side, R, move(around(R)), lead_moves=True)
+    verdict = judge(contour, side, R, move(around(R)), leads=Leads.MOVES)
     assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
     assert verdict.over_run is not None
     assert verdict.clean
-    assert judge(contour, side, R, move(around(R - 0.01)), lead_moves=True).depth == pytest.approx(0.01)
+    assert judge(contour, side, R, move(around(R - 0.01)), leads=Leads.MOVES).depth == pytest.approx(0.01)
     wanted = [len(pieces) + 1 - number for number in bent] if "reversed" in motion else bent
     assert sorted(verdict.over_run.long_numbers) in (sorted(wanted), sorted(bent))
 
@@ -246,7 +247,7 @@ def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
     once = Path.from_pieces([*TAIL, Line((0, 1), (-1, 1))])
     twice = Path.from_pieces([*once, Line((-1, 1), (-1, 2))])
     for contour, side in ((twice, Side.LEFT), (once, Side.RIGHT)):
-        verdict = judge(contour, side, R, around(R), lead_moves=True)
+        verdict = judge(contour, side, R, around(R), leads=Leads.MOVES)
         assert verdict.over_run_at is None
         assert verdict.crosses_itself
 
