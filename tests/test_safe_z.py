@@ -92,7 +92,7 @@ def assert_changes_at(safe_z: float, text: str, *tools: int) -> None:
     assert [change.z for change in found] == [None, *[safe_z] * len(tools)]
     for change in found[:-1]:
         # straight up before anything else
-        assert re.fullmatch(r"(\d+ )?(G0 ?|L )Z[+]?[\d.]+( R0 FMAX M3)?", change.next_move), change
+        assert re.fullmatch(r"(\d+ )?(G0 ?(G43 ?H\d+ ?)?|L )Z[+]?[\d.]+( R0 FMAX M3)?", change.next_move), change
 
 
 @pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)

@@ -224,7 +224,8 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     place, tool, speed, coolant = ToolPosition(), None, 0.0, Coolant.OFF
     for job in jobs:
         for a_pass in passes(job):
-            if a_pass.cutter.number != tool:
+            changed = a_pass.cutter.number != tool
+            if changed:
                 yield from _coolant_change(coolant, Coolant.OFF)
                 yield from _tool_change(a_pass, first=tool is None)
                 tool, speed, place, coolant = a_pass.cutter.number, a_pass.speed, ToolPosition(), Coolant.OFF
@@ -235,7 +236,7 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
             coolant = job.coolant
             yield from comments(_title(a_pass, grid.unit))
             lines, place = _nc_lines(a_pass.motions, place, grid)
-            yield from lines
+            yield from _with_length(lines, a_pass.cutter.number) if changed else lines
     yield from _coolant_change(coolant, Coolant.OFF)
     yield "M5"
     yield "M30"
@@ -255,8 +256,16 @@ def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:
     if not first:
         yield "M5"
     yield f"T{a_pass.cutter.number} M6"
-    yield f"G43 H{a_pass.cutter.number}"
     yield f"S{speed_text(a_pass.speed)} M3"
+
+
+def _with_length(lines: Sequence[str], tool: int) -> Iterator[str]:
+    """The first moves of a tool, of which the first one goes to SAFE Z, with its length in that block.
+
+    On some controls G43 in a block of its own moves Z by the length at once.
+    """
+    yield lines[0].replace("G0 ", f"G0 G43 H{tool} ", 1)
+    yield from lines[1:]
 
 
 def _title(a_pass: Pass, unit: Unit) -> str:

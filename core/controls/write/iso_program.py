@@ -74,7 +74,10 @@ def write_iso(
 
 
 class _Writer:
-    """Writes words in one style; `feed`, `height` and `at` are what stands, as text."""
+    """Writes words in one style.
+
+    `feed`, `height` and `at` are what stands, as text, and `tool_length` what the next rapid in Z has to name.
+    """
 
     def __init__(self, style: IsoStyle, frame: Frame) -> None:
         self.style = style
@@ -82,6 +85,7 @@ class _Writer:
         self.feed = ""
         self.height = ""
         self.at: tuple[str, str] = ("", "")
+        self.tool_length: tuple[str, ...] = ()
 
     def program(
         self, cuts: Sequence[PassWithLeads | UncompensatedPass], remarks: Sequence[str]
@@ -117,7 +121,8 @@ class _Writer:
             self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
             if self.style.length:
-                yield self.words("G43", f"H{cut.tool}")
+                # in a block of its own some controls would move Z by the length at once
+                self.tool_length = ("G43", f"H{cut.tool}")
             yield self.words(speed, "M3")
         elif before.speed != cut.speed:
             yield WrittenLine(speed)
@@ -166,8 +171,8 @@ class _Writer:
         """To a height, where the tool is not there yet."""
         text = f"Z{self.length(height)}"
         if text != self.height:
-            self.height = text
-            yield self.words("G0", text)
+            self.height, length, self.tool_length = text, self.tool_length, ()
+            yield self.words("G0", *length, text)
 
     def code(self, run: PassWithLeads) -> str:
         """G41 with the tool on the left."""

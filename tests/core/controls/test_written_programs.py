@@ -64,8 +64,8 @@ def test_threeblock_turns_on_in_the_plunge_and_centers_are_absolute() -> None:
 def test_linuxcnc_is_entered_along_the_first_arc_by_more_than_the_radius() -> None:
     lines = text_of("linuxcnc", cut(squared(Side.LEFT))).splitlines()
     assert lines[:2] == ["G17 G20 G40 G49 G54 G80 G90 G91.1 G94", "G64 P0.0002"]
-    assert lines[2:5] == ["T1 M6", "G43 H1", "S300 M3"]
-    assert lines[6:11] == [
+    assert lines[2:5] == ["T1 M6", "S300 M3", "G0 G43 H1 Z1."]
+    assert lines[5:10] == [
         "G0 X0.625 Y0.875",
         "G0 Z0.1",
         "G1 Z-0.25 F20.",

@@ -1,6 +1,6 @@
 """A program file from before segments were calculated together, and its NC file of that time: both stay as they are.
 
-`tests/data/older_program` was written by that version.
+`tests/data/older_program` was written by that version, but G43 stands with the first move today.
 """
 
 from __future__ import annotations
