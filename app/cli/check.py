@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import re
 import sys
 import threading
 from collections.abc import Iterator
@@ -24,13 +25,14 @@ from app.cli.control_options import (
     bytes_of,
     control_of,
     name_of,
+    printable,
     tools_of,
     unit_of,
 )
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import choices
-from core.pipeline.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours, unreadable
+from core.pipeline.checking import Answer, Asked, answer, answer_all, counted, lines, reasons, same_contours, unreadable
 
 JSON_VERSION: Final = 1
 """Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
@@ -41,6 +43,9 @@ FILES_AT_ONCE: Final = 4
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
+
+MOST_NAMES: Final = 10
+"""Suffixes of files left out that are named."""
 
 
 def check(arguments: list[str]) -> int:
@@ -94,8 +99,20 @@ def _programs(files: list[Path]) -> Iterator[Path]:
         if not path.is_dir():
             yield path
             continue
-        found = sorted(one for one in path.rglob("*") if one.suffix.lower() in NC_SUFFIXES and one.is_file())
+        every = [one for one in path.rglob("*") if one.is_file()]
+        found = sorted(one for one in every if _is_program(one))
+        if found and len(found) < len(every):
+            others = {one.suffix.lower() or one.name for one in every if not _is_program(one)}
+            names = " ".join(map(printable, sorted(others)[:MOST_NAMES]))
+            count = counted(len(every) - len(found), "file")
+            text = f"{name_of(path)}: {count} left out that are no programs by their names: {names}"
+            print(f"cutcomp: {text}", file=sys.stderr)
         yield from found or [path]
+
+
+def _is_program(path: Path) -> bool:
+    """Whether a file is a program by its name; Fanuc controls write `O1234` without a suffix."""
+    return path.suffix.lower() in NC_SUFFIXES or re.fullmatch(r"[O:]\d{1,8}", path.name.upper()) is not None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -236,13 +253,15 @@ def _print_missing(answers: tuple[Answer, ...]) -> None:
 
 def _as_summary(answers: Iterator[_Checked]) -> int:
     """One line for each file and control, and the sum of them."""
-    status, counts = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}
+    status, counts, warned = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}, 0
     for checked in answers:
         found = _told(checked)
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            print(f"{name_of(checked.path)}: {one.name}: {one.outcome}", flush=True)
-    print(f"{sum(counts.values())} files: {counts[CLEAN]} clean, {counts[FINDINGS]} with errors, ", end="")
-    print(f"{counts[UNUSABLE]} not readable.")
+            more = f", {counted(one.warnings, 'warning')}" if one.warnings else ""
+            print(f"{name_of(checked.path)}: {one.name}: {one.outcome}{more}", flush=True)
+        warned += found == CLEAN and any(one.warnings for one in checked.answers)
+    print(f"{sum(counts.values())} files: {counts[CLEAN] - warned} clean, {warned} with warnings, ", end="")
+    print(f"{counts[FINDINGS]} with errors, {counts[UNUSABLE]} not readable.")
     return status

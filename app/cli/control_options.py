@@ -89,4 +89,9 @@ def bytes_of(path: Path) -> bytes:
 
 def name_of(path: Path) -> str:
     """A file's name fit for a terminal."""
-    return "".join(one if one.isprintable() else "?" for one in str(path))
+    return printable(str(path))
+
+
+def printable(text: str) -> str:
+    """A text fit for a terminal."""
+    return "".join(one if one.isprintable() else "?" for one in text)

@@ -16,9 +16,8 @@ MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 """The marks of UTF-16."""
 MARK: Final = "\ufeff"
 """The mark of an encoding, as the first character of a text."""
-NC_SUFFIXES: Final = frozenset(
-    [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
-)
+_COMMON: Final = (".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".spf", ".min", ".h")
+NC_SUFFIXES: Final = frozenset((*_COMMON, ".anc", ".i", ".ncc", ".ncf", ".prg", ".ptp"))
 """Files of a folder that are shown as NC programs."""
 _LINE: Final = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+\Z")
 _END: Final = re.compile(r"(?:\r\n|\n|\r)\Z")

@@ -104,6 +104,11 @@ class Answer:
         return any(finding.severity is Severity.ERROR for finding in self.findings)
 
     @property
+    def warnings(self) -> int:
+        """How many findings are warnings."""
+        return sum(finding.severity is Severity.WARNING for finding in self.findings)
+
+    @property
     def uncompensated(self) -> bool:
         """Whether compensation is asked for somewhere with radius 0."""
         return any(finding.code in RADIUS_ZERO for finding in self.findings)
@@ -137,6 +142,7 @@ class Answer:
             "stopped_at": self.stopped_at,
             "deepest_gouge": None if self.gouge is None else _gouge(self.gouge, self.unit),
             "parts_from": None if self.parting is None else _parts_from(self.parting, self.parting_of, self.unit),
+            "stretches": self.stretches,
             "moves": moves,
             "findings": told,
         }
@@ -373,7 +379,8 @@ def unreadable(file: str, why: str) -> dict[str, object]:
         "lengths": [],
     }
     nothing: dict[str, object] = {"control": None, "units": None, "state": State.UNREADABLE.value, "stopped_at": None}
-    return {"file": file, **nothing, "deepest_gouge": None, "parts_from": None, "moves": [], "findings": [told]}
+    nothing |= {"deepest_gouge": None, "parts_from": None, "stretches": 0, "moves": []}
+    return {"file": file, **nothing, "findings": [told]}
 
 
 def lines(one: Answer) -> Iterator[str]:

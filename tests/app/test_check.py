@@ -21,7 +21,8 @@ NC = Path(__file__).parents[1] / "data" / "nc"
 
 MOVE_KEYS = {"type", "mode", "line", "x", "y", "z"}
 RESULT_KEYS = {
-    *("file", "control", "units", "state", "stopped_at", "deepest_gouge", "parts_from", "moves", "findings"),
+    *("file", "control", "units", "state", "stopped_at", "deepest_gouge", "parts_from", "stretches", "moves"),
+    "findings",
 }
 ARC_KEYS = {"cx", "cy", "cz", "plane", "ccw"}
 
@@ -296,8 +297,25 @@ def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
     file = NC / "rosettacnc-square.ngc"
     status, out, err = output(capsys, tmp_path / "empty", file, "--control", "rosettacnc:easy", "--tool", "1=6")
     assert status == 2
-    assert "is a folder without programs (.cnc .din" in err
-    assert out.splitlines()[-1] == "2 files: 1 clean, 0 with errors, 1 not readable."
+    assert "is a folder without programs (.anc .cnc .din" in err
+    assert out.splitlines()[-1] == "2 files: 1 clean, 0 with warnings, 0 with errors, 1 not readable."
+
+
+def test_a_folder_tells_what_it_leaves_out_and_counts_warnings(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    good = "G21 G90 G17 G40\nT1 M6\nG0 X-20. Y-20.\nG1 Z-1. F100.\nG41 D1 X0. Y-10.\nY30.\nG40 X-20.\nM30\n"
+    (tmp_path / "O1234").write_text(good)
+    (tmp_path / "part.spf").write_text(good.replace("Z-1.", "Z-1"))
+    (tmp_path / "notes.pdf").write_text("?")
+    (tmp_path / "README").write_text("?")
+    status, out, err = output(capsys, tmp_path, "--control", "fanuc:a", "--tool", "1=6")
+    assert status == 0
+    assert "2 files left out that are no programs by their names: .pdf README" in err
+    first, second, last = out.splitlines()
+    assert first.endswith("O1234: fanuc:a: runs")
+    assert second.endswith("part.spf: fanuc:a: runs, 1 warning")
+    assert last == "2 files: 1 clean, 1 with warnings, 0 with errors, 0 not readable."
 
 
 def test_ctrl_c_ends_an_archive_quietly(tmp_path: Path) -> None:

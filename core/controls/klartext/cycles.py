@@ -44,6 +44,9 @@ _RETURNING: Final = frozenset((1, 2, 3, 4, 5, 17, 18, 212, 213, 214, 215))
 _WAITING: Final = frozenset((9, 13, 14, 20, 32, 39))
 """Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
 
+_CONTOUR: Final = frozenset((6, 16, 22, 23, 24, 25, *range(271, 277)))
+"""Cycles that mill along a contour beside it by themselves: what they cut would not be judged."""
+
 _PROGRAM: Final = 12
 _FIRST_PROBE: Final = 400
 
@@ -145,6 +148,9 @@ def call(state: State, block: Block) -> None:
         state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
     if state.cycle == _PROGRAM:
         state.stop("BEYOND", "Cycle 12 runs another file. Copy its blocks in.", block)
+    if state.cycle in _CONTOUR:
+        text = f"Cycle {state.cycle} mills a contour by itself, which is not supported. Nothing of it is judged."
+        state.stop("BEYOND", text, block)
     _pass_over(state, block, state.cycle, _end_height(state))
 
 

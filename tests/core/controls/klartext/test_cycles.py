@@ -40,13 +40,20 @@ def test_a_call_at_a_position_counts_from_there() -> None:
         ("CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 SET UP 2", "CYCL DEF 1.2 DEPTH -20"),
         ("CYCL DEF 4.0 POCKET MILLING", "CYCL DEF 4.1 SET UP 2"),
         ("CYCL DEF 251 RECTANGULAR POCKET ~", " Q215=0 ~", " Q218=60"),
-        ("CYCL DEF 14.0 CONTOUR", "CYCL DEF 14.1 CONTOUR LABEL 1", "CYCL DEF 22 ROUGH-OUT"),
+        ("CYCL DEF 14.0 CONTOUR", "CYCL DEF 14.1 CONTOUR LABEL 1", "CYCL DEF 21 PILOT DRILLING"),
     ],
 )
 @pytest.mark.parametrize("call", ["CYCL CALL", "CYCL CALL PAT FMAX", "L X+1 Y+1 FMAX M99"])
 def test_the_contour_behind_a_cycle_is_run_as_without_it(cycle: tuple[str, ...], call: str) -> None:
     bare = flat(runs("L X+0 Y+0 Z+9 R0 FMAX", *CONTOUR))[-3:]
     assert compensated(runs("L X+0 Y+0 Z+9 R0 FMAX", *cycle, call, *CONTOUR)) == bare
+
+
+@pytest.mark.parametrize("number", [16, 22, 24, 25, 275])
+def test_what_a_cycle_mills_along_a_contour_is_not_called_clean(number: int) -> None:
+    made = runs("L X+0 Y+0 Z+9 R0 FMAX", f"CYCL DEF {number} CONTOUR", "CYCL CALL", "L X+5 FMAX")
+    assert codes(made)[-1] == ("BEYOND", 6)
+    assert made.stopped_at == 6
 
 
 def test_a_pattern_calls_the_cycle_before_at_once() -> None:
