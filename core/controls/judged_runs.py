@@ -21,7 +21,7 @@ from core.controls.contours_and_leads import (
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
-from core.controls.rapids_at_depth import CutContour, RapidCut, highest_cut, rapids_through
+from core.controls.rapids_at_depth import CutContour, RapidCut, highest_cut, rapid_walls, rapids_through
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
@@ -396,20 +396,24 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
-    return _unseen(results) + tuple(
-        _with_axes(finding, result.stretch.plane)
-        for result in results
-        for finding in (
-            *_by_itself(result),
-            *_above(result),
-            *_uneven_arc(uneven.get(result)),
-            *_cuts(result),
-            *_open_contour(result, gouged),
-            *_leads(result),
-            *_contact(result),
-            *_uncut(result),
-            *_crossing(result),
-            *_rapids(result),
+    return (
+        _unseen(results)
+        + _rapid_walls(results)
+        + tuple(
+            _with_axes(finding, result.stretch.plane)
+            for result in results
+            for finding in (
+                *_by_itself(result),
+                *_above(result),
+                *_uneven_arc(uneven.get(result)),
+                *_cuts(result),
+                *_open_contour(result, gouged),
+                *_leads(result),
+                *_contact(result),
+                *_uncut(result),
+                *_crossing(result),
+                *_rapids(result),
+            )
         )
     )
 
@@ -475,6 +479,16 @@ def _rapids(result: Judged) -> list[Finding]:
         )
         for cut in result.rapids
     ]
+
+
+def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
+    """Rapids under compensation at the depth of the cut, once a line."""
+    moves = {move.line: move for result in results for move in rapid_walls(result.stretch)}
+    text = "This rapid under compensation runs at the depth of the cut, Z {0}. Write G1, or raise the tool before it."
+    return tuple(
+        Finding("RAPID", Severity.WARNING, text, lengths=(move.point[2],), line=_line(line))
+        for line, move in sorted(moves.items())
+    )
 
 
 def _above(result: Judged) -> list[Finding]:

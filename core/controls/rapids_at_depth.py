@@ -1,7 +1,7 @@
 """Rapids at depth: uncompensated rapids that run through a contour no higher than it is cut.
 
 A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Feed moves are not
-looked at: without compensation they may cut anything.
+looked at: without compensation they may cut anything.  Rapids of a compensated stretch at that depth are told too.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.moves import Moves, Plane
+from core.controls.moves import Move, Moves, Plane
 from core.controls.moves_above import surface_rows
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Path, Rows
@@ -32,10 +32,26 @@ class CutContour:
 
 
 def highest_cut(stretch: Stretch) -> float:
-    """The highest place at which a stretch in XY cuts its contour; -inf without a feed move."""
+    """The highest place at which a stretch in XY cuts its contour; -inf without a feed move.
+
+    A helix or a ramp may begin in the air: it counts from zero, where the top of a part usually is, or its low end.
+    """
     programmed = stretch.programmed
     rows = np.flatnonzero(surface_rows(stretch) & ~programmed.rapid)
-    return float(programmed.points[np.concatenate((rows, rows - 1)), 2].max(initial=-np.inf))
+    ends = programmed.points[[rows, rows - 1], 2]
+    high, low = ends.max(axis=0), ends.min(axis=0)
+    return float(np.where(high == low, high, np.minimum(high, np.maximum(low, 0.0))).max(initial=-np.inf))
+
+
+def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
+    """The rapids of a stretch in XY that count as its contour and are no higher than that is cut."""
+    if stretch.plane is not Plane.XY:
+        return ()
+    programmed, top = stretch.programmed, highest_cut(stretch)
+    low = programmed.points[:, 2] <= top + ON_PATH
+    low[1:] &= low[:-1]
+    rows = np.flatnonzero(surface_rows(stretch) & programmed.rapid & low)
+    return tuple(programmed[row] for row in rows.tolist())
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,6 +57,23 @@ def test_a_rapid_before_the_cut_and_one_on_the_way_to_the_next_are_told() -> Non
     assert [finding.line for finding in rapids(BORE + after)] == [9]
 
 
+@pytest.mark.parametrize(("begin", "count"), [("2.", 0), ("-1.", 1)])
+def test_a_helix_that_begins_in_the_air_cuts_nothing_there(begin: str, count: int) -> None:
+    """The rapid to the middle is higher than the part, or the same height below its top."""
+    helix = f"G41 D1 X30.\nG3 I-10. Z-5.\nG3 I-10.\nG40 G1 X20.\nG0 Z{begin}\nX70.\n"
+    text = f"G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nZ{begin}\nG1 F300\n{helix}Z50.\nM30\n"
+    assert len(rapids(text)) == count
+
+
+@pytest.mark.parametrize(("height", "lines"), [("-5.", [8]), ("-6.", [8]), ("5.", [])])
+def test_a_rapid_along_a_wall_at_depth_is_told(height: str, lines: list[int]) -> None:
+    wall = f"G41 D1 X-20. Y0.\nX0.\nG0 Z{height} X60.\nG1 Z-5. X100.\nG40 Y20.\nG0 Z50.\nM30\n"
+    text = f"G21 G17 G90 G40\nT1 M6\nG0 X-30. Y10.\nZ5.\nG1 Z-5. F300\n{wall}"
+    told = rapids(text)
+    assert [finding.line for finding in told] == lines
+    assert all("under compensation" in finding.text for finding in told)
+
+
 def test_the_highest_pass_counts() -> None:
     deeper = "G1 Z-10.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
     assert [finding.line for finding in rapids(f"{BORE}{deeper}G0 Z-7.\nX70.\nZ5.\nM30\n")] == [14]
