@@ -21,7 +21,7 @@ from core.controls.contours_and_leads import (
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
-from core.controls.rapids_at_depth import CutContour, RapidCut, highest_cut, rapid_walls, rapids_through
+from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
@@ -84,7 +84,7 @@ class Judged:
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
-    are not judged.  `rapids`, of a run's first part: what rapids without compensation cut of all contours.
+    are not judged.  `uncompensated`, of a run's first part: what moves without compensation cut of all contours.
     """
 
     stretch: Stretch
@@ -101,7 +101,7 @@ class Judged:
     uneven: ToleratedArc | None = None
     unseen_gouges: int = 0
     above: PassedOver | None = None
-    rapids: tuple[RapidCut, ...] = ()
+    uncompensated: tuple[UncompensatedCut, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -145,8 +145,8 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
         ]
     if results:
-        cuts = tuple(cut for cut in rapids_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
-        results[0] = replace(results[0], rapids=cuts)
+        cuts = tuple(cut for cut in moves_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
+        results[0] = replace(results[0], uncompensated=cuts)
     return tuple(results)
 
 
@@ -412,7 +412,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
                 *_contact(result),
                 *_uncut(result),
                 *_crossing(result),
-                *_rapids(result),
+                *_uncompensated(result),
             )
         )
     )
@@ -464,21 +464,20 @@ def _by_itself(result: Judged) -> list[Finding]:
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
 
 
-def _rapids(result: Judged) -> list[Finding]:
-    """Rapids without compensation through a contour: a warning, for what stood there may be cut away by then."""
-    text = "This rapid at Z {{0}} cuts the contour of line {} at X {{x}} Y {{y}}. Raise the tool before it."
-    return [
-        Finding(
-            "RAPID",
-            Severity.WARNING,
-            text.format(int(cut.gouge.surface_number)),
-            at=cut.gouge.surface_at,
-            value=cut.gouge.depth,
-            lengths=(cut.height,),
-            line=_line(cut.gouge.path_number),
+def _uncompensated(result: Judged) -> list[Finding]:
+    """Moves without compensation through a contour: a warning, for what stood there may be cut away by then."""
+    told = list[Finding]()
+    for cut in result.uncompensated:
+        code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
+        at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
+        text = (
+            f"This {move} at Z {{0}} cuts the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. "
+            "Raise the tool before it."
         )
-        for cut in result.rapids
-    ]
+        told.append(
+            Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
+        )
+    return told
 
 
 def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:

@@ -1,12 +1,13 @@
 """Rapids at depth: uncompensated rapids that run through a contour no higher than it is cut.
 
-A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Feed moves are not
-looked at: without compensation they may cut anything.  Rapids of a compensated stretch at that depth are told too.
+A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Of feed moves only those
+are looked at that follow a contour at the same height: without compensation others may cut anything.  Rapids of a
+compensated stretch at its depth are told too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,32 +56,48 @@ def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class RapidCut:
-    """What a rapid cuts of a contour, and its height in millimeters."""
+class UncompensatedCut:
+    """What a move without compensation cuts of a contour, its height in millimeters, and whether it is a rapid."""
 
     gouge: Gouge
     height: float
+    rapid: bool
 
 
-def rapids_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[RapidCut, ...]:
-    """The rapids outside the compensated stretches that cut contours in XY, each with its deepest cut.
+def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[UncompensatedCut, ...]:
+    """The moves outside the compensated stretches that cut contours in XY, each line with its deepest cut.
 
-    The tool is the one of the stretch before, at the beginning that of the first stretch.
+    They are rapids, and feed moves that go on behind a stretch at its height and cut its own contours.  The tool is the
+    one of the stretch before, at the beginning that of the first stretch.
     """
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
         return ()
     low = _low_rapids(run, max(contour.top for contour in contours))
     ends = np.array([stretch.last for stretch in run.stretches])
-    cuts = dict[int, RapidCut]()
+    found = list[UncompensatedCut]()
     for rows in np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if len(low) else ():
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
-        for cut in _cuts(moves, run.stretches[before].radius, contours):
-            known = cuts.get(int(cut.gouge.path_number))
-            if known is None or cut.gouge.depth > known.gouge.depth:
-                cuts[int(cut.gouge.path_number)] = cut
-    return tuple(cuts[line] for line in sorted(cuts))
+        found += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
+    for stretch, last in _feeds_behind(run):
+        own = [contour for contour in contours if stretch.first <= contour.stretch.first < stretch.last]
+        found += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own, rapid=False)
+    deepest = {int(cut.gouge.path_number): cut for cut in sorted(found, key=lambda cut: cut.gouge.depth)}
+    return tuple(deepest[line] for line in sorted(deepest))
+
+
+def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
+    """Stretches behind which feed moves go on at the height at which they end, and one after the last of these rows."""
+    moves = run.moves
+    heights = moves.points[:, 2]
+    begins = [stretch.first + 1 for stretch in run.stretches[1:]]
+    for stretch, begin in zip(run.stretches, [*begins, len(moves)], strict=True):
+        last = stretch.last
+        while last < begin and not moves.rapid[last] and abs(heights[last] - heights[stretch.last - 1]) <= ON_PATH:
+            last += 1
+        if last > stretch.last:
+            yield stretch, last
 
 
 def _low_rapids(run: ControlRun, top: float) -> Rows:
@@ -98,12 +115,12 @@ def _low_rapids(run: ControlRun, top: float) -> Rows:
     return rows
 
 
-def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour]) -> list[RapidCut]:
+def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid: bool) -> list[UncompensatedCut]:
     path, height = moves.path(), float(moves.points[:, 2].max())
-    cuts = list[RapidCut]()
+    cuts = list[UncompensatedCut]()
     for contour in contours:
         if height > contour.top + ON_PATH or not any(True for _ in near_pairs(path.boxes, contour.path.boxes, radius)):
             continue
         verdict = judge(contour.path, contour.stretch.side, radius, path, contour.accepted)
-        cuts += [RapidCut(gouge, height) for gouge in verdict.gouges]
+        cuts += [UncompensatedCut(gouge, height, rapid) for gouge in verdict.gouges]
     return cuts

@@ -240,7 +240,7 @@ class ModalState:
         if tool is not None and tool.diameter != 0.0:
             across = abs(tool.diameter_mm(self.unit))
             cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (across, across / 2)
-        text = f"Nothing is compensated: {cut} along the contour. {why}"
+        text = f"Nothing is compensated: {cut} along the contour, unless the program is the tool's center path. {why}"
         self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
 
     def compare_offset(self, radius: float, offset: str, line: int, column: int) -> None:
@@ -253,7 +253,7 @@ class ModalState:
         self.compared_offsets.add((self.tool, radius))
         does = "leaves {value} of stock"
         if difference < 0.0:
-            does = "cuts {value} too deep, unless the program is that of the tool's center"
+            does = "cuts {value} too deep, unless the program is the tool's center path"
         text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {does}."
         severity = Severity.WARNING if difference < 0.0 else Severity.INFO
         lengths = (radius, across)

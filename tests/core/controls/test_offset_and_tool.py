@@ -23,7 +23,7 @@ def test_the_offset_of_a_smaller_tool_cuts_too_deep(control: str) -> None:
     assert (said.severity, said.line) == (Severity.WARNING, 4)
     assert sentence(said, Unit.MM) == (
         "D1 has the radius 5.000, tool 2 has 6.000: the cutter cuts 1.000 too deep, "
-        "unless the program is that of the tool's center."
+        "unless the program is the tool's center path."
     )
 
 

@@ -74,6 +74,17 @@ def test_a_rapid_along_a_wall_at_depth_is_told(height: str, lines: list[int]) ->
     assert all("under compensation" in finding.text for finding in told)
 
 
+@pytest.mark.parametrize(
+    ("behind", "lines"),
+    [("G1 X70.\n", [9]), ("G1 X24.\nX70.\n", [10]), ("G1 Z-4.\nX70.\n", []), ("G0 Z5.\nG1 Z-5.\nX70.\n", []), ("", [])],
+)
+def test_a_feed_move_that_goes_on_from_the_contour_through_its_wall_is_told(behind: str, lines: list[int]) -> None:
+    run = ran(f"{BORE}{behind}G0 Z50.\nM30\n", "fanuc:a", t1=10.0)
+    told = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
+    assert [finding.line for finding in told] == lines
+    assert all(finding.severity is Severity.WARNING for finding in told)
+
+
 def test_the_highest_pass_counts() -> None:
     deeper = "G1 Z-10.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
     assert [finding.line for finding in rapids(f"{BORE}{deeper}G0 Z-7.\nX70.\nZ5.\nM30\n")] == [14]
