@@ -33,6 +33,7 @@ from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import choices
 from core.pipeline.checking import Answer, Asked, answer, answer_all, counted, lines, reasons, same_contours, unreadable
+from core.units import Unit
 
 JSON_VERSION: Final = 1
 """Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
@@ -246,7 +247,8 @@ def _print_missing(answers: tuple[Answer, ...]) -> None:
     missing = sorted({one.missing for one in answers if one.missing is not None}, key=str)
     if missing:
         told = " and ".join(map(str, missing))
-        sizes = " ".join(f"--tool {quote(str(tool))}=0.5" for tool in missing)
+        size = "10mm" if answers[0].unit is Unit.MM else "0.5in"
+        sizes = " ".join(f"--tool {quote(str(tool))}={size}" for tool in missing)
         table = ", or --tools TABLE" if all(isinstance(tool, int) for tool in missing) else ""
         print(f"No diameter of tool {told} is known: add {sizes} with the real diameter{table}.")
 

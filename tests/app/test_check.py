@@ -126,7 +126,7 @@ def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.Capture
     file.write_text("G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n")
     _, out, _ = output(capsys, file, "--control", "all")
     rows = out.splitlines()
-    known = "No diameter of tool 3 is known: add --tool 3=0.5 with the real diameter, or --tools TABLE."
+    known = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
     assert rows[-1] == known
     assert all(name in out for name in ("B5-TOOL", "C1", "(TOOL)"))
     assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
@@ -141,7 +141,7 @@ def test_one_control_says_behind_its_findings_how_a_tool_is_given(
     other.write_text("T2 D.5\n")
     known.write_text("T3 D.5\n")
     arguments = (file, "--control", "linuxcnc")
-    told = "No diameter of tool 3 is known: add --tool 3=0.5 with the real diameter, or --tools TABLE."
+    told = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
     assert output(capsys, *arguments)[1].splitlines()[-1] == told
     assert output(capsys, *arguments, "--tools", other)[1].splitlines()[-1] == told
     status, out, _ = output(capsys, *arguments, "--tools", known)
@@ -347,7 +347,7 @@ def test_a_tool_of_klartext_is_given_by_its_name(tmp_path: Path, capsys: pytest.
     status, out, _ = output(capsys, file, "--control", "klartext")
     assert status == 1
     assert "On the command line: --tool 'ROUGH D10'=DIAMETER." in out
-    assert out.endswith("add --tool 'ROUGH D10'=0.5 with the real diameter.\n")
+    assert out.endswith("add --tool 'ROUGH D10'=10mm with the real diameter.\n")
     _, out, _ = output(capsys, file, "--control", "klartext", "--tool", "rough d10=10")
     assert "alarms" not in out
 

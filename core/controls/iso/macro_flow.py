@@ -46,6 +46,9 @@ _NO_O_WORD: Final = (
     r"(?![ \t]*+(?:sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat|break|continue)\b)"
 )
 """LinuxCNC's O-words are no heads of programs."""
+_LEADER: Final = " \t\0\x11\x12\x13\x14\x7f"
+"""What may stand before the first %: blanks, and what tapes and their readers leave."""
+
 _PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])" + _NO_O_WORD, re.IGNORECASE)
 _NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)" + _NO_O_WORD, re.IGNORECASE)
 _CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9])")
@@ -698,14 +701,14 @@ def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None]:
 
     Where there is one % only, they go up to it or from it on.
     """
-    signs = [index for index, line in enumerate(lines) if line.lstrip().startswith("%")]
+    signs = [index for index, line in enumerate(lines) if line.lstrip(_LEADER).startswith("%")]
     if not signs:
         return list(lines), None
     first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
     if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, signs[0]
     kept = [line if first < index < last else "" for index, line in enumerate(lines)]
-    if first >= 0 and _PROGRAM.match(head := lines[first].lstrip()[1:]):
+    if first >= 0 and _PROGRAM.match(head := lines[first].lstrip(_LEADER)[1:]):
         kept[first] = head
     return kept, next((index + 1 for index in range(last + 1, len(lines)) if has_words(lines[index])), None)
 

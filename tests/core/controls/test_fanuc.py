@@ -725,3 +725,11 @@ def test_a_code_of_the_control_that_is_not_supported_stops_the_run(code: str) ->
     assert (stop.code, stop.severity, stop.line) == ("BEYOND", Severity.ERROR, 3)
     assert f"does not support {code}," in stop.text
     assert flat(done)[-1].end[0] == 1.0
+
+
+@pytest.mark.parametrize("leader", ["\0\0\0", "\x12", "\x7f\0\x11 "])
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_the_leader_of_a_tape_is_not_read(leader: str, control: str) -> None:
+    done = ran(f"{leader}%\nO1\nG21 G90\nG0 X1.\nM30\n\x14%\n\0\0", control)
+    assert ends(done) == [(1.0, 0.0)]
+    assert not alarms(done)
