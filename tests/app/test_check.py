@@ -126,7 +126,7 @@ def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.Capture
     file.write_text("G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n")
     _, out, _ = output(capsys, file, "--control", "all")
     rows = out.splitlines()
-    known = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
+    known = "No diameter of tool 3 is known: add --tool 3=0.5in with the real diameter, or --tools TABLE."
     assert rows[-1] == known
     assert all(name in out for name in ("B5-TOOL", "C1", "(TOOL)"))
     assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
