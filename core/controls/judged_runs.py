@@ -579,11 +579,13 @@ def _leads(result: Judged) -> list[Finding]:
     if not result.leads:
         return []
     text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
+    check = "They are long. Check that none of them is a wall."
     if len(result.leads) == 1:
         text = "A move before or after a closed contour is treated as a lead move, not part."
+        check = "It is long. Check that it is no wall."
     severity = Severity.INFO
     if result.long_leads:
-        severity, text = Severity.WARNING, f"{text} They are long: check that no wall is among them."
+        severity, text = Severity.WARNING, f"{text} {check}"
     listed = [Finding("LEADS", severity, text, line=result.leads[0])]
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
