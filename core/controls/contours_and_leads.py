@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, pi, radians
 from typing import Final
@@ -58,24 +59,53 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
     return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
 
 
-def split_where_it_closes(path: Path) -> Path:
+@dataclass(frozen=True, eq=False, slots=True)
+class SplitContours:
+    """A path with lines split where contours close within them, its contours, and the open ones among closed ones.
+
+    `open_lines` has all lines of each of these.
+    """
+
+    path: Path
+    contours: tuple[RowRange, ...]
+    open_lines: dict[RowRange, frozenset[float]]
+
+    @staticmethod
+    def of(path: Path) -> SplitContours:
+        """The contours of a path as it is."""
+        contours = contours_of(path)
+        return SplitContours(path, contours, open_contours(path, contours))
+
+
+def split_where_it_closes(path: Path) -> SplitContours:
     """The path with lines split in two that run on over the point at which the contour begins.
 
     It begins behind at most MAX_LEAD_MOVES moves, or ends before so many.  Contours are cut a little further than to
     where they close, once more as a whole, or from a start beyond their corner.
     """
-    forward = _split_at_start(path)
-    return forward if len(forward) > len(path) else _split_at_start(path.reversed()).reversed()
+    split = _split_at_start(path)
+    if split is None and contours_of(path) == ((0, len(path)),):
+        back = _split_at_start(path.reversed())
+        split = None if back is None else (back[0].reversed(), back[1].reversed())
+    if split is None:
+        return SplitContours.of(path)
+    straight, closing = split
+    return replace(SplitContours.of(closing), path=straight)
 
 
-def _split_at_start(path: Path) -> Path:
-    """The path with lines split in two that run on over the point behind its first moves, of most moves first."""
+def _split_at_start(path: Path) -> tuple[Path, Path] | None:
+    """The path with lines split in two that run on over the point behind its first moves, of most moves first.
+
+    Once split on the line, and once at the point itself, which may be off the line by rounding.
+    """
     for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
         point, way = path.points[lead], path.start_directions[lead]
         rows = [row for row in range(lead + 2, len(path)) if not path.turns[row] and _runs_over(path, row, point, way)]
         if rows:
-            return _split(path, rows, point)
-    return path
+            along, starts = path.start_directions[rows], path.starts[rows]
+            feet = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
+            return _split(path, rows, feet), _split(path, rows, np.repeat(point[None], len(rows), axis=0))
+    return None
 
 
 def _runs_over(path: Path, row: int, point: Floats, way: Floats) -> bool:
@@ -86,10 +116,10 @@ def _runs_over(path: Path, row: int, point: Floats, way: Floats) -> bool:
     return inside and off <= CLOSED and float(along @ way) > cos(BLEND)
 
 
-def _split(path: Path, rows: list[int], point: Floats) -> Path:
-    """The path with lines in two pieces of their number each."""
+def _split(path: Path, rows: list[int], at: Floats) -> Path:
+    """The path with lines in two pieces of their number each, parted at points (m, 2)."""
     behind = [row + 1 for row in rows]
-    points, centers = np.insert(path.points, behind, point, axis=0), np.insert(path.centers, behind, point, axis=0)
+    points, centers = np.insert(path.points, behind, at, axis=0), np.insert(path.centers, behind, at, axis=0)
     turns, numbers = np.insert(path.turns, behind, 0), np.insert(path.numbers, behind, path.numbers[rows])
     return Path.of(points, centers, turns, numbers)
 
@@ -149,14 +179,18 @@ def _longest(sums: Floats, places: list[tuple[float, float]]) -> RowRange | None
 
 
 def _between_leads(path: Path, sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
-    """The closed run inside a closed one that starts and ends with a lead: a line there and back, or an arc of a
-    quarter turn at most, in line with it.  Around a square corner both arcs of a blend may begin and end at one point;
-    in a bore they may be half a turn."""
+    """The closed run inside a closed one that starts and ends with a lead.
+
+    That is a line there and back in the middle of a wall, or an arc of a quarter turn at most, in line with the wall:
+    around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be half a turn.
+    """
     begin, end = rows[0] + 1, rows[1] - 1
     if begin >= end or places[begin] != places[end] or not _encloses(sums, (begin, end)):
         return rows
     if not path.turns[begin - 1] and not path.turns[end]:
-        return begin, end
+        # at a corner the line may be a wall that is run twice by mistake
+        smooth = float(path.end_directions[end - 1] @ path.start_directions[begin]) > cos(OVERLAP)
+        return (begin, end) if smooth else rows
     largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
     arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + BLEND for row in (begin - 1, end))
     tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))

@@ -13,7 +13,7 @@ from core.geometry.piece import Side
 from core.units import Unit
 
 MAX_FINDINGS_OF_A_RULE: Final = 100
-"""Warnings and errors of one rule that are kept; of the rest only the number is."""
+"""Findings of one rule that are kept; of the rest only the number is."""
 
 MAX_ALIKE: Final = 3
 """Pieces of information of one rule with the same text that are kept: more of them would bury what matters."""
@@ -105,14 +105,16 @@ class AlarmError(Exception):
 
 @dataclass(slots=True)
 class Log:
-    """Findings of a run: at most one of a rule on a line, MAX_FINDINGS_OF_A_RULE of it, and MAX_ALIKE for information.
+    """Findings of a run: at most one of a rule on a line, MAX_FINDINGS_OF_A_RULE of it, and MAX_ALIKE of one text.
 
-    `left_out` counts by rule what was not kept, `counts` by rule what was told, information by its text too.
+    `kept` counts by rule what is kept, information apart from the rest, `alike` information by its text, and `left_out`
+    by rule what is not kept.
     `rule_names` are a control's own numbers for alarms, by the ids of the rules that controls share.
     """
 
     findings: list[Finding] = field(default_factory=list)
-    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
+    kept: Counter[tuple[str, bool]] = field(default_factory=Counter)
+    alike: Counter[tuple[str, str]] = field(default_factory=Counter)
     left_out: Counter[str] = field(default_factory=Counter)
     seen: set[tuple[str, int | None]] = field(default_factory=set)
     rule_names: Mapping[str, str] = field(default_factory=dict)
@@ -124,16 +126,17 @@ class Log:
             return
         self.seen.add(key)
         informs = finding.severity is Severity.INFO
-        kind = finding.code, finding.text if informs else ""
-        self.counts[kind] += 1
-        if self.counts[kind] <= (MAX_ALIKE if informs else MAX_FINDINGS_OF_A_RULE):
-            self.findings.append(finding)
-        else:
+        rule, text = (finding.code, informs), (finding.code, finding.text if informs else "")
+        if self.kept[rule] >= MAX_FINDINGS_OF_A_RULE or (informs and self.alike[text] >= MAX_ALIKE):
             self.left_out[finding.code] += 1
+            return
+        self.kept[rule] += 1
+        self.alike[text] += 1
+        self.findings.append(finding)
 
     def has(self, code: str) -> bool:
         """Whether anything of this rule was told."""
-        return any(code == told for told, _ in self.counts)
+        return self.kept[code, True] > 0 or self.kept[code, False] > 0
 
     def tell(
         self,

@@ -12,10 +12,9 @@ import numpy as np
 from core.controls.contours_and_leads import (
     MAX_LEAD_MOVES,
     RowRange,
+    SplitContours,
     blend_leads,
-    contours_of,
     has_long_leads,
-    open_contours,
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
@@ -256,11 +255,9 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
     the side changes it is not judged, and a finding says so.
     """
-    whole, parts = programmed_surface(stretch), stretch.parts()
-    if len(parts) == 1:
-        whole = split_where_it_closes(whole)
-    contours = contours_of(whole)
-    open_lines = open_contours(whole, contours)
+    surface, parts = programmed_surface(stretch), stretch.parts()
+    split = split_where_it_closes(surface) if len(parts) == 1 else SplitContours.of(surface)
+    whole, contours, open_lines = split.path, split.contours, split.open_lines
     results, row = list[Judged](), 0
     unjudged: list[Judged] = []
     sides_change = any(part.side is not parts[0].side for part in parts)

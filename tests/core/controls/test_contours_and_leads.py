@@ -45,9 +45,10 @@ def blended(*, tangent: bool) -> Path:
 
 
 def test_a_contour_that_closes_within_its_last_line_is_split_there() -> None:
-    path = split_where_it_closes(blended(tangent=True))
+    split = split_where_it_closes(blended(tangent=True))
+    path = split.path
     assert len(path) == len(blended(tangent=True)) + 1
-    assert contours_of(path) == ((1, 6),)
+    assert split.contours == ((1, 6),)
     assert np.allclose(path.points[6], (0, 1))
     assert path.numbers[5] == path.numbers[6]
 
@@ -105,16 +106,16 @@ def test_lines_are_split_wherever_they_run_over_the_start(turned_round: bool) ->
     square = ((0, 2), (2, 2), (2, 0), (0, 0))
     laps = lines_through((-1, 1), (0, 1), *square, *square, (0, 1.2), (-1, 1.2))
     split = split_where_it_closes(laps.reversed() if turned_round else laps)
-    assert len(split) == len(laps) + 2
-    ((first, last),) = contours_of(split)
-    assert np.allclose(split.points[first], split.points[last])
+    assert len(split.path) == len(laps) + 2
+    ((first, last),) = split.contours
+    assert np.allclose(split.path.points[first], split.path.points[last])
     assert last - first == 10
 
 
 def test_nothing_is_split_where_the_contour_closes_or_is_run_over_the_other_way() -> None:
     back = lines_through((0, 0), (2, 0), (2, 2), (1, 2), (1, 0), (0.5, 0), (-1, 0))
     for path in (lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0)), back):
-        assert len(split_where_it_closes(path)) == len(path)
+        assert len(split_where_it_closes(path).path) == len(path)
 
 
 FRAME = "G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}\nG1 Z-3.\n{cut}\nM30\n"
@@ -148,6 +149,31 @@ def test_of_two_laps_each_is_judged() -> None:
     start, cut = GOOD["two laps"]
     narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))
     assert any(result.verdict.gouges for result in judge_run(ran(narrow, "fanuc:a", t1=10.0)))
+
+
+ROUNDED = (
+    "G21 G17 G90 G40\nT1 M6\nG0 X-8.883 Y28.655\nG1 Z-1. F100.\nG42 D1 X-3.553 Y11.462\nX0. Y0.\nX-28.655 Y-8.883\n"
+    "X-16.811 Y-47.089\nX40.498 Y-29.324\nX28.655 Y8.883\nX0. Y0.\nX-6.205 Y-1.923\nX-9.758 Y9.539\n"
+    "G40 X-15.087 Y26.731\nM30\n"
+)
+"""A rectangle turned by an angle, its points rounded: where the overlap ends is 0.0005 off the wall."""
+
+
+def test_no_wall_is_bent_where_a_contour_runs_along_it_again() -> None:
+    assert not [finding for finding in errors(ROUNDED, "fanuc:a", t1=10.0) if finding.code == "GOUGE"]
+
+
+MISTYPED = {
+    "rectangle": "G42 D1 X30. Y0. F200.\nX60. Y0.\nX60. Y40.\nX0. Y40.\nX60. Y0.\nX30. Y0.\nG40 X30. Y-30.",
+    "house": "G42 D1 X30. Y-20. F200.\nX60. Y0.\nX60. Y40.\nX0. Y40.\nX60. Y0.\nX30. Y-20.\nG40 X30. Y-30.",
+}
+
+
+@pytest.mark.parametrize("name", MISTYPED)
+def test_a_wall_that_is_run_twice_up_to_a_corner_is_no_lead(name: str) -> None:
+    """The last corner was to be at X0."""
+    found = errors(FRAME.format(start="20. Y-30.", cut=f"G1 {MISTYPED[name]}"), "fanuc:a", t1=10.0)
+    assert "GOUGE" in {finding.code for finding in found}
 
 
 SPIKES = {
@@ -213,8 +239,8 @@ def ring_and_key(depths: int) -> str:
     return begin + ring + f"X-20. Y14.\nX-90. Y14.\nX-90. Y-50.\nZ-1.\n{KEY}\nX-120.\nG40 X-140. Y-80.\nM2\n"
 
 
-def errors(program: str, control: str) -> list[Finding]:
-    told = judged_findings(judge_run(ran(program, control, t1=6)))
+def errors(program: str, control: str, t1: float = 6.0) -> list[Finding]:
+    told = judged_findings(judge_run(ran(program, control, t1=t1)))
     return [one for one in told if one.severity is Severity.ERROR]
 
 

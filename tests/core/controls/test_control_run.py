@@ -35,6 +35,18 @@ def test_information_that_repeats_itself_buries_nothing_else() -> None:
     assert more.text == f"A: {50 - MAX_ALIKE} more lines like these."
 
 
+def test_of_information_whose_text_varies_no_more_is_kept_than_of_warnings() -> None:
+    log = Log()
+    for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
+        log.tell(Severity.INFO, "A", f"Note {line}.", line, 1)
+    log.tell(Severity.WARNING, "A", "A warning.", 999, 1)
+    told = log.closed()
+    assert len(told) == MAX_FINDINGS_OF_A_RULE + 2
+    assert "50 more" in told[-1].text
+    assert log.has("A")
+    assert not log.has("B")
+
+
 def test_an_alarm_stops_at_its_own_line_or_another() -> None:
     with pytest.raises(AlarmError) as caught:
         Log().stop("A", "Text.", 3, 1)
