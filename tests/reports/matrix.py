@@ -144,18 +144,20 @@ class Seat:
         return difference(shown, Picture(lines, right.cursor)) or self.invisible(right)
 
     def invisible(self, right: Picture) -> str:
-        """Where the cursor is, but is not seen."""
-        for column, row in sorted(right.cursor):
-            cell = self.terminal.screen.buffer[row][column]
-            if not stands_out(cell, self.kind.shown):
-                return f"cursor at {column}, {row} is not seen: {cell}"
+        """Where the cursor is not seen: with many colors in each of its cells, with few somewhere in each line of it."""
+        few = self.kind.shown in (Colors.FEW, Colors.NONE)
+        for row in sorted({row for _, row in right.cursor}):
+            cells = [self.terminal.screen.buffer[row][column] for column, at in sorted(right.cursor) if at == row]
+            seen = [stands_out(cell, self.kind.shown) for cell in cells]
+            if not (any(seen) if few else all(seen)):
+                return f"the cursor is not seen in line {row}: {cells[seen.index(False)]}"
         return ""
 
 
 def stands_out(cell: Any, colors: Colors) -> bool:
     """Whether a cell of the cursor differs from its surroundings, by an attribute where colors are few."""
     if colors in (Colors.FEW, Colors.NONE):
-        return bool(cell.reverse or cell.underscore)
+        return bool(cell.reverse)
     return bool(cell.reverse) or cell.bg not in ("default", "12171c", "121212", "1c1c1c")
 
 
