@@ -264,7 +264,8 @@ def _with_length(lines: Sequence[str], tool: int) -> Iterator[str]:
 
     On some controls G43 in a block of its own moves Z by the length at once.
     """
-    yield lines[0].replace("G0 ", f"G0 G43 H{tool} ", 1)
+    code, first = lines[0].split(" ", 1)
+    yield f"{code} G43 H{tool} {first}"
     yield from lines[1:]
 
 

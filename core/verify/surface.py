@@ -22,9 +22,8 @@ from core.verify.wrong_side import on_part_side, sided
 LONG_LEAD: Final = 0.25
 """Share of its segment from which on a lead may be a wall all the same, with START or the last end mistyped."""
 
-
 MOST: Final = 0.5
-"""Share of its segment from which on a lead may be a wall, although the other end has a lead too."""
+"""The same where the other end runs past its segment too, and of all leads to what is left of the contour."""
 
 BLEND: Final = 0.02
 """Radians between the directions of an arc and of the wall beside it up to which it leads off that wall."""
@@ -131,17 +130,21 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     if not all(_is_clear(run, left, surface.side) for run in runs):
         return None
     # leads that are moves of their own are none by mistake
+    own_in = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
+    own_out = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
     if lead_in > JOINED:
-        own = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
-        share = 0.0 if own else lead_in / float(stations[begin + 1])
+        share = 0.0 if own_in else lead_in / float(stations[begin + 1])
     else:
-        own = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
-        share = 0.0 if own else lead_out / float(stations[-1] - stations[end])
+        share = 0.0 if own_out else lead_out / float(stations[-1] - stations[end])
     first_number, last_number = surface.path.numbers[walls.rows[[begin, end]]].tolist()
     doubtful = len(runs) == 1 and share > LONG_LEAD
     rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
-    long = _may_be_walls(walls, rows_in, first - stations[begin], lead_in, last - first)
-    long |= _may_be_walls(walls, rows_out, stations[end + 1] - last, lead_out, last - first)
+    left_in, left_out = first - float(stations[begin]), float(stations[end + 1]) - last
+    most_in, most_out = (LONG_LEAD if own else MOST for own in (own_out, own_in))
+    long = _may_be_walls(walls, rows_in, left_in, most_in) | _may_be_walls(walls, rows_out, left_out, most_out)
+    if max(lead_in, lead_out) > MOST * (last - first) or long:
+        long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()
+        long |= set(rows_out if left_out > JOINED else rows_out[1:]) if lead_out > JOINED else set()
     long_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
     over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, long_numbers)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
@@ -192,21 +195,19 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
     return rows[-1]
 
 
-def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, lead: float, left: float) -> set[int]:
+def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float) -> set[int]:
     """Those of the rows from the crossing outward that are taken for leads and may be walls.
 
-    `beyond`: how much of the first of these rows lies beyond the crossing, `lead` how long all leads of them are, and
-    `left` how long the contour is without leads.
+    They are lines that bend off the first of these rows, and that one itself if more than this share of it is `beyond`
+    the crossing, millimeters.  Where the crossing is a joint, the moves beyond it are leads by intention.
     """
-    rows = {outward[-1]} if lead > MOST * left else set[int]()
     if beyond <= JOINED:
-        # the crossing is a joint, and the moves beyond it are leads by intention
-        return rows
+        return set()
     inward = range(outward[0], len(walls)) if outward.step < 0 else range(outward[0], -1, -1)
     far, near = _in_line(walls, outward), _in_line(walls, inward)
-    rows |= {row for row in outward if not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0])}
+    rows = {row for row in outward if not walls.arcs[row] and abs(row - outward[0]) > abs(far - outward[0])}
     element = float(walls.length[min(far, near) : max(far, near) + 1].sum())
-    return rows | {outward[0]} if beyond > MOST * element else rows
+    return rows | {outward[0]} if beyond > most * element else rows
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:

@@ -167,7 +167,7 @@ class OverRun:
 
     `first_number` and `last_number` are those of the pieces that meet.  `doubtful` is one lead alone that is so long a
     part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that segment and
-    may be mistyped.  `long_numbers` are those of lines of which all or most lies beyond: leads that may be walls.
+    may be mistyped.  `long_numbers` are those of all segments beyond, where so much is that it may be walls.
     """
 
     at: Point

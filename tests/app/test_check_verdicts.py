@@ -119,7 +119,8 @@ def test_compensation_that_begins_a_move_before_the_over_run_is_a_warning(
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "warning"
     assert over_run["line"] == 7
-    assert str(over_run["text"]).startswith("Over-run at X 0.000 Y 0.000: all or most of line 7 is taken for lead.")
+    told = "Over-run at X 0.000 Y 0.000. Taken for lead beyond it: lines 7, 8 and 11."
+    assert str(over_run["text"]).startswith(told)
     assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
     assert f"{shown_name(control)}: runs;" in outcome
@@ -160,7 +161,7 @@ def test_an_over_run_that_is_most_of_its_line_is_a_warning(capsys: pytest.Captur
     _, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "warning"
-    assert "most of line 12 is" in str(over_run["text"])
+    assert "Taken for lead beyond it: lines 7 and 12." in str(over_run["text"])
 
 
 SEED = """N10G0G90X-1.Y1.T1M6

@@ -144,7 +144,7 @@ class Seat:
         return difference(shown, Picture(lines, right.cursor)) or self.invisible(right)
 
     def invisible(self, right: Picture) -> str:
-        """Where the cursor is not seen: with many colors in each of its cells, with few somewhere in each line of it."""
+        """Where the cursor is not seen: in each of its cells with many colors, else somewhere in each line of it."""
         few = self.kind.shown in (Colors.FEW, Colors.NONE)
         for row in sorted({row for _, row in right.cursor}):
             cells = [self.terminal.screen.buffer[row][column] for column, at in sorted(right.cursor) if at == row]

@@ -226,9 +226,9 @@ def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
 
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize(
-    ("part", "bent"), [(slice(None), (1.0, 6.0)), (slice(1, None), (5.0,)), (slice(None, -1), (1.0,))]
+    ("part", "beyond"), [(slice(None), [1, 2, 5, 6]), (slice(1, None), [1, 4, 5]), (slice(None, -1), [1, 2, 5])]
 )
-def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, bent: tuple[float, ...], motion: str) -> None:
+def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, beyond: list[int], motion: str) -> None:
     """Compensation that begins a move before the over-run, or goes on a move longer."""
     move, side = MOTIONS[motion]
     pieces = [Line((-1.5, -0.5), (-1, 0)), *TAIL, Line((0, 1), (-1, 1))][part]
@@ -239,8 +239,18 @@ def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, bent: tup
     assert verdict.over_run is not None
     assert verdict.clean
     assert judge(contour, side, R, move(around(R - 0.01)), leads=Leads.MOVES).depth == pytest.approx(0.01)
-    wanted = [len(pieces) + 1 - number for number in bent] if "reversed" in motion else bent
-    assert sorted(verdict.over_run.long_numbers) in (sorted(wanted), sorted(bent))
+    assert sorted(verdict.over_run.long_numbers) == beyond
+
+
+def test_a_long_part_of_a_wall_beyond_the_crossing_is_told_beside_a_lead_with_moves_of_its_own() -> None:
+    """A third of the first wall counts as lead: what comes last may be mistyped."""
+    contour = lines((-0.75, 0), *SQUARE, (0, 0), (0, 1))
+    verdict = judge(contour, Side.LEFT, R, around(R), leads=Leads.MOVES)
+    assert verdict.over_run is not None
+    assert verdict.over_run.long_numbers == (1.0, 5.0)
+    short = judge(lines((-0.25, 0), *SQUARE, (0, 0), (0, 1)), Side.LEFT, R, around(R), leads=Leads.MOVES)
+    assert short.over_run is not None
+    assert short.over_run.long_numbers == ()
 
 
 def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
