@@ -144,12 +144,18 @@ class Seat:
         return difference(shown, Picture(lines, right.cursor)) or self.invisible(right)
 
     def invisible(self, right: Picture) -> str:
-        """Where the cursor is not seen: in each of its cells with many colors, else somewhere in each line of it."""
+        """Where the cursor is not seen: in each of its cells with many colors, else somewhere in each line of it.
+
+        There an empty field shows it as one underlined cell.
+        """
         few = self.kind.shown in (Colors.FEW, Colors.NONE)
         for row in sorted({row for _, row in right.cursor}):
-            cells = [self.terminal.screen.buffer[row][column] for column, at in sorted(right.cursor) if at == row]
+            columns = sorted(column for column, at in right.cursor if at == row)
+            # the place where the next sign goes has colors of its own
+            wanted = range(columns[0], columns[-1] + 1) if few else columns
+            cells = [self.terminal.screen.buffer[row][column] for column in wanted]
             seen = [stands_out(cell, self.kind.shown) for cell in cells]
-            if not (any(seen) if few else all(seen)):
+            if not (any(seen) or sum(cell.underscore for cell in cells) == 1 if few else all(seen)):
                 return f"the cursor is not seen in line {row}: {cells[seen.index(False)]}"
         return ""
 
