@@ -31,7 +31,7 @@ from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import DIGIT, SHOWN, contact_findings, listed, or_more
+from core.verify.report import DIGIT, SHOWN, contact_findings, enumerated, or_more
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge, OverRun, Verdict
 
@@ -653,10 +653,10 @@ def _crossing(result: Judged) -> list[Finding]:
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
     """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
-    if not over_run.doubtful and over_run.long_numbers:
-        which = listed("line", over_run.long_numbers)
+    if not over_run.doubtful and over_run.lead_numbers:
+        which = enumerated("line", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."
-        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.long_numbers[0]))
+        return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at, line=_line(over_run.lead_numbers[0]))
     if not over_run.doubtful:
         text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
         return Finding("OVER_RUN", Severity.INFO, text, at=over_run.at, line=_first_line(surface))

@@ -11,7 +11,7 @@ from core.geometry.piece import Piece, Side
 from core.importing.contour import Contour, ContourKind
 from core.importing.segments import ImportedBlock, block_of
 from core.program.edit import set_tool
-from core.program.model import Block, CutterComp, Number, Program, Tool
+from core.program.model import ArcSegment, Block, CutterComp, LineSegment, Number, Program, Tool
 from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
@@ -160,10 +160,10 @@ def _with_feeds_and_heights(block: Block, contour: NcContour, unit: Unit) -> Blo
     """Each segment with the feed, and the height at its end, where these are others than those before it."""
     feed, height, segments = None, contour.cuts[0].z, []
     for segment, cut in zip(block.segments, contour.cuts, strict=True):
-        changes: dict[str, Number] = {}
+        assert isinstance(segment, LineSegment | ArcSegment)
         if cut.feed > 0.0 and cut.feed != feed:
-            changes["feed"], feed = _typed(cut.feed, unit, 3), cut.feed
+            segment, feed = replace(segment, feed=_typed(cut.feed, unit, 3)), cut.feed
         if abs(cut.z - height) > SAME_HEIGHT:
-            changes["z_end"], height = _typed(cut.z, unit, 4), cut.z
-        segments.append(replace(segment, **changes))  # type: ignore[arg-type]
+            segment, height = replace(segment, z_end=_typed(cut.z, unit, 4)), cut.z
+        segments.append(segment)
     return replace(block, segments=tuple(segments))

@@ -140,7 +140,7 @@ def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def listed(what: str, numbers: Sequence[float]) -> str:
+def enumerated(what: str, numbers: Sequence[float]) -> str:
     """Numbers in a sentence: `line 3`, `lines 3 and 4`, `lines 3, 4 and 9`."""
     *names, last = (f"{int(number)}" for number in dict.fromkeys(map(int, numbers)))
     return f"{what}s {', '.join(names)} and {last}" if names else f"{what} {last}"
@@ -148,8 +148,8 @@ def listed(what: str, numbers: Sequence[float]) -> str:
 
 def _over_run(over_run: OverRun) -> Finding:
     """That the contour's ends are leads; a warning where START or the last end may be mistyped."""
-    if not over_run.doubtful and over_run.long_numbers:
-        which = listed("segment", over_run.long_numbers)
+    if not over_run.doubtful and over_run.lead_numbers:
+        which = enumerated("segment", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."
         return Finding("OVER_RUN", Severity.WARNING, text, at=over_run.at)
     if not over_run.doubtful:

@@ -145,8 +145,8 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     if max(lead_in, lead_out) > MOST * (last - first) or long:
         long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()
         long |= set(rows_out if left_out > JOINED else rows_out[1:]) if lead_out > JOINED else set()
-    long_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
-    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, long_numbers)
+    lead_numbers = tuple(surface.path.numbers[walls.rows[sorted(long)]].tolist())
+    over_run = OverRun(at, lead_in, lead_out, first_number, last_number, doubtful, lead_numbers)
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, over_run)
 
 

@@ -103,8 +103,6 @@ class UncutStretches(Sequence[Uncut]):
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sequence) and tuple(self) == tuple(other)
 
-    __hash__ = None  # type: ignore[assignment]
-
     @property
     def ends(self) -> PartEnds:
         """Each stretch's first segment and the point on it, its last segment and the point on that."""
@@ -167,7 +165,7 @@ class OverRun:
 
     `first_number` and `last_number` are those of the pieces that meet.  `doubtful` is one lead alone that is so long a
     part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that segment and
-    may be mistyped.  `long_numbers` are those of all segments beyond, where so much is that it may be walls.
+    may be mistyped.  `lead_numbers` are those of all leads, where they are so long that they may be walls.
     """
 
     at: Point
@@ -176,7 +174,7 @@ class OverRun:
     first_number: float
     last_number: float
     doubtful: bool
-    long_numbers: tuple[float, ...] = ()
+    lead_numbers: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -239,7 +239,7 @@ def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, beyond: l
     assert verdict.over_run is not None
     assert verdict.clean
     assert judge(contour, side, R, move(around(R - 0.01)), leads=Leads.MOVES).depth == pytest.approx(0.01)
-    assert sorted(verdict.over_run.long_numbers) == beyond
+    assert sorted(verdict.over_run.lead_numbers) == beyond
 
 
 def test_a_long_part_of_a_wall_beyond_the_crossing_is_told_beside_a_lead_with_moves_of_its_own() -> None:
@@ -247,10 +247,10 @@ def test_a_long_part_of_a_wall_beyond_the_crossing_is_told_beside_a_lead_with_mo
     contour = lines((-0.75, 0), *SQUARE, (0, 0), (0, 1))
     verdict = judge(contour, Side.LEFT, R, around(R), leads=Leads.MOVES)
     assert verdict.over_run is not None
-    assert verdict.over_run.long_numbers == (1.0, 5.0)
+    assert verdict.over_run.lead_numbers == (1.0, 5.0)
     short = judge(lines((-0.25, 0), *SQUARE, (0, 0), (0, 1)), Side.LEFT, R, around(R), leads=Leads.MOVES)
     assert short.over_run is not None
-    assert short.over_run.long_numbers == ()
+    assert short.over_run.lead_numbers == ()
 
 
 def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:

@@ -274,12 +274,12 @@ def _determinant(rows: list[Point3]) -> float:
 
 def _solved(basis: list[Row]) -> Point3:
     """Three linear conditions solved by Cramer's rule."""
-    whole = _determinant([row[:3] for row in basis])
-    values = []
-    for column in range(3):
-        rows = [(*row[:column], row[3], *row[column + 1 : 3]) for row in basis]
-        values.append(_determinant(rows) / whole)  # type: ignore[arg-type]
-    return values[0], values[1], values[2]
+    whole = _determinant([(a, b, c) for a, b, c, _ in basis])
+    return (
+        _determinant([(d, b, c) for _, b, c, d in basis]) / whole,
+        _determinant([(a, d, c) for a, _, c, d in basis]) / whole,
+        _determinant([(a, b, d) for a, b, _, d in basis]) / whole,
+    )
 
 
 def _point_on(basis: list[Row], along: Point3) -> Point3:
