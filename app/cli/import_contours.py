@@ -23,6 +23,7 @@ from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPath, NcContour, NcError, NcProgram, nc_blocks
 from core.importing.segments import NotTaken, comment, taken
+from core.pipeline.checking import with_tool_option
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from core.program.model import Program
@@ -52,7 +53,7 @@ def import_contours(arguments: list[str]) -> int:
             import_nc(options)
     except NcError as error:
         more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
-        say(f"{error}{more}")
+        say(f"{with_tool_option(str(error))}{more}")
         return UNUSABLE
     except (Unusable, UnusableOptions, StoreError, NotTaken) as error:
         say(str(error))

@@ -183,13 +183,17 @@ def _with_option(row: Answer, asked: Asked) -> Answer:
     """The answer; what stops a control for want of a tool's size names the option that gives it."""
     if not asked.names_options or row.why is None or row.stopped_at is None:
         return row
-    size = _NO_SIZE.search(row.why.text)
-    if size is None and not _NO_TOOL.match(row.why.text):
-        return row
-    tool = quote(size[1] or size[2]) if size else "1"
-    text = f"{row.why.text} On the command line: --tool {tool}=DIAMETER."
-    why = replace(row.why, text=text)
+    why = replace(row.why, text=with_tool_option(row.why.text))
     return replace(row, why=why, findings=tuple(why if one is row.why else one for one in row.findings))
+
+
+def with_tool_option(text: str) -> str:
+    """The text of an alarm; where it says that a tool's size is unknown, the command's option that gives it too."""
+    size = _NO_SIZE.search(text)
+    if size is None and not _NO_TOOL.search(text):
+        return text
+    tool = quote(size[1] or size[2]) if size else "1"
+    return f"{text} On the command line: --tool {tool}=DIAMETER."
 
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
@@ -425,11 +429,17 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
         told.append(f"The first program has {which}, the second {len(other.stretches)}.")
     for name, done in (("first", one), ("second", other)):
         if done.stopped_at is not None:
-            told.append(f"The {name} program stops at line {done.stopped_at}; what follows is not compared.")
+            told.append(_stopped(f"The {name} program", done))
     if not told:
         told.append("Neither program has a compensated contour.")
     whole = one.stopped_at is None and other.stopped_at is None
     return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(told)
+
+
+def _stopped(name: str, done: ControlRun) -> str:
+    why = next((one for one in done.findings if one.line == done.stopped_at and one.severity is Severity.ERROR), None)
+    reason = "" if why is None else f" {with_tool_option(sentence(why, done.unit))}"
+    return f"{name} stops at line {done.stopped_at}; what follows is not compared.{reason}"
 
 
 def _read(text: bytes, asked: Asked) -> ControlRun:

@@ -274,6 +274,16 @@ def test_klartext_and_iso_are_compared_by_their_contours(
     assert out == (off if status else same)
 
 
+def test_comparing_contours_says_why_a_program_stops(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    first, second = tmp_path / "a.nc", tmp_path / "b.nc"
+    first.write_text(ISO)
+    second.write_text(ISO)
+    found, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour")
+    assert found == 1, out
+    assert "The second program stops at line 3; what follows is not compared. The tool table has no tool 1." in out
+    assert "On the command line: --tool 1=DIAMETER." in out
+
+
 def test_comparing_contours_needs_two_files(capsys: pytest.CaptureFixture[str]) -> None:
     assert output(capsys, NC / "threeblock-line.nc", "--control", "linuxcnc", "--contour")[0] == 2
 

@@ -135,6 +135,15 @@ def test_an_nc_program_comes_back_as_the_contour_it_was_posted_from(tmp_path: Pa
     assert (back.z_bottom, back.cutter_comp, back.speed) == (original.z_bottom, original.cutter_comp, original.speed)
 
 
+def test_a_tool_without_a_diameter_names_the_option_that_gives_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    nc = tmp_path / "part.nc"
+    assert main(["post", str(example("overrun-square")), "--control", "linuxcnc", "-o", str(nc)]) == 0
+    assert main(["import", str(nc), "--control", "linuxcnc"]) == 2
+    assert "On the command line: --tool 1=DIAMETER." in capsys.readouterr().err
+
+
 def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
