@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NoReturn
 
@@ -103,19 +103,25 @@ class AlarmError(Exception):
         self.line = line
 
 
+def more_alike(code: str, lines: Sequence[int | None]) -> Finding:
+    """What is told at the first of these lines for all of them, on which a rule says what it said before."""
+    more = f"{code}: {len(lines)} more {'line' if len(lines) == 1 else 'lines'} like these."
+    return Finding(code, Severity.INFO, more, line=lines[0])
+
+
 @dataclass(slots=True)
 class Log:
     """Findings of a run: at most one of a rule on a line, MAX_FINDINGS_OF_A_RULE of it, and MAX_ALIKE of one text.
 
-    `kept` counts by rule what is kept, information apart from the rest, `alike` information by its text, and `left_out`
-    by rule what is not kept.
+    `kept` counts by rule what is kept, information apart from the rest, `alike` information by its text; `left_out`
+    are the lines of what is not kept, by rule.
     `rule_names` are a control's own numbers for alarms, by the ids of the rules that controls share.
     """
 
     findings: list[Finding] = field(default_factory=list)
     kept: Counter[tuple[str, bool]] = field(default_factory=Counter)
     alike: Counter[tuple[str, str]] = field(default_factory=Counter)
-    left_out: Counter[str] = field(default_factory=Counter)
+    left_out: dict[str, list[int | None]] = field(default_factory=dict)
     seen: set[tuple[str, int | None]] = field(default_factory=set)
     rule_names: Mapping[str, str] = field(default_factory=dict)
 
@@ -128,7 +134,7 @@ class Log:
         informs = finding.severity is Severity.INFO
         rule, text = (finding.code, informs), (finding.code, finding.text if informs else "")
         if self.kept[rule] >= MAX_FINDINGS_OF_A_RULE or (informs and self.alike[text] >= MAX_ALIKE):
-            self.left_out[finding.code] += 1
+            self.left_out.setdefault(finding.code, []).append(finding.line)
             return
         self.kept[rule] += 1
         self.alike[text] += 1
@@ -169,8 +175,5 @@ class Log:
 
     def closed(self) -> tuple[Finding, ...]:
         """All findings by line, with one more for each rule that has too many."""
-        more = [
-            Finding(code, Severity.INFO, f"{code}: {count} more {'line' if count == 1 else 'lines'} like these.")
-            for code, count in self.left_out.items()
-        ]
-        return (*sorted(self.findings, key=lambda finding: (finding.line or 0, finding.column or 0)), *more)
+        told = (*self.findings, *map(more_alike, self.left_out, self.left_out.values()))
+        return tuple(sorted(told, key=lambda finding: (finding.line or 0, finding.column or 0)))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum, auto
 from shlex import quote
@@ -13,7 +14,7 @@ from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_names import shown_name
-from core.controls.control_run import ControlRun
+from core.controls.control_run import MAX_ALIKE, ControlRun, more_alike
 from core.controls.control_tools import ToolId, ToolTable, tool_id
 from core.controls.iso.execute import NO_LIBRARY
 from core.controls.iso.flow import ProgramLibrary
@@ -265,7 +266,21 @@ def _once(told: tuple[Finding, ...], unit: Unit) -> tuple[Finding, ...]:
     for number, one in enumerate(told):
         place = number if one.line is None and one.at is None else (one.line, one.column)
         known.setdefault((one.code, one.severity, place, sentence(one, unit)), one)
-    return tuple(known.values())
+    return tuple(_few_alike(known.values(), unit))
+
+
+def _few_alike(told: Iterable[Finding], unit: Unit) -> Iterator[Finding]:
+    """Information that repeats itself on many lines, as of the leads of a hundred holes, told MAX_ALIKE times."""
+    alike = Counter[tuple[str, str]]()
+    left_out: dict[str, list[int | None]] = {}
+    for one in told:
+        said = (one.code, sentence(one, unit))
+        alike[said] += 1
+        if one.severity is not Severity.INFO or alike[said] <= MAX_ALIKE:
+            yield one
+        else:
+            left_out.setdefault(one.code, []).append(one.line)
+    yield from map(more_alike, left_out, left_out.values())
 
 
 def _state(

@@ -34,6 +34,18 @@ def test_what_several_passes_find_at_one_place_is_told_once() -> None:
     assert twice.findings == once.findings
 
 
+def test_information_that_is_alike_for_many_contours_is_told_a_few_times() -> None:
+    """Ten holes, each with an arc in and an arc out."""
+    lead_in = b"G1 X%d. Y0\nG41 D3 X%d. Y-5.\nG3 X%d. Y0 R5.\n"
+    hole = lead_in + b"I-10.\nX%d. Y5. R5.\nG40 G1 X%d. Y0\n"
+    places = range(0, 400, 40)
+    holes = b"".join(hole % (x, x + 5, x + 10, x + 5, x) for x in places)
+    row = answer(b"G21 G90 F100.\n" + holes + b"M30\n", asked("linuxcnc", CutterTool(3, 8.0)))
+    leads = [(finding.line, finding.text) for finding in row.findings if finding.code == "LEADS"]
+    assert [line for line, _ in leads] == [4, 10, 16, 22]
+    assert leads[-1][1] == "LEADS: 7 more lines like these."
+
+
 def test_gouges_without_a_line_of_their_own_count_for_each_contour() -> None:
     """Two combs whose slots are narrower than the tool: more gouges than are listed one by one, in each."""
     teeth = b"".join(b"X%d.\nY%d.\n" % (10 * tooth, 20 if tooth % 2 else 0) for tooth in range(1, 60))
