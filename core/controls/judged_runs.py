@@ -18,11 +18,12 @@ from core.controls.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.crossing_contours import cuts_of_other_contours
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
 from core.controls.registry import arc_radii
-from core.controls.repeated_passes import without_repeats
+from core.controls.repeated_passes import shape, without_repeats
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows, joined
@@ -40,8 +41,6 @@ MAX_GOUGES: Final = 20
 
 MAX_LINES: Final = 6
 """Lines that a finding of several places names."""
-
-Shape = tuple[bytes, ...]
 
 LIMIT_RULE: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
@@ -83,7 +82,8 @@ class Judged:
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
-    are not judged.  `uncompensated`, of a run's first part: what moves without compensation cut of all contours.
+    are not judged.  `uncompensated`, of a run's first part: what moves without compensation cut of all contours, and
+    `of_others` what compensated moves cut of contours of other stretches.
     """
 
     stretch: Stretch
@@ -101,6 +101,7 @@ class Judged:
     unseen_gouges: int = 0
     above: PassedOver | None = None
     uncompensated: tuple[UncompensatedCut, ...] = ()
+    of_others: tuple[Gouge, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -144,8 +145,10 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
         ]
     if results:
-        cuts = tuple(cut for cut in moves_through(run, _cut_contours(run, results)) if cut.gouge.depth >= least)
-        results[0] = replace(results[0], uncompensated=cuts)
+        contours = _cut_contours(run, results)
+        cuts = tuple(cut for cut in moves_through(run, contours) if cut.gouge.depth >= least)
+        others = tuple(gouge for gouge in cuts_of_other_contours(run, contours) if gouge.depth >= least)
+        results[0] = replace(results[0], uncompensated=cuts, of_others=others)
     return tuple(results)
 
 
@@ -194,12 +197,12 @@ def _count_gouges(results: Sequence[Judged]) -> int:
 def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Judged]:
     """The verdicts on the pieces of a stretch, each with what it cuts of the others."""
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
-    surfaces = {_shape(result.surface): result.surface for results in judged for result in results}
+    surfaces = {shape(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
     unjudged: list[Judged] = []
     for results in judged:
-        own, center = {_shape(result.surface) for result in results}, results[0].center
-        others = [contour for contour in contours.near(center, stretch.radius) if _shape(contour) not in own]
+        own, center = {shape(result.surface) for result in results}, results[0].center
+        others = [contour for contour in contours.near(center, stretch.radius) if shape(contour) not in own]
         more, unknown, slack = _cuts_of(run, stretch, center, others)
         results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
@@ -241,12 +244,6 @@ def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Seq
     if slack > (result.uneven.slack if result.uneven else 0.0):
         result = replace(result, uneven=_most_uneven(slack, *paths))
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
-
-
-def _shape(path: Path) -> Shape:
-    """The same for paths that are the same to GOUGE, whatever their lines."""
-    grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
-    return (*(grid.tobytes() for grid in grids), path.turns.tobytes())
 
 
 def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
@@ -410,6 +407,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
                 *_uncut(result),
                 *_crossing(result),
                 *_uncompensated(result),
+                *_cuts_of_others(result),
             )
         )
     )
@@ -475,6 +473,22 @@ def _uncompensated(result: Judged) -> list[Finding]:
             Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
         )
     return told
+
+
+def _cuts_of_others(result: Judged) -> list[Finding]:
+    """Cuts into the contours of other stretches: warnings, for a wall may be meant to be cut, as by a slot."""
+    return [
+        Finding(
+            "OTHER-CONTOUR",
+            Severity.WARNING,
+            f"The cutter cuts {{value}} into the contour of line {int(gouge.surface_number)} at X {{x}} Y {{y}}. "
+            "Check that this wall may be cut.",
+            at=gouge.surface_at,
+            value=gouge.depth,
+            line=_line(gouge.path_number),
+        )
+        for gouge in result.of_others
+    ]
 
 
 def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:

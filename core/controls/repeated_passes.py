@@ -21,6 +21,15 @@ MIN_SHARE: Final = 4
 """A period is tried when at least one in this number of pieces of its pass was last seen a period before."""
 
 
+Shape = tuple[bytes, ...]
+
+
+def shape(path: Path) -> Shape:
+    """The same for paths that are the same to GOUGE, whatever their lines."""
+    grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
+    return (*(grid.tobytes() for grid in grids), path.turns.tobytes())
+
+
 def without_repeats(path: Path) -> Path:
     """The path without repeated passes: the first of them stays with its numbers, in the path's order.
 
