@@ -235,9 +235,9 @@ def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
 
 def _print_table(answers: tuple[Answer, ...]) -> None:
     width = max(len(one.name) for one in answers)
-    outcome = max(len(one.outcome) for one in answers)
+    outcome = max(len(one.outcome_and_warnings) for one in answers)
     for one in answers:
-        print(f"{one.name:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
+        print(f"{one.name:<{width}}  {one.outcome_and_warnings:<{outcome}}  {one.parts}".rstrip())
     for reason in reasons(answers):
         print(reason)
 
@@ -261,8 +261,7 @@ def _as_summary(answers: Iterator[_Checked]) -> int:
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            more = f", {counted(one.warnings, 'warning')}" if one.warnings else ""
-            print(f"{name_of(checked.path)}: {one.name}: {one.outcome}{more}", flush=True)
+            print(f"{name_of(checked.path)}: {one.name}: {one.outcome_and_warnings}", flush=True)
         warned += found == CLEAN and any(one.warnings for one in checked.answers)
     print(f"{sum(counts.values())} files: {counts[CLEAN] - warned} clean, {warned} with warnings, ", end="")
     print(f"{counts[FINDINGS]} with errors, {counts[UNUSABLE]} not readable.")

@@ -97,8 +97,9 @@ class CompareControls(ModalScreen["Chosen | None"]):
         self.answers = event.answers
         rows = self.query_one("#compared", OptionList)
         for answer in event.answers:
-            role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else "$c-good"
-            lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome, role))]
+            good = "$c-warn" if answer.warnings else "$c-good"
+            role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else good
+            lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome_and_warnings, role))]
             more = answer.why_said or answer.parts
             lines += [Content.styled(f"    {more}", "$c-label")] if more else []
             rows.add_option(Option(Content("\n").join(lines), id=answer.control))

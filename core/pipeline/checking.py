@@ -110,6 +110,13 @@ class Answer:
         return sum(finding.severity is Severity.WARNING for finding in self.findings)
 
     @property
+    def outcome_and_warnings(self) -> str:
+        """The outcome, and where there are warnings how many and of which rules: `runs, 2 warnings (RAPID, UNCUT)`."""
+        rules = dict.fromkeys(one.code for one in self.findings if one.severity is Severity.WARNING)
+        told = f", {counted(self.warnings, 'warning')} ({', '.join(rules)})" if rules else ""
+        return f"{self.outcome}{told}"
+
+    @property
     def uncompensated(self) -> bool:
         """Whether compensation is asked for somewhere with radius 0."""
         return any(finding.code in RADIUS_ZERO for finding in self.findings)
@@ -408,7 +415,7 @@ def lines(one: Answer) -> Iterator[str]:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
     moves, stretches = counted(one.count, "move"), counted(one.stretches, "compensated stretch")
-    yield f"{one.name}: {one.outcome}; {moves}, {stretches}, {one.unit.value}."
+    yield f"{one.name}: {one.outcome_and_warnings}; {moves}, {stretches}, {one.unit.value}."
 
 
 def counted(number: int, what: str) -> str:

@@ -123,7 +123,7 @@ def test_compensation_that_begins_a_move_before_the_over_run_is_a_warning(
     assert str(over_run["text"]).startswith(told)
     assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
-    assert f"{shown_name(control)}: runs;" in outcome
+    assert f"{shown_name(control)}: runs, 1 warning (OVER_RUN);" in outcome
 
 
 OPEN = """G21 G90 G17 G40
