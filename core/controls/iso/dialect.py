@@ -124,6 +124,7 @@ class Dialect:
     otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
     `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.  `program_names`: a
     name in angle brackets may stand for O and its number.  `without_point`: what makes X10 ten least increments.
+    `diameters_apart`: D has a memory of its own, in diameters.  `macro_codes`: the parameters that make G codes macros.
     `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
     of O-words that may run, before the run is given up.
     """
@@ -160,6 +161,8 @@ class Dialect:
     m97_calls: bool = False
     program_names: bool = False
     without_point: str = ""
+    diameters_apart: bool = False
+    macro_codes: str = ""
     max_repeated_blocks: int = 400_000
     max_o_words: int = 15_000
 

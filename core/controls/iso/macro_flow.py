@@ -355,6 +355,7 @@ class MacroFlow(Flow):
 
     def _run_statement(self, statement: Statement, row: int) -> int:
         """Runs a macro statement and gives the row that comes next."""
+        self.machine.line = self.numbers[row]
         reader = MacroReader(statement.line.text, self.variables, statement.at)
         match statement.keyword:
             case "#":
@@ -510,6 +511,7 @@ class MacroFlow(Flow):
 
     def _block(self, row: int, line: CompactText, start: int) -> Block | None:
         number, text = self.numbers[row], self.lines[row]
+        self.machine.line = number
         if _SKIP.match(text):
             said = "Block skip is assumed off, so this block runs."
             self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)

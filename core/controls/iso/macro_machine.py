@@ -28,6 +28,9 @@ from core.units import Unit, from_mm, to_mm
 EXTENDED_SYSTEM: Final = 100_000
 """Work offsets of G54.1 P have this key, and their P."""
 
+HAAS_SYSTEMS: Final = tuple(range(1100, 1300, 10))
+"""G110 to G129 of a Haas, which are its G154 P1 to P20."""
+
 FIRST_BUILDER_CODE: Final = 1000
 """G codes from G100 on that the control does not have may be macros."""
 
@@ -74,7 +77,7 @@ _LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
 class Offsets:
     """The offset memory as the program wrote it, in millimeters by number: radii of D, lengths of H, and their wear.
 
-    `separate`: the program has written D apart from H; until then both are one.
+    `separate`: D is apart from H, always or since the program has written it so; until then both are one.
     """
 
     radii: dict[int, float]
@@ -137,20 +140,22 @@ class MacroMachine(Machine):
     """Runs the blocks of a Fanuc or Haas program.
 
     `unknown` are the axes whose place is not known; `in_force` the code of each group; `last_words` the values of the
-    block before that variables read; `start_unknown`: the block's move starts at a place of the machine; `polar` the
-    radius and the angle last programmed under G16, None without it.  `following` is the next block, where a corner
-    before it is to be rounded, and `corner_point` that corner, once it is.
+    block before that variables read; `line` the line whose expressions are worked out; `start_unknown`: the block's
+    move starts at a place of the machine; `polar` the radius and the angle last programmed under G16, None without it.
+    `following` is the next block, where a corner before it is to be rounded, and `corner_point` that corner, once it
+    is.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, control, tools, log)
-        self.offsets = Offsets({}, {}, {}, {})
+        self.offsets = Offsets({}, {}, {}, {}, separate=dialect.diameters_apart)
         self.transform = Transform()
         self.unknown: set[int] = set()
         self.in_force = dict(_AT_START)
         self.last_words: dict[str, float] = {}
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
+        self.line = 1
         self.start_unknown = False
         self.other_axes: set[str] = set()
         self.following: Block | None = None
@@ -158,7 +163,7 @@ class MacroMachine(Machine):
 
     def step(self, block: Block) -> None:
         """Runs one block; variables of the block before change only behind it."""
-        self.current, self.start_unknown = block, False
+        self.current, self.line, self.start_unknown = block, block.line, False
         super().step(block)
         for letter in _LAST_WORDS.values():
             if letter in block.words:
@@ -167,7 +172,7 @@ class MacroMachine(Machine):
     def _grouped(self, block: Block) -> list[Code]:
         for number in block.g:
             if number >= FIRST_BUILDER_CODE and number not in self.dialect.codes:
-                text = f"G{number / 10:g} may be a macro of the machine's builder (6050 to 6059). Call it with G65."
+                text = f"G{number / 10:g} may be a macro of the machine ({self.dialect.macro_codes}). Call it with G65."
                 self.log.stop("CODE", text, block.line, block.column("G", number))
         codes = super()._grouped(block)
         for code in codes:
@@ -410,20 +415,26 @@ class MacroMachine(Machine):
             self.log.tell(Severity.INFO, "HOME", text, block.line, block.column("G"))
 
     def _select_system(self, code: int, block: Block) -> None:
-        if code in (541, 1540):
-            number = whole(block.words.get("P", 1.0))
-            if number is None or not 1 <= number <= 300:
+        if code in HAAS_SYSTEMS:
+            name, number = f"G{code // 10}", HAAS_SYSTEMS.index(code) + 1
+        elif code in (541, 1540):
+            given = whole(block.words.get("P", 1.0))
+            if given is None or not 1 <= given <= 300:
                 self.log.stop("PS0030", "P is the number of a work offset, 1 to 300.", block.line, block.column("P"))
-            code = EXTENDED_SYSTEM + number
-            if code not in self.origin.systems:
-                text = f"The offset of G54.1 P{number} is not in the program; it is taken as zero."
-                self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
-            self.set_origin(replace(self.origin, system=code))
+            name, number = f"G54.1 P{given}", given
+        else:
+            super()._select_system(code, block)
             return
-        super()._select_system(code, block)
+        if EXTENDED_SYSTEM + number not in self.origin.systems:
+            text = f"The offset of {name} is not in the program; it is taken as zero."
+            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
+        self.set_origin(replace(self.origin, system=EXTENDED_SYSTEM + number))
 
     def _set_data(self, block: Block) -> None:
         """G10: work offsets (L2, L20), tool offsets (L1, L10 to L13)."""
+        if "L" not in block.words and "R" in block.words:
+            text = "G10 with R and without L sets a tool's offset on old controls only. Write L10, L11, L12 or L13."
+            self.log.stop("BEYOND", text, block.line, block.column("G", 100))
         kind, number = whole(block.words.get("L", 2.0)), whole(block.words.get("P", -1.0))
         if kind == 50 or kind == 52:
             text = "The program writes parameters of the control, and what follows may be wrong. Set them by hand."
@@ -455,23 +466,26 @@ class MacroMachine(Machine):
     def _set_offset(self, kind: int, number: int, block: Block) -> None:
         if "R" not in block.words:
             self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
-        self._write_offset(kind, number, block.words["R"] * self.scale, add=self.incremental)
+        self._write_offset(kind, number, block.words["R"] * self.scale / self._measure(kind), add=self.incremental)
         if kind not in (12, 13) and not self.offsets.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
+
+    def _measure(self, kind: int) -> float:
+        """The radii in a value of this L; says once where they are two."""
+        if kind not in (12, 13) or not self.dialect.diameters_apart:
+            return 1.0
+        if not self.log.has("HAAS-DIAMETER"):
+            text = "This value is taken as a diameter (setting 40 DIAMETER). At RADIUS the offset is twice as large."
+            self.log.tell(Severity.WARNING, "HAAS-DIAMETER", text, self.line, 1)
+        return 2.0
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
         """A value in millimeters into the memory that an L stands for."""
         offsets = self.offsets
         if kind in (12, 13):
             offsets.separate = True
-        memories = {
-            1: [offsets.lengths],
-            10: [offsets.lengths],
-            11: [offsets.length_wear],
-            12: [offsets.radii],
-            13: [offsets.radius_wear],
-        }[kind]
+        memories = [self._memory(kind)]
         if kind in (1, 10, 11) and not offsets.separate:
             wear = kind == 11 and number in offsets.radii
             memories.append(offsets.radius_wear if wear else offsets.radii)
@@ -497,7 +511,7 @@ class MacroMachine(Machine):
         """A system variable; a sentence where it is not known before the control runs, None for no variable."""
         if not isinstance(key, int):
             return None
-        if 2001 <= key <= 2999 or 10_001 <= key <= 13_999:
+        if self._is_offset(key):
             return self._offset_variable(key)
         if key in _GROUPS:
             return self._code_in_force(key)
@@ -519,7 +533,7 @@ class MacroMachine(Machine):
 
     def _tell_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
-        self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.current.line, 1)
+        self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.line, 1)
 
     def _in_work(self, point: Point3, axis: int) -> float:
         return from_mm(point[axis] - self.shift[axis], self.unit)
@@ -529,26 +543,35 @@ class MacroMachine(Machine):
         code = self.in_force.get(group, 200 if self.unit is Unit.IN else 210)
         return (code - EXTENDED_SYSTEM) * 1.0 if code > EXTENDED_SYSTEM else code / 10
 
-    def _offset_variable(self, key: int) -> float:
-        memory, number = self._memory(key)
-        if memory is self.offsets.radii:
-            radius = memory.get(number)
-            tool = self.tools.get(number)
-            value = radius if radius is not None else tool.diameter_mm(self.unit) / 2 if tool else 0.0
-        elif memory is self.offsets.lengths and number not in memory:
-            tool = self.tools.get(number)
-            value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
-        else:
-            value = memory.get(number, 0.0)
-        return from_mm(value, self.unit)
+    def _is_offset(self, key: int) -> bool:
+        """Whether a variable is a place in the offset memory."""
+        if self.dialect.diameters_apart:
+            return 2001 <= key <= 2800
+        return 2001 <= key <= 2400 or 10_001 <= key <= 13_999
 
-    def _memory(self, key: int) -> tuple[dict[int, float], int]:
-        """The memory a variable belongs to, and the number in it."""
-        offsets = self.offsets
+    def _offset_of(self, key: int) -> tuple[int, int]:
+        """The L of G10 that writes a variable's memory, and the number in it."""
+        if self.dialect.diameters_apart:
+            return (10, 11, 12, 13)[(key - 2001) // 200], (key - 2001) % 200 + 1
         if key < 10_000:
-            return (offsets.lengths, key - 2200) if key > 2200 else (offsets.length_wear, key - 2000)
-        kinds = {10: offsets.length_wear, 11: offsets.lengths, 12: offsets.radius_wear, 13: offsets.radii}
-        return kinds[key // 1000], key % 1000
+            return (10, key - 2200) if key > 2200 else (11, key - 2000)
+        return {10: 11, 11: 10, 12: 13, 13: 12}[key // 1000], key % 1000
+
+    def _memory(self, kind: int) -> dict[int, float]:
+        """The memory that an L of G10 writes."""
+        offsets = self.offsets
+        kinds = {11: offsets.length_wear, 12: offsets.radii, 13: offsets.radius_wear}
+        return kinds.get(kind, offsets.lengths)
+
+    def _offset_variable(self, key: int) -> float:
+        kind, number = self._offset_of(key)
+        memory, tool = self._memory(kind), self.tools.get(number)
+        value = memory.get(number, 0.0)
+        if kind == 12:
+            value = self._geometry_radius(number) or 0.0
+        elif kind == 10 and number not in memory:
+            value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
+        return from_mm(value * self._measure(kind), self.unit)
 
     def _origin_variable(self, key: int) -> float | None:
         if 5201 <= key <= 5203:
@@ -560,6 +583,8 @@ class MacroMachine(Machine):
         if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
             system = EXTENDED_SYSTEM + 1 + (key - 7001) // 20
             return from_mm(self.origin.systems.get(system, ZERO)[(key - 7001) % 20], self.unit)
+        if (place := _work_offset_place(key)) is not None:
+            return from_mm(self.origin.systems.get(place[0], ZERO)[place[1]], self.unit)
         if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999:
             return 0.0
         return None
@@ -567,10 +592,9 @@ class MacroMachine(Machine):
     def set_variable(self, key: int, value: float) -> bool:
         """Sets a system variable; False where a program cannot."""
         millimeters = to_mm(value, self.unit)
-        if 2001 <= key <= 2400 or 10_001 <= key <= 13_999:
-            kinds = {10: 11, 11: 10, 12: 13, 13: 12}
-            kind = (10 if key > 2200 else 11) if key < 10_000 else kinds[key // 1000]
-            self._write_offset(kind, self._memory(key)[1], millimeters)
+        if self._is_offset(key):
+            kind, number = self._offset_of(key)
+            self._write_offset(kind, number, millimeters / self._measure(kind))
             return True
         if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
             return True
@@ -582,6 +606,9 @@ class MacroMachine(Machine):
         if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
             self._write_origin(EXTENDED_SYSTEM + 1 + (key - 7001) // 20, (key - 7001) % 20, millimeters)
             return True
+        if (place := _work_offset_place(key)) is not None:
+            self._write_origin(*place, millimeters)
+            return True
         return False
 
     def _write_origin(self, code: int, axis: int, value: float) -> None:
@@ -589,3 +616,11 @@ class MacroMachine(Machine):
         offset[axis] = value
         systems = MappingProxyType({**self.origin.systems, code: (offset[0], offset[1], offset[2])})
         self.set_origin(replace(self.origin, systems=systems))
+
+
+def _work_offset_place(key: int) -> tuple[int, int] | None:
+    """The work offset and the axis of #2500 to #2506 (X), #2600 to #2606 (Y) and #2700 to #2706 (Z)."""
+    axis, number = divmod(key - 2500, 100)
+    if not 0 <= axis <= 2 or number > 6:
+        return None
+    return 530 + 10 * number if number else EXTERNAL, axis

@@ -19,7 +19,7 @@ from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect,
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro import ParameterStore
-from core.controls.iso.macro_machine import MacroMachine
+from core.controls.iso.macro_machine import HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
@@ -95,6 +95,7 @@ DIALECT: Final = Dialect(
     repeat_letters="KL",
     program_names=True,
     without_point="at 3401#0 = 0",
+    macro_codes="parameters 6050 to 6059",
 )
 
 ALARMS: Final = Alarms(arc="PS0034", arc_off="PS0034", no_meeting="PS0033", crossing="PS0041", point="PS0038")
@@ -103,7 +104,7 @@ SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
 """What shops add to a tool's number for its D where lengths and radii share one memory."""
 
 _PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
-_NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590))
+_NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 1540, *HAAS_SYSTEMS))
 _TO_MACHINE: Final = frozenset((280, 300, 530))
 _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))

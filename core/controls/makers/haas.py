@@ -15,6 +15,7 @@ from typing import Final
 from core.controls.compensation.corner_rules import Outside
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
+from core.controls.iso.macro_machine import HAAS_SYSTEMS
 from core.controls.iso.reader import Block
 from core.controls.makers import fanuc
 from core.controls.makers.fanuc_vectors import Alarms, VectorRules
@@ -27,13 +28,16 @@ DIALECT: Final[Dialect] = replace(
     cycle_r_needed=False,
     codes=codes(
         *fanuc.GROUPS,
-        ("system", CodeAction.SYSTEM, (1540,)),
+        ("system", CodeAction.SYSTEM, (1540, *HAAS_SYSTEMS)),
         ("once", CodeAction.MODE, (1030, 1870)),
-        ("once", CodeAction.UNSUPPORTED, (120, 130, 700, 710, 720, 1500)),
+        ("once", CodeAction.UNSUPPORTED, (120, 130, 350, 360, 700, 710, 720, 1000, 1010, 1070, 1360, 1410, 1430)),
+        ("once", CodeAction.UNSUPPORTED, (1500, 1740, 1840, 2340, 2540, 2550)),
     ),
     m97_calls=True,
     program_names=False,
     without_point="with setting 162 off",
+    diameters_apart=True,
+    macro_codes="parameters 91 to 100",
 )
 
 BLOCKS_READ: Final = 80

@@ -290,6 +290,35 @@ def test_a_d_without_use_of_compensation_needs_no_offset() -> None:
 # Haas
 
 
+OFFSET_WALL: Final = "G41 D1 X0\nY40\nG40 X-20\nM30"
+
+
+@pytest.mark.parametrize(
+    "written", ["G10 L12 P1 R6.", "#2401=6.", "#2401=8.\n#2601=-2.", "G10 L12 P1 R4.\nG10 L13 P1 R2."]
+)
+def test_haas_keeps_d_in_diameters_apart_from_h(written: str) -> None:
+    """Setting 40 DIAMETER: 6 is a radius of 3; and what is written for H is none for D."""
+    done = ran(f"{HEAD}G10 L10 P1 R100.\n#2001=100.\n{written}\n{OFFSET_WALL}", "haas:a")
+    assert (-3.0, 40.0) in ends(done)
+    (told_once,) = told(done, "HAAS-DIAMETER")
+    assert (told_once.severity, told_once.line) == (Severity.WARNING, 4)
+
+
+def test_haas_reads_the_diameter_of_a_tool_and_its_wear() -> None:
+    done = ran(f"{HEAD}#2601=.5\nX#2401 Y#2601\nM30", "haas:a")
+    assert ends(done) == [(10.0, 0.5)]
+
+
+def test_haas_has_work_offsets_g110_to_g129_which_are_g154_p1_to_p20() -> None:
+    assert ends(ran("G21\nG10 L20 P14 X20.\nG123 G0 X1.\nM30", "haas:a")) == [(21.0, 0.0)]
+    assert alarms(ran("G21\nG123 G0 X1.\nM30")) == [("PS0010", 2)]
+
+
+@pytest.mark.parametrize("code", ["G141", "G101", "G234", "G35"])
+def test_what_a_haas_has_and_cutcomp_does_not_follow_is_no_alarm(code: str) -> None:
+    assert alarms(ran(f"G21\n{code} X1.\nM30", "haas:a")) == [("BEYOND", 2)]
+
+
 def test_haas_stops_where_it_cannot_look_further() -> None:
     idle = "M8\n" * 79
     assert alarms(ran(f"{ENTERED}{idle}Y40\nG40 X0\nM30", "haas:a")) == [("H350", 83)]
@@ -391,6 +420,7 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("M98", "PS0076"),
         ("G10 L12 R5.", "PS0031"),
         ("G10 L12 P1", "PS0032"),
+        ("G10 P1 R8.", "BEYOND"),
         ("G10 L50", "FN-PARAMETER"),
         ("G29 X5", "BEYOND"),
         ("G71 P10 Q20 D0.05", "PS0010"),
@@ -733,3 +763,8 @@ def test_the_leader_of_a_tape_is_not_read(leader: str, control: str) -> None:
     done = ran(f"{leader}%\nO1\nG21 G90\nG0 X1.\nM30\n\x14%\n\0\0", control)
     assert ends(done) == [(1.0, 0.0)]
     assert not alarms(done)
+
+
+def test_the_older_variables_of_work_offsets_are_those_of_g10() -> None:
+    """#2501 to #2506 are X of G54 to G59, #2600 is Y of the external offset."""
+    assert ends(ran("G21\nG10 L2 P2 X20.\n#2600=3.\nG55 G0 X#2502 Y1.\nM30")) == [(40.0, 4.0)]
