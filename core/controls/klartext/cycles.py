@@ -95,9 +95,10 @@ def _define(state: State, block: Block, number: int) -> None:
         _pass_over(state, block, number, None)
         return
     _take_values(state, block)
+    text = f"Cycle {number} is skipped: it moves nothing."
     if number not in _WAITING:
         state.cycle = number
-    text = f"Cycle {number} is skipped: it moves nothing before it is called."
+        text = f"Cycle {number} is skipped: it moves nothing before it is called."
     state.tell(Severity.INFO, "IGNORED", text, block)
 
 

@@ -15,7 +15,7 @@ from core.finding import Severity
 from core.units import Unit, to_mm
 
 _BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S.*?))?\s+(MM|INCH)\s*$", re.ASCII)
-_NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.]))?', re.ASCII)
+_NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.])|(Q[LR]?\d+))?', re.ASCII)
 _UNSUPPORTED: Final = (
     (re.compile(r"CALL\s*PGM|PGM\s*CALL", re.ASCII), "runs another file. Copy its blocks in."),
     (
@@ -24,6 +24,8 @@ _UNSUPPORTED: Final = (
     ),
     (re.compile(r"FN\b|IF\b", re.ASCII), "is not supported. Use FN 0 to 13 with numbers."),
     (re.compile(r"PLANE\b|TRANS\b", re.ASCII), "turns, mirrors or tilts, which is not supported."),
+    (re.compile(r"FUNCTION\b|SEL\b", re.ASCII), "is not supported, and the path after it could be wrong."),
+    (re.compile(r"[XYZ]\s*[-+]?[\d.Q]", re.ASCII), "is a paraxial block, which is not supported. Write L before it."),
 )
 """Blocks that the control knows and that are not supported here, and the end of the sentence about them."""
 
@@ -59,7 +61,11 @@ def end(state: State, block: Block) -> None:
 
 def ignored(state: State, block: Block) -> None:
     """BLK FORM: nothing that moves."""
-    state.tell(Severity.INFO, "IGNORED", "BLK FORM moves nothing and is skipped.", block)
+    _skip(state, block, "BLK FORM")
+
+
+def _skip(state: State, block: Block, name: str) -> None:
+    state.tell(Severity.INFO, "IGNORED", f"{name} moves nothing and is skipped.", block)
 
 
 def bracketed(state: State, block: Block) -> None:
@@ -85,14 +91,14 @@ def plane(state: State, block: Block) -> None:
         state.parameters |= dict.fromkeys(("Q120", "Q121", "Q122"), 0.0)
     elif block.body.split() != ["RESET", "STAY"]:
         unknown(state, block)
-    ignored(state, block)
+    _skip(state, block, "PLANE without a tilt")
 
 
 def function(state: State, block: Block) -> None:
     """FUNCTION RESET and FUNCTION MODE MILL, which are the state anyway; any other FUNCTION is not supported."""
     if block.body.split()[:1] != ["RESET"] and block.body.split()[:2] != ["MODE", "MILL"]:
         unknown(state, block)
-    ignored(state, block)
+    _skip(state, block, f"FUNCTION {' '.join(block.body.split())}")
 
 
 def unknown(state: State, block: Block) -> NoReturn:
@@ -113,6 +119,8 @@ def tool(state: State, block: Block) -> None:
         unknown(state, block)
     rest = block.after(number.end())
     name = number[2] if number[2] is not None else (number[3] or "").replace(",", ".").removeprefix("+")
+    if number[4]:
+        name = f"{state.value(number[4], block):g}"
     if number[1] == "DEF":
         _define(state, rest, name, state.words(rest, _DEF, TOOL_WORD))
     else:

@@ -81,7 +81,8 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("PLANE SPATIAL SPA+10",), "BEYOND", 4),
         (("PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY",), "BEYOND", 4),
         (("PLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE ABST50",), "BEYOND", 4),
-        (("FUNCTION TCPM F TCP",), "WORD", 4),
+        (("FUNCTION TCPM F TCP",), "BEYOND", 4),
+        (('SEL TABLE "X"',), "BEYOND", 4),
         (("Q8 = 30", "CYCL DEF 10.1 ROT+Q8"), "BEYOND", 5),
         (("L C+Q122 FMAX",), "Q", 4),
         (("L U+0",), "BEYOND", 4),
@@ -96,7 +97,7 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("L X+1 A+90",), "BEYOND", 4),
         (("L X+1 R+",), "BEYOND", 4),
         (("L X+1 LA5",), "WORD", 4),
-        (("X+30 R+ F100",), "WORD", 4),
+        (("X+30 R+ F100",), "BEYOND", 4),
         (("G1 X10",), "WORD", 4),
         (("L X+1 X+2",), "TWICE", 4),
         (("L X+1 IX+2",), "TWICE", 4),
@@ -157,6 +158,25 @@ def test_findings_that_do_not_stop_the_run(block: str, rule: str, severity: Seve
     made = runs("L X+0 Y+0 Z+1 FMAX", block, "L X+5 F9")
     assert [(finding.code, finding.severity, finding.line) for finding in made.findings] == [(rule, severity, 5)]
     assert points(made)[-1] == (5, 0, 1)
+
+
+@pytest.mark.parametrize(
+    ("block", "text"),
+    [
+        ("BLK FORM 0.1 Z X+0 Y+0 Z-20", "BLK FORM moves nothing and is skipped."),
+        ("PLANE RESET STAY", "PLANE without a tilt moves nothing and is skipped."),
+        ("FUNCTION MODE MILL", "FUNCTION MODE MILL moves nothing and is skipped."),
+        ("CYCL DEF 32.1 T0.05", "Cycle 32 is skipped: it moves nothing."),
+        ("CYCL DEF 200 DRILLING", "Cycle 200 is skipped: it moves nothing before it is called."),
+    ],
+)
+def test_what_is_skipped_is_called_by_its_name(block: str, text: str) -> None:
+    assert [finding.text for finding in runs(block).findings] == [text]
+
+
+def test_a_tool_may_be_called_by_a_parameter() -> None:
+    made = runs("TOOL DEF 7 L+0 R+5", "Q3 = 7", "TOOL CALL Q3 Z S500", "L X+0 Y+0 Z+1 FMAX", "L X+9 RL F9", "L X+20")
+    assert [stretch.radius for stretch in made.stretches] == [5.0]
 
 
 @pytest.mark.parametrize(
