@@ -48,13 +48,15 @@ class Syntax:
 
     `semicolon_ends`: a semicolon is the end of a block, not the beginning of a comment.  `tool_data`: a slash stands in
     tool data as in T4/.75/.2, not before a block that a switch can skip.  `blanks`: a blank parts words, rather than
-    being nothing anywhere.  `last_counts`: of two words of one letter the last counts, with a warning.
+    being nothing anywhere.  `last_counts`: of two words of one letter the last counts, with a warning.  `corners`: the
+    control has `,R` and `,C`, which are not followed.
     """
 
     semicolon_ends: bool = False
     tool_data: bool = False
     blanks: bool = True
     last_counts: bool = False
+    corners: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,7 +199,7 @@ def _closer(
     if _CLEAN.fullmatch(bare) is None:
         squeezed = "" if syntax.blanks else _squeezed(block, log)
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
-            _fault(block, bare, log)
+            _fault(block, bare, log, syntax)
         block.text = bare = squeezed
     return [fill_words(block, bare, log)]
 
@@ -248,12 +250,15 @@ def _tell_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
     log.tell(Severity.WARNING, "TWICE", text, block.line, block.second(letter))
 
 
-def _fault(block: Block, bare: str, log: Log) -> None:
+def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     """Stops the run at the first character that belongs to no word."""
     clean = _CLEAN.match(bare)
     at = clean.end() if clean else 0
     at += len(bare[at:]) - len(bare[at:].lstrip())
     rest, column = block.text[at:], block.start + at + 1
+    if syntax.corners and rest.startswith(","):
+        text = f"cutcomp does not follow {quoted(rest)} on this control. Write the corner's moves."
+        log.stop("BEYOND", text, block.line, column)
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if rest.startswith("/"):

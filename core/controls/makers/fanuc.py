@@ -108,6 +108,7 @@ _NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 154
 _TO_MACHINE: Final = frozenset((280, 300, 530))
 _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
+_CALLS: Final = frozenset((980, 990))
 _TRANSFORMS: Final = frozenset((680, 690, 510, 500, 511, 501))
 _ARC_MODES: Final = (20, 30)
 
@@ -117,7 +118,8 @@ class Fanuc(VectorQueue, Control):
 
     `side` is that of G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.  `exiting`:
     this block turns compensation off, with a vector where it has I, J or K.  `in_plane`: the block moved in the plane,
-    or is not to be counted as one without movement; `too_many`: it counts as too many of those.
+    or is not to be counted as one without movement; `too_many`: it counts as too many of those.  `calls_counted`: a call
+    or a return is among the blocks that are.
     """
 
     alarms = ALARMS
@@ -134,6 +136,7 @@ class Fanuc(VectorQueue, Control):
         self.in_plane = False
         self.too_many = False
         self.warned_of_zero = False
+        self.calls_counted = False
 
     def watch(self, block: Block) -> None:
         """What a block says besides its motion; the block before it is counted first."""
@@ -355,6 +358,7 @@ class Fanuc(VectorQueue, Control):
         block = self.block
         if block is None or not self.active or self.in_plane or self.held is None or _is_bare(block):
             return
+        self.calls_counted = not _CALLS.isdisjoint(block.m) or (self.calls_counted and self.motionless > 0)
         self.motionless += 1
         if self.too_many or self.motionless > self.vector_rules.blocks_read - 2:
             self.after_too_many(block)
@@ -369,6 +373,8 @@ class Fanuc(VectorQueue, Control):
             remedy = "Write G40 before it."
         text = f"{why}: the tool stands square here and the next move runs slanting. It may overcut or leave stock. "
         text += remedy
+        if self.calls_counted:
+            text += " M98 and M99 are counted as such blocks, as on some controls."
         self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
         self.end_square()
 

@@ -51,7 +51,7 @@ DIALECT: Final = Dialect(
         ("once", CodeAction.UNSHIFT, (921,)),
     ),
     Unit.IN,
-    syntax=Syntax(semicolon_ends=True),
+    syntax=Syntax(semicolon_ends=True, corners=True),
     d_anywhere=True,
 )
 

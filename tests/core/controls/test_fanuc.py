@@ -768,3 +768,10 @@ def test_the_leader_of_a_tape_is_not_read(leader: str, control: str) -> None:
 def test_the_older_variables_of_work_offsets_are_those_of_g10() -> None:
     """#2501 to #2506 are X of G54 to G59, #2600 is Y of the external offset."""
     assert ends(ran("G21\nG10 L2 P2 X20.\n#2600=3.\nG55 G0 X#2502 Y1.\nM30")) == [(40.0, 4.0)]
+
+
+def test_calls_that_count_as_blocks_without_movement_are_named() -> None:
+    """M98 and M99 of two subprograms in a row: whether a control counts them is not known of all."""
+    program = f"{ENTERED}M98 P2\nM98 P3\nG40 X0\nM30\nO2\nY40\nM99\nO3\nX0\nM99"
+    assert told(ran(program), "FN-N2")[0].text.endswith("M98 and M99 are counted as such blocks, as on some controls.")
+    assert "M98" not in told(ran(f"{ENTERED}M8\nM9\nY40\nG40 X0\nM30"), "FN-N2")[0].text

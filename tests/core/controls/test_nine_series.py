@@ -182,3 +182,9 @@ def test_m800_lets_a_backwards_move_run() -> None:
     assert ran(f"G20 G1 F10\n{body}", "nine-series", t1=0.5).stopped_at == 4
     assert ran(f"G20 G1 F10\nM800\n{body}", "nine-series", t1=0.5).stopped_at is None
     assert ran(f"G20 G1 F10\nM800\nM801\n{body}", "nine-series", t1=0.5).stopped_at == 6
+
+
+def test_corner_words_are_not_followed_and_no_alarm() -> None:
+    """Its manual of the lathe has `,C` and `,R`; how they meet compensation is not stated."""
+    done = ran("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
+    assert [(finding.code, finding.line, finding.column) for finding in done.findings][-1] == ("BEYOND", 2, 12)
