@@ -88,7 +88,7 @@ def split_where_it_closes(path: Path) -> SplitContours:
         back = _split_at_start(path.reversed())
         split = None if back is None else (back[0].reversed(), back[1].reversed())
     if split is None:
-        return SplitContours.of(path)
+        return SplitContours.of(_split_at_corner(path) or path)
     straight, closing = split
     return replace(SplitContours.of(closing), path=straight)
 
@@ -105,6 +105,21 @@ def _split_at_start(path: Path) -> tuple[Path, Path] | None:
             along, starts = path.start_directions[rows], path.starts[rows]
             feet = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
             return _split(path, rows, feet), _split(path, rows, np.repeat(point[None], len(rows), axis=0))
+    return None
+
+
+def _split_at_corner(path: Path) -> Path | None:
+    """The path with its last line split where its first one ends, of leads there and back beyond a corner.
+
+    Or with its first line split where its last one begins.
+    """
+    if len(path) < 4 or np.abs(path.points[0] - path.points[-1]).max() > CLOSED:
+        return None
+    for way, turned in ((path, False), (path.reversed(), True)):
+        row = len(way) - 1
+        if not way.turns[0] and not way.turns[row] and _runs_over(way, row, way.points[1], way.end_directions[row]):
+            split = _split(way, [row], way.points[1:2])
+            return split.reversed() if turned else split
     return None
 
 
@@ -181,20 +196,32 @@ def _longest(sums: Floats, places: list[tuple[float, float]]) -> RowRange | None
 def _between_leads(path: Path, sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
     """The closed run inside a closed one that starts and ends with a lead.
 
-    That is a line there and back in the middle of a wall, or an arc of a quarter turn at most, in line with the wall:
-    around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be half a turn.
+    That is a line there and back in the middle of a wall or off a corner, or an arc of a quarter turn at most, in line
+    with the wall: around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be
+    half a turn.
     """
     begin, end = rows[0] + 1, rows[1] - 1
     if begin >= end or places[begin] != places[end] or not _encloses(sums, (begin, end)):
         return rows
     if not path.turns[begin - 1] and not path.turns[end]:
-        # at a corner the line may be a wall that is run twice by mistake
-        smooth = float(path.end_directions[end - 1] @ path.start_directions[begin]) > cos(OVERLAP)
-        return (begin, end) if smooth else rows
+        return (begin, end) if _leads_off(path, begin, end) else rows
     largest = pi if _inside_of_circle(path, (begin - 1, end), (begin, end)) else pi / 2
     arcs = all(path.turns[row] and abs(path.sweeps[row]) <= largest + BLEND for row in (begin - 1, end))
     tangent = _blends(path, range(begin, begin - 2, -1)) and _blends(path, range(end - 1, end + 1))
     return (begin, end) if arcs and tangent else rows
+
+
+def _leads_off(path: Path, begin: int, end: int) -> bool:
+    """Whether the line behind row `end` leads off the closed run that begins and ends there.
+
+    It does from the middle of a wall, and at a corner square to both walls at least or straight on from one of them:
+    any other may be a wall that is run twice by mistake.
+    """
+    before, after = -path.end_directions[end - 1], path.start_directions[begin]
+    off = path.start_directions[end]
+    smooth = float(before @ after) < -cos(OVERLAP)
+    straight_on = min(float(off @ before), float(off @ after)) < -cos(OVERLAP)
+    return smooth or straight_on or max(float(off @ before), float(off @ after)) <= OVERLAP
 
 
 def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool:

@@ -127,6 +127,9 @@ GOOD = {
     "from beyond the corner": ("-30. Y-30.", f"G41 D1 X0. Y-20.\n{LAP}Y20.\nG3 X-10. Y30. R10.\nG1 {OUT}"),
     "in and out square": ("-30. Y10.", f"G41 D1 X0. Y10.\n{LAP}Y15.\nX-10.\n{OUT}"),
     "in and out square in two moves": ("-30. Y25.", f"G41 D1 X-20. Y25.\nX0.\n{LAP}Y25.\nX-20.\nG40 Y30."),
+    "straight on from a corner and back": ("-40. Y10.", f"G41 D1 X-25. Y0.\nX0.\n{LAP}X-25.\nG40 X-40. Y10."),
+    "straight on from the last wall": ("-30. Y-30.", f"G41 D1 X0. Y-20.\nY0.\n{LAP}Y-20.\nG40 X-30. Y-30."),
+    "off a corner and back": ("-40. Y-40.", f"G41 D1 X-15. Y-15.\nX0. Y0.\n{LAP}X-15. Y-15.\nG40 X-40. Y-40."),
     "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
 }
 """The start and the blocks of a plate of 80 by 50 that is not gouged."""
