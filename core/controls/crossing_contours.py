@@ -22,6 +22,7 @@ from core.geometry.nearby import near_pairs
 from core.geometry.path import Floats, Path
 from core.tolerance import ON_PATH
 from core.verify.judge import judge, judge_together
+from core.verify.surface import Leads
 from core.verify.verdict import Gouge
 
 WHOLE: Final = 0.99
@@ -103,12 +104,13 @@ def _cuts(contour: CutContour, passes: Sequence[_Pass]) -> list[Gouge]:
             centers.setdefault((*shape(center), str(one.radius).encode()), (center, one.radius))
     for center, radius in centers.values():
         if any(True for _ in near_pairs(center.boxes, contour.path.boxes, radius)):
-            gouges += judge(contour.path, contour.stretch.side, radius, center, contour.accepted).gouges
+            verdict = judge(contour.path, contour.stretch.side, radius, center, contour.accepted, leads=Leads.MOVES)
+            gouges += verdict.gouges
     if not gouges:
         return []
     least = WHOLE * min(radius for _, radius in centers.values())
     paths = [center for center, _ in centers.values()]
-    verdict = judge_together(contour.path, contour.stretch.side, least, paths, contour.accepted)
+    verdict = judge_together(contour.path, contour.stretch.side, least, paths, contour.accepted, leads=Leads.MOVES)
     return gouges if verdict.uncut else []
 
 

@@ -227,7 +227,8 @@ def _cuts_of(
     """What a path cuts of contours, those of them that cannot be judged, and the tolerance that uneven arcs add."""
     gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for contour in contours:
-        verdict = judge(contour, part.side, part.radius, center, _accepted_difference(run, contour, center))
+        accepted = _accepted_difference(run, contour, center)
+        verdict = judge(contour, part.side, part.radius, center, accepted, leads=Leads.MOVES)
         if verdict.judged:
             gouges += verdict.gouges
             slack = max(slack, verdict.radius_slack)

@@ -143,6 +143,14 @@ def test_depths_with_a_rapid_back_under_compensation_are_clean(control: str) -> 
     assert codes(findings) in ([], ["ABOVE"])
 
 
+@pytest.mark.parametrize("control", ISO)
+def test_depths_whose_passes_begin_at_depth_beyond_the_corner_are_clean(control: str) -> None:
+    """Each plunges at X-20 Y-20 and goes to the over-run from there: no pass cuts the way in of another."""
+    passes = "".join(f"G0 Z10.\nX-20. Y-20.\nG1 Z-{depth}.\nX0. Y-10.\n{SQUARE}" for depth in (4, 6))
+    _, findings = judged(f"{AT_DEPTH}{SQUARE}{passes}G0 Z10.\n{OUTWARD}", control)
+    assert {"GOUGE", "WRONG-SIDE"}.isdisjoint(codes(findings))
+
+
 @pytest.mark.parametrize(
     ("link", "told"), [("G0 X-20. Y25.\nX170.\nY-10.\n", [22]), ("G0 Z10.\nG1 X-20. Y25.\nX170.\nY-10.\n", [])]
 )
