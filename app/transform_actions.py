@@ -63,12 +63,15 @@ class TransformActions(App[int]):
     async def _block(
         self, title: str, line: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
     ) -> None:
-        program, number = self.session.program, self.session.place.block
+        rest = self.session.without_empty()
+        program, number = rest.program, rest.place.block
         edited = await self._edited(
             title, line, entries, lambda *numbers: transform.transform_block(program, number, motion_of(*numbers))
         )
         if edited is not None and self.apply(edited, f"{title} {number}"):
-            self.notify(f"{title} {number}. Ctrl+Z brings it back.", timeout=4)
+            # what was said of the edit before is over
+            self.quiet()
+            self.notify(f"{title} {number} is done. Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:
@@ -100,14 +103,15 @@ class TransformActions(App[int]):
     async def _repeat(
         self, title: str, entries: Sequence[NumberEntry], motion_of: Callable[..., transform.Motion]
     ) -> None:
-        program, place = self.session.program, self.session.place
+        rest = self.session.without_empty()
+        program, place = rest.program, rest.place
 
         def repeated(first: float, last: float, *numbers: float) -> Edited:
             *values, copies = numbers
             motion = motion_of(*values)
             return transform.repeat_segments(program, place.block, int(first), int(last), motion, int(copies))
 
-        here = str(max(place.segment, 1))
+        here = str(min(max(self.session.place.segment, 1), max(len(rest.block.segments), 1)))
         which = (NumberEntry("FIRST SEGMENT", Kind.COUNT, here), NumberEntry("LAST SEGMENT", Kind.COUNT, here))
         line = "Copies stand after the last of these segments."
         edited = await self._edited(title, line, (*which, *entries, COPIES), repeated)

@@ -675,8 +675,12 @@ class ContourScreen(FormScreen):
         """Delete the segment with the cursor."""
         session, place = self.current_session, self.current_session.place
         label = f"DELETE SEGMENT {place.segment}, block {place.block}"
+        segments = self.query_one(SegmentList)
+        in_list = segments.has_focus
         if self.host.apply(delete_segment(session.program, place), label):
             self.notify(f"Deleted segment {place.segment}. Ctrl+Z brings it back.", timeout=3)
+            if in_list:
+                self.call_after_refresh(self.set_focus, segments)
 
     def action_recalculate(self) -> None:
         """The calculated look-ahead comes back."""

@@ -225,8 +225,10 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
             yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
-        """The title."""
-        self.query_one("#question").border_title = self.question
+        """The title, and the keys."""
+        box = self.query_one("#question")
+        box.border_title = self.question
+        box.border_subtitle = "Enter: next   Esc: back"
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:

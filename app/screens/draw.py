@@ -169,9 +169,11 @@ class DrawScreen(BaseScreen):
         self.host.go_to(event.entry)
 
     def action_edit_finding(self) -> None:
-        """The form, with the cursor on the place of the finding in hand."""
+        """The form, with the cursor on the place of the finding in hand; without one on the segment it is on."""
         if self.at is not None:
             self.host.go_to(self.entries[self.at])
+        else:
+            self.call_later(self.run_action, "app.back")
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink about the middle of the window."""

@@ -118,8 +118,8 @@ class Fanuc(VectorQueue, Control):
 
     `side` is that of G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.  `exiting`:
     this block turns compensation off, with a vector where it has I, J or K.  `in_plane`: the block moved in the plane,
-    or is not to be counted as one without movement; `too_many`: it counts as too many of those.  `calls_counted`: a call
-    or a return is among the blocks that are.
+    or is not to be counted as one without movement; `too_many`: it counts as too many of those.  `calls_counted`: a
+    call or a return is among the blocks that are.
     """
 
     alarms = ALARMS

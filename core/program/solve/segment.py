@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, tau
+from math import atan2, inf, tau
 from typing import Final, assert_never
 
 from core.finding import Finding, Severity
@@ -83,7 +83,7 @@ def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, u
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
     typed = typed_point(reading.values, _ENDS)
-    kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    kept = axis_kept_from(before.point, segment, reading)
     if kept is not None:
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
@@ -106,9 +106,19 @@ def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
     return known
 
 
+def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> int | None:
+    """The axis (0 is X) on which a LINE from a start stays; None where it would be no longer than a point."""
+    axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    if axis is None or start is None:
+        return axis
+    name, known = _ENDS[1 - axis], reading.known
+    step = known.get(name + "_inc", known[name] - start[1 - axis] if name in known else inf)
+    return axis if abs(step) > JOINED else None
+
+
 def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> None:
     """Take the other coordinate of a LINE on which one end coordinate alone is typed from the segment before."""
-    axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    axis = axis_kept_from(before.point, segment, reading)
     names = (_ENDS[1 - axis], _ENDS[1 - axis] + "_inc") if axis is not None else ()
     if axis is not None and before.point is not None and any(name in reading.known for name in names):
         reading.known[_ENDS[axis]] = before.point[axis]

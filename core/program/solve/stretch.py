@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import repeat
 from math import cos, dist, sin
 
 from core.finding import Finding, Severity
@@ -17,7 +18,7 @@ from core.geometry.oriented import line_through
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import form_of
 from core.program.model import ArcSegment, CornerSegment, Direction, LineSegment, Segment
-from core.program.solve.line import heading, kept_axis
+from core.program.solve.line import heading
 from core.program.solve.reading import Reading
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
@@ -25,7 +26,7 @@ from core.program.solve.run.element import LONGEST, Element, Parallel, Run
 from core.program.solve.run.limits import with_fitting_number
 from core.program.solve.run.newton import Picked, picked_answers
 from core.program.solve.run.search import Answer, Search, search
-from core.program.solve.segment import Carried, Draft, Shape, calculate, draft, drafted
+from core.program.solve.segment import Carried, Draft, Shape, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit, from_mm
@@ -229,16 +230,17 @@ def _natural(contour: Contour, first: int, before: Carried) -> _Attempt:
 
 def _run(contour: Contour, indices: Sequence[int], before: Carried) -> Run:
     assert before.point is not None
-    elements = tuple(_element(contour, index, indices) for index in indices)
+    starts = (before.point, *repeat(None, len(indices) - 1))
+    elements = tuple(_element(contour, *each, indices) for each in zip(indices, starts, strict=True))
     return Run(before.point, before.heading, elements)
 
 
-def _element(contour: Contour, index: int, indices: Sequence[int]) -> Element:
+def _element(contour: Contour, index: int, start: Point | None, indices: Sequence[int]) -> Element:
     segment, known = contour.segments[index], contour.readings[index].known
     data = {name: value for name, value in known.items() if name not in _NO_SHAPE}
     if known.get("parallel") is None:
         data.pop("offset", None)
-    kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
+    kept = axis_kept_from(start, segment, contour.readings[index])
     if kept is not None:
         data.setdefault(KEPT[kept], 0.0)
     link = 0.0 if _tied(contour, index) else None
@@ -397,7 +399,8 @@ def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], b
             drafts.append(draft(segment, reading, before, contour.unit))
         else:
             piece = pieces[index + 1]
-            kept = kept_axis(segment) if isinstance(segment, LineSegment) else None
+            start = before.point if index == attempt.indices[0] else None
+            kept = axis_kept_from(start, segment, reading)
             if kept is not None:
                 value = from_mm(piece.end[kept], contour.unit)
                 reading.fill(KEPT[kept].removesuffix("_inc"), value, Origin.SAME)

@@ -31,3 +31,13 @@ async def test_the_list_of_segments_opens_on_the_segment_of_the_form_and_stays_t
         assert set(places) == {4}
         await one.press("down")
         assert one.session.place.segment == 5
+
+
+async def test_a_segment_deleted_in_the_list_leaves_the_cursor_there():
+    async with operator("pocket") as one:
+        await one.press("f9", *["down"] * 4)
+        await one.press("delete")
+        assert (one.session.place.segment, len(one.session.block.segments)) == (4, 10)
+        assert one.app.focused is one.screen.query_one("#segments")
+        await one.press("down")
+        assert one.session.place.segment == 5

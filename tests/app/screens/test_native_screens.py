@@ -7,7 +7,7 @@ from dataclasses import replace
 from weakref import ref
 
 import pytest
-from textual.widgets import DataTable, OptionList, Static
+from textual.widgets import DataTable, Input, OptionList, Static
 
 from app.documents.files import load
 from app.documents.programs import example
@@ -331,6 +331,53 @@ async def test_numbers_that_do_not_go_together_keep_the_small_form_open():
         await everything(one)
         assert isinstance(one.app.screen, FormScreen)
         assert one.session.history.undo_count == 1
+
+
+async def test_a_new_segment_without_a_number_is_no_segment_to_repeat():
+    async with operator() as one:
+        await one.press("ctrl+end", "pagedown")
+        count = len(one.session.block.segments) - 1
+        await one.app.run_action("app.repeat_shifted")
+        await one.pilot.pause()
+        first = one.app.screen.query_one("#number-0", Input)
+        assert first.value == str(count)
+        await one.press("up", "escape")
+        await one.app.run_action("app.shift_block")
+        await one.pilot.pause()
+        await one.press("1", "enter", "home", "delete", "0", "enter")
+        await everything(one)
+        assert isinstance(one.app.screen, FormScreen)
+        assert len(one.session.block.segments) == count
+
+
+async def test_what_was_undone_is_no_longer_told_after_the_next_edit():
+    async with operator() as one:
+        await one.press("f1", "ctrl+z")
+        await one.press("pagedown", "f1", "ctrl+z")
+        assert one.prompt.startswith("Undone: DELETE SEGMENT 1")
+        await one.app.run_action("app.shift_block")
+        await one.pilot.pause()
+        await one.press("1", "enter", "home", "delete", "0", "enter")
+        await everything(one)
+        assert "Undone" not in one.prompt
+
+
+async def test_a_tool_of_four_digits_is_shown_with_all_of_them():
+    async with operator() as one:
+        await run(one, "app.tools")
+        await one.press(*"2000", "enter")
+        field = one.screen.query_one(".tool-number NumberField, NumberField.tool-number")
+        assert "2000" in "".join(segment.text for segment in field.render_line(0))
+
+
+async def test_enter_in_draw_without_a_finding_in_hand_goes_to_the_form():
+    async with operator() as one:
+        await one.press("pagedown")
+        await run(one, "app.draw")
+        await one.press("enter")
+        await everything(one)
+        assert isinstance(one.app.screen, ContourScreen)
+        assert one.session.place.segment == 1
 
 
 async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():

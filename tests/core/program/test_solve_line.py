@@ -176,6 +176,18 @@ def test_nothing_is_kept_beside_anything_else_that_is_typed(segment):
     assert Origin.SAME not in [value.origin for value in found.values.values() if isinstance(value, Solved)]
 
 
+def test_nothing_is_kept_that_would_leave_the_line_without_length():
+    """A horizontal line whose end is not known yet: only its Y is typed, and then its angle and what comes next."""
+    found = solved(line(y_end=1.0), 1.0, 1.0)
+    assert found.missing
+    assert found.values["x_end"] is None
+    assert [one.code for one in found.findings] != ["ZERO_LENGTH"]
+    given_program = program(line(y_end=1.0, angle=180.0), line(x_end=-4.0, y_end=6.0, angle=135.0), x=3.0, y=1.0)
+    first, second = solve_block(given_program.blocks[0], given_program).segments
+    assert first.end == pytest.approx((1.0, 1.0))
+    assert second.end == (-4.0, 6.0)
+
+
 def test_a_kept_coordinate_is_that_of_the_segment_before_to_the_last_digit():
     given_program = program(line(x_end=1.0 / 3.0, y_end=0.1), line(y_end=7.0), line(x_end=0.0), x=0.0, y=0.0)
     first, second, third = solve_block(given_program.blocks[0], given_program).segments
