@@ -329,7 +329,7 @@ class BaseScreen(Screen[None]):
         width, height = self.app.size
         if width >= SMALLEST[0] and height >= SMALLEST[1]:
             return None
-        return Sentence(f"{width}x{height}: make it {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
+        return Sentence(f"Window is {width}x{height}; it needs {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
 
     def take(self) -> bool:
         """Take what has been typed into the field with the cursor; False where it is refused, and says why."""

@@ -99,7 +99,8 @@ class FindingsList(OptionRows):
     def _line(self, number: int, entry: Entry) -> Content:
         """The title and the segment, then what the sentence says besides its title."""
         sign = mark(entry.kind, MARKS[self.characters])
-        head = self._broken(f"{sign} {number + 1} {entry.title}{f'  {entry.where}' if entry.where else ''}")
+        where = "" if entry.where in entry.title else f"  {entry.where}"
+        head = self._broken(f"{sign} {number + 1} {entry.title}{where}")
         more = entry.text.removeprefix(entry.title).lstrip(".,; ")
         title = Content.styled(head, f"bold {ROLES[entry.kind]}")
         if not more:

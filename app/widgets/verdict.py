@@ -174,12 +174,16 @@ def _effect(case: Case) -> str:
         return " runs on the wrong side"
     if not judgment.judged:
         return " is not judged"
-    deleted = f" deletes {_segments(case.deleted)}" if case.deleted else " is clean"
-    return f"{deleted}{_only(case.block)}"
+    effect = " leaves stock uncut" if judgment.uncut else " is clean"
+    if case.deleted:
+        effect = f" deletes {_segments(case.deleted)}"
+    return f"{effect}{_only(case.block)}"
 
 
 def _segments(numbers: str) -> str:
-    return f"segment {numbers}" if numbers else "a corner"
+    if not numbers:
+        return "a corner"
+    return f"segments {', '.join(numbers.split())}" if set(numbers) & set(" -") else f"segment {numbers}"
 
 
 def _only(block: DerivedBlock) -> str:

@@ -203,7 +203,10 @@ def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
     comp = f"CUTTER COMP. {job.comp}" + (f" LOOKAHEAD {job.lookahead}" if job.lookahead else "")
     depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
     peck = f" PECK {length_text(job.peck_depth, unit)}" if job.peck_depth > 0.0 else ""
-    yield from comments(f"BLOCK {job.block} MILL CONTOUR {comp} {depth}{peck}")
+    title, deep = f"BLOCK {job.block} MILL CONTOUR {comp}", f"{depth}{peck}"
+    together = len(title) + 1 + len(deep) <= COMMENT_WIDTH
+    for line in (f"{title} {deep}",) if together else (title, deep):
+        yield from comments(line)
     for note in job.notes:
         yield from comments(note)
 

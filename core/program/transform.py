@@ -127,7 +127,7 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     if first > last:
         return Refused(f"The last segment, {last}, is before the first, {first}.")
     if not 1 <= first <= last <= len(block.segments):
-        return Refused(f"Segments {first} to {last} do not exist: this block has 1 to {len(block.segments)}.")
+        return Refused(f"This block has segments 1 to {len(block.segments)}, not {first} to {last}.")
     if not 1 <= copies <= MAX_COPIES:
         return Refused(f"Type a number of copies from 1 to {MAX_COPIES}.")
     if motion.mirrored and copies > 1:

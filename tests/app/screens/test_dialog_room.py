@@ -27,7 +27,7 @@ async def test_a_question_with_many_lines_shows_all_its_answers_at_60x20() -> No
 async def test_a_terminal_that_is_too_small_says_so_and_takes_numbers() -> None:
     async with operator("pocket", (40, 12)) as at:
         await at.press("tab")
-        assert at.prompt == "40x12: make it 60x20."
+        assert at.prompt == "Window is 40x12; it needs 60x20."
         await at.press("7", "enter")
         assert at.session.block.tool == Number(7.0)
         await at.pilot.resize_terminal(60, 20)
