@@ -15,8 +15,8 @@ from core.comp.best_path.separation import Separation
 from core.comp.compensated import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
-from core.geometry.piece import Point
-from core.tolerance import GOUGE, SHOWN
+from core.geometry.piece import Point, Side
+from core.tolerance import GOUGE, JOINED, SHOWN
 from core.verify.contact import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
 from core.verify.report import verdict_findings as verdict_findings
@@ -27,6 +27,9 @@ _ORDER: Final = {severity: place for place, severity in enumerate(Severity)}
 STRAIGHT_BACK: Final = cos(radians(1.0))
 """Cosine of the angle between two segments below which they lie on each other: an end typed to the last digit of a
 drawing misses the tangent of a small arc by less."""
+
+MAX_TIGHT_ARCS: Final = 100
+"""Arcs, the smallest first, that are looked at for one that stays uncut."""
 
 
 def by_severity(findings: Sequence[Finding]) -> tuple[Finding, ...]:
@@ -206,7 +209,7 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
         return ()
     first = apart.stretches[0]
     x, y = first.points[0].tolist()
-    text = "BEST cuts {value} more, starting at X {x} Y {y}. Set PATH with F4."
+    text = "BEST runs {value} more, from X {x} Y {y} on. Set PATH with F4."
     return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length),)
 
 
@@ -218,6 +221,20 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
         return ()
     text = "The tool is {value} across, larger than the whole contour ({0}). Check TOOL and TOOL SETUP."
     return (Finding("TOOL_LARGE", Severity.WARNING, text, field="tool", value=2 * radius, lengths=(extent,)),)
+
+
+def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tuple[Finding, ...]:
+    """That a tool stays out of inside arcs smaller than it is; the smallest of those that it leaves uncut is named."""
+    first, last = verdict.uncut.columns[:2]
+    inside = np.flatnonzero((surface.turns * side.sign > 0) & (surface.radii < radius - JOINED))
+    for row in inside[surface.radii[inside].argsort()][:MAX_TIGHT_ARCS].tolist():
+        number, small = float(surface.numbers[row]), float(surface.radii[row])
+        behind, before = first <= number, number <= last
+        # a stretch may run over START
+        if np.where(first <= last, behind & before, behind | before).any():
+            text = f"Segment {number:g} has radius {{0}}, the tool {{1}}. To cut it use a tool of {{value}} or smaller."
+            return (Finding("ARC_TIGHT", Severity.INFO, text, number, value=2.0 * small, lengths=(small, radius)),)
+    return ()
 
 
 def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Finding, ...]:

@@ -13,6 +13,7 @@ from core.advice.path_findings import (
     open_finding,
     path_findings,
     size_warning,
+    tight_arcs,
     turning_back,
     z_step_findings,
 )
@@ -159,6 +160,8 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
         # what is typed wrong comes before what follows from it
         back = turning_back(work.surface, closed=closed)
         trouble = (*path_findings(work), *size_warning(block.radius, work.surface))
+        if block.side is not None:
+            trouble += tight_arcs(work.verdict, work.surface, block.side, block.radius)
     if block.solved.whole:
         trouble += open_finding(work.surface, 2 * block.radius, closed=closed)
     findings = by_severity((*back, *block.findings, *trouble))

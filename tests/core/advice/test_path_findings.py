@@ -18,6 +18,7 @@ from core.advice.path_findings import (
     open_finding,
     path_findings,
     size_warning,
+    tight_arcs,
     turning_back,
     z_step_findings,
 )
@@ -27,6 +28,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
+from core.verify.judge import judge_together
 from tests.core.advice.works import work
 from tests.core.comp.contours import lines
 
@@ -226,7 +228,7 @@ def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> Non
     assert (more.code, more.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert more.value > 8.0
     assert more.at == (0.25, -0.25)
-    assert sentence(more, Unit.MM).startswith("BEST cuts ")
+    assert sentence(more, Unit.MM).startswith("BEST runs ")
     assert better_path_findings(best, replace(apart, length=0.0013)) != ()
     # in inches this would read 0.0000
     assert better_path_findings(best, replace(apart, length=0.0012)) == ()
@@ -236,3 +238,17 @@ def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> Non
     none = best_path(SQUARE, Side.LEFT, 2.0, closed=True)
     (nowhere,) = better_path_findings(none, separation(same.compensated.path, none, 2.0))
     assert (nowhere.code, nowhere.text) == ("NO_BEST", "The tool does not fit. Use a smaller one.")
+
+
+@pytest.mark.parametrize(("tool", "told"), [(0.5, None), (1.0, "Segment 3 has radius 0.750, the tool 1.000.")])
+def test_an_inside_arc_smaller_than_the_tool_is_named(tool: float, told: str | None) -> None:
+    """A half-round notch of radius 0.75 in the middle of the top of a plate, the tool outside; the plate's corner is
+    round by 0.25, which a tool of any size goes around."""
+    notch = Arc((2.25, 4.0), (3.75, 4.0), (3.0, 4.0), Turn.CCW)
+    pieces = [Line((0.0, 0.0), (0.0, 4.0)), Line((0.0, 4.0), (2.25, 4.0)), notch, Line((3.75, 4.0), (5.75, 4.0))]
+    pieces += [Arc((5.75, 4.0), (6.0, 3.75), (5.75, 3.75), Turn.CW), Line((6.0, 3.75), (6.0, 0.0))]
+    plate = Path.from_pieces([*pieces, Line((6.0, 0.0), (0.0, 0.0))], [float(number) for number in range(1, 8)])
+    verdict = judge_together(plate, Side.LEFT, tool, best_path(plate, Side.LEFT, tool, closed=True).loops)
+    found = tight_arcs(verdict, plate, Side.LEFT, tool)
+    assert [sentence(one, Unit.MM).partition(" To cut")[0] for one in found] == ([told] if told else [])
+    assert all(one.value == 1.5 for one in found)
