@@ -31,6 +31,8 @@ from app.cli.control_options import (
 )
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
+from core.controls.control_tools import commented_size
+from core.controls.program_text import lines_of
 from core.controls.registry import choices
 from core.pipeline.checking import Answer, Asked, answer, answer_all, counted, lines, reasons, same_contours, unreadable
 from core.units import Unit
@@ -123,6 +125,7 @@ class _Checked:
     path: Path
     answers: tuple[Answer, ...] = ()
     unusable: str = ""
+    text: bytes = b""
 
 
 def _one(path: Path, asked: Asked) -> _Checked:
@@ -134,7 +137,7 @@ def _one(path: Path, asked: Asked) -> _Checked:
         return _Checked(path, unusable=str(trouble))
     asked = replace(asked, library=FolderLibrary(path.parent))
     found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
-    return _Checked(path, found)
+    return _Checked(path, found, text=text if any(one.missing for one in found) else b"")
 
 
 def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
@@ -229,7 +232,7 @@ def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
             _print_table(checked.answers)
         elif checked.answers:
             print(*lines(checked.answers[0]), sep="\n")
-        _print_missing(checked.answers)
+        _print_missing(checked.answers, lines_of(checked.text))
     return status
 
 
@@ -242,8 +245,8 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
         print(reason)
 
 
-def _print_missing(answers: tuple[Answer, ...]) -> None:
-    """How the tools are given for whose diameter a control stops."""
+def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:
+    """How the tools are given for whose diameter a control stops, and what the program's comments say of them."""
     missing = sorted({one.missing for one in answers if one.missing is not None}, key=str)
     if missing:
         told = " and ".join(map(str, missing))
@@ -251,6 +254,9 @@ def _print_missing(answers: tuple[Answer, ...]) -> None:
         sizes = " ".join(f"--tool {quote(str(tool))}={size}" for tool in missing)
         table = ", or --tools TABLE" if all(isinstance(tool, int) for tool in missing) else ""
         print(f"No diameter of tool {told} is known: add {sizes} with the real diameter{table}.")
+    for tool in missing:
+        if (said := commented_size(program, tool)) is not None:
+            print(f"The comment in line {said.line} says {said.diameter} of tool {tool}.")
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:

@@ -48,7 +48,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS
-from core.controls.control_tools import CutterTool, ToolId, ToolTable, tool_id
+from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.finding import Finding, Severity
 from core.progress import Progress, Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
@@ -611,9 +611,12 @@ class ProofScreen(BaseScreen):
         missing = None if self.result is None else self.result.answer.missing
         named = self.tool if missing is None else missing
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
+        said = commented_size(self.document.text.texts, named)
+        comment = [] if said is None else [f"The comment in line {said.line} says {said.diameter} of tool {named}."]
         lines = [
             f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
             f"A diameter alone: tool {named}. {named}= takes it away.",
+            *comment,
         ]
 
         def refusal(text: str) -> str:

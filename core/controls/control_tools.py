@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -68,6 +69,34 @@ class ToolTable:
     def without(self, number: ToolId) -> ToolTable:
         """This table without a tool."""
         return ToolTable({each: tool for each, tool in self.tools.items() if each != number})
+
+
+@dataclass(frozen=True, slots=True)
+class CommentedSize:
+    """The diameter that a comment says of a tool, in the program's unit, as it is written there, and its line."""
+
+    line: int
+    diameter: str
+
+
+def commented_size(lines: Sequence[str], number: ToolId) -> CommentedSize | None:
+    """What a program says of a tool's diameter in its first comment that does; a proposal, for no control reads it.
+
+    Known are `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.
+    """
+    for row, line in enumerate(lines, 1):
+        for found in _COMMENT.finditer(line):
+            size = _COMMENTED.search(found[0])
+            if size is not None and size[1].lstrip("0") == str(number):
+                return CommentedSize(row, size[2])
+    return None
+
+
+_COMMENT: Final = re.compile(r"\([^)]*\)?|;.*")
+_COMMENTED: Final = re.compile(
+    r"\bT(?:OOL)?\s*(\d{1,8})\b[^()]*?\b(?:DIA(?:METER|\.)?\s*[=:]?|D\s*[=:])\s*(\d+(?:\.\d+)?|\.\d+)", re.IGNORECASE
+)
+"""The number of a tool and its diameter; a D without an equal sign is the number of an offset."""
 
 
 def missing_tool(number: int | None) -> str:

@@ -132,6 +132,13 @@ def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.Capture
     assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
 
 
+def test_what_a_comment_says_of_a_tool_nobody_gave_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "w.nc"
+    file.write_text("G20 G90\n(TOOL 3 END MILL DIAMETER 0.5000)\nT3 M6\nG41 D3 G1 X1. Y0 F10.\nM2\n")
+    rows = output(capsys, file, "--control", "all")[1].splitlines()
+    assert rows[-1] == "The comment in line 2 says 0.5000 of tool 3."
+
+
 @pytest.mark.parametrize("text", ["G20 T3 M6\nG43 H3\nG0 X1.\nM2\n", "G20 G43 H3\nG0 X1.\nM2\n"])
 def test_one_control_says_behind_its_findings_how_a_tool_is_given(
     text: str, capsys: pytest.CaptureFixture[str], tmp_path: Path

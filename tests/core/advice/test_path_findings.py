@@ -245,8 +245,9 @@ def test_an_inside_arc_smaller_than_the_tool_is_named(tool: float, told: str | N
     """A half-round notch of radius 0.75 in the middle of the top of a plate, the tool outside; the plate's corner is
     round by 0.25, which a tool of any size goes around."""
     notch = Arc((2.25, 4.0), (3.75, 4.0), (3.0, 4.0), Turn.CCW)
-    pieces = [Line((0.0, 0.0), (0.0, 4.0)), Line((0.0, 4.0), (2.25, 4.0)), notch, Line((3.75, 4.0), (5.75, 4.0))]
-    pieces += [Arc((5.75, 4.0), (6.0, 3.75), (5.75, 3.75), Turn.CW), Line((6.0, 3.75), (6.0, 0.0))]
+    corner = Arc((5.75, 4.0), (6.0, 3.75), (5.75, 3.75), Turn.CW)
+    before: list[Piece] = [Line((0.0, 0.0), (0.0, 4.0)), Line((0.0, 4.0), (2.25, 4.0))]
+    pieces = [*before, notch, Line((3.75, 4.0), (5.75, 4.0)), corner, Line((6.0, 3.75), (6.0, 0.0))]
     plate = Path.from_pieces([*pieces, Line((6.0, 0.0), (0.0, 0.0))], [float(number) for number in range(1, 8)])
     verdict = judge_together(plate, Side.LEFT, tool, best_path(plate, Side.LEFT, tool, closed=True).loops)
     found = tight_arcs(verdict, plate, Side.LEFT, tool)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_tools import CutterTool, read_table
+from core.controls.control_tools import CommentedSize, CutterTool, commented_size, read_table
 from core.units import Unit
 from tests.tool_tables import end_mills
 
@@ -34,3 +34,21 @@ def test_a_diameter_without_unit_is_the_program_s() -> None:
 def test_tools_given_later_replace_those_of_the_table() -> None:
     both = end_mills({1: 1.0, 2: 2.0}).with_tools(end_mills({2: 3.0}))
     assert [both.tools[number].diameter for number in (1, 2)] == [1.0, 3.0]
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("(TOOL 1 END MILL DIAMETER 0.5000)", "0.5000"),
+        ("(T1 D=10. CR=0. - ZMIN=-5. - FLAT END MILL)", "10"),
+        ("N5 T1 M6 (T01 DIA .375)", ".375"),
+        ("5 ; TOOL 1 DIAMETER 12.7", "12.7"),
+        ("(TOOL 1 | 10MM FLAT | H1 | D1 |)", None),
+        ("(T11 D=10.)", None),
+        ("T1 M6", None),
+        ("G41 T1 D=10.", None),
+    ],
+)
+def test_a_comment_may_say_a_diameter(line: str, said: str | None) -> None:
+    found = commented_size(["%", line, "(T1 D=99.)"], 1)
+    assert found == (CommentedSize(2, said) if said else CommentedSize(3, "99"))
