@@ -34,6 +34,9 @@ NOT_FOLLOWED: Final = (
 """Rules at which not the control stops but the reading of the program."""
 NOTHING: Final = "EMPTY"
 """The rule of a program in which there is nothing to run."""
+SHALLOW: Final = 0.01
+"""Share of the tool's radius below which a gouge is shallow."""
+
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
 """How the controls say that they know no size of a tool."""
 _NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
@@ -169,13 +172,22 @@ def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, 
     if not asked.fits or row.state not in (State.ALARM, State.GOUGES):
         return row
     fits = largest_tool(text, done, asked.tools, asked.library, asked.unit, progress)
-    if fits is None:
+    if fits is None or _is_of_no_use(fits, row, done):
         return row
     fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
     if row.state is State.GOUGES and _only_leads_gouge(row, done):
         said = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
         fits = replace(fits, text=said)
     return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
+
+
+def _is_of_no_use(fits: Finding, row: Answer, done: ControlRun) -> bool:
+    """Whether a tool less than half as large is named for a gouge of next to nothing.
+
+    LinuxCNC leaves such gouges at joints that are nearly tangent, of a drawing's short lines: with any tool in use.
+    """
+    radius = max((stretch.radius for stretch in done.stretches), default=0.0)
+    return row.gouge is not None and row.gouge[0] < SHALLOW * radius and fits.lengths[0] < radius
 
 
 def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
+
 import pytest
 
 from core.controls.control_run import ControlRun
@@ -90,6 +92,18 @@ def test_the_largest_tool_that_fits_is_named_where_one_is_too_big(control: str) 
     assert found.text == "Tool 1 is too big; largest that fits: {0}."
     assert from_mm(found.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
     assert answer(SLOT, asked(control, CutterTool(1, 0.3999))).fits is None
+
+
+def test_no_tiny_tool_is_named_for_shallow_gouges_at_nearly_tangent_joints() -> None:
+    """Chords of a wavy disc that turn by up to 0.05 rad: LinuxCNC cuts r (1 - cos) of a few micrometers into them."""
+    turns = [2 * pi * row / 200 for row in range(201)]
+    places = [((50 + 1.2 * sin(8 * turn)) * cos(turn), (50 + 1.2 * sin(8 * turn)) * sin(turn)) for turn in turns]
+    chords = "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in places)
+    text = f"G21 G90\nT1 M6\nG0 X80 Y-20\nG42 G1 X60 Y-8 F300\n{chords}G40 X80 Y20\nM2\n"
+    row = answer(text.encode(), asked("linuxcnc", CutterTool(1, 10.0)))
+    assert row.gouge is not None
+    assert 0.0 < row.gouge[0] < 0.01
+    assert row.fits is None
 
 
 def test_no_tool_is_named_where_a_smaller_one_would_gouge_too() -> None:
