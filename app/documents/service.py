@@ -126,6 +126,10 @@ class DocumentService:
     clock: Callable[[], str] = times.now
     _open: dict[object, _Kept] = field(default_factory=dict)
 
+    def _from_now(self) -> Owner:
+        """This process as the owner of a file that it opens now."""
+        return replace(self.me, since=self.clock())
+
     # ---- open
 
     def new(self, unit: Unit = Unit.IN, *, offers: bool = False) -> Opened[ContourDocument]:
@@ -240,7 +244,7 @@ class DocumentService:
         if path is None:
             return None
         with suppress(OSError):
-            lock = take(path, self.me)
+            lock = take(path, self._from_now())
             if isinstance(lock, Held):
                 return lock.owner
             kept.lock = lock
@@ -348,7 +352,7 @@ class DocumentService:
         assert path is not None
         try:
             fresh = self._read(path, kept_copy)
-            lock = take_over(path, self.me)
+            lock = take_over(path, self._from_now())
         except (OSError, StoreError) as error:
             return Opened(document, Notice(f"It cannot be taken over: {_reason(error)}", warning=True))
         if not isinstance(fresh, type(document)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -71,7 +72,7 @@ def test_another_file_is_replaced_only_after_asking(own: Path, file: Path) -> No
 def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, file: Path) -> None:
     other = file.with_name(f"other{file.suffix}")
     other.write_bytes(file.read_bytes())
-    started(own, other, ELSEWHERE)
+    started(own, other, ELSEWHERE, clock=ELSEWHERE.since)
     operator = started(own, file).type(7)
     assert "bob on office has it open." in words(ask(operator, other))
     operator.save(other, "REPLACE")
@@ -175,7 +176,7 @@ def test_a_link_into_another_folder_is_asked_once(own: Path, file: Path) -> None
 
 
 def test_the_second_opener_may_look_and_save_a_copy(own: Path, file: Path) -> None:
-    started(own, file, ELSEWHERE)
+    started(own, file, replace(ELSEWHERE, since="2025-03-04T04:00:00+01:00"), clock=ELSEWHERE.since)
     operator = started(own, file)
     assert "OPEN ALREADY bob on office has had this program open since 05:00." in operator.asked
     later = started(own, file, clock="2025-03-06T08:00:00+01:00")
