@@ -102,7 +102,7 @@ class _Kept:
 
     `moved` says that the next line must tell who works on which file now; `whole` that the journal must be begun anew;
     `failing` that the last edit is not on the disk; `warned` that somebody has taken the document over; `away` that the
-    operator knows of a journal that is not beside its file.
+    operator knows of a journal that is not beside its file.  `copy` is the name under which a question would save.
     """
 
     known: Document
@@ -112,6 +112,7 @@ class _Kept:
     failing: bool = False
     warned: bool = False
     away: bool = False
+    copy: Path | None = None
 
 
 @dataclass(slots=True)
@@ -624,7 +625,9 @@ class DocumentService:
     ) -> Saved[AnyDocument] | Ask | Trouble:
         """Save under the name that it has."""
         today = self.clock()
-        copy = free_copy_name(path, "mine", today)
+        if not agreed or kept.copy is None or os.path.lexists(kept.copy):
+            kept.copy = free_copy_name(path, "mine", today)
+        copy = kept.copy
         if {questions.KEEP_BOTH, questions.THEIRS, questions.FILE_AS_IT_IS} & agreed:
             return self._written(kept, document, copy, None)
         if _leads_elsewhere(path) and not document.file.link_agreed and questions.WRITE_THERE not in agreed:

@@ -228,10 +228,13 @@ def test_the_first_one_notices_before_it_saves(own: Path, file: Path) -> None:
     question = ask(first)
     assert question.title == "TAKEN OVER: SAVE ANYWAY?"
     assert f"ann on {DEAD.host} has taken {file.name} over." in words(question)
+    # it is answered a little later
+    first.service.clock = lambda: "2025-03-04T06:05:09+01:00"
     first.save(None, "KEEP BOTH")
     assert number_in(file) == 3
     mine = first.document.file.path
     assert mine.name.startswith("part.mine-")
+    assert f"yours is saved as {mine.name}" in words(question)
     assert number_in(mine) == 7
 
 
