@@ -18,6 +18,7 @@ from core.controls.contours_and_leads import (
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.corner_loops import CornerLoop, without_corner_loops
 from core.controls.crossing_contours import cuts_of_other_contours
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
@@ -83,7 +84,8 @@ class Judged:
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
     are not judged.  `uncompensated`, of a run's first part: what moves without compensation cut of all contours, and
-    `of_others` what compensated moves cut of contours of other stretches.
+    `of_others` what compensated moves cut of contours of other stretches.  `loops` are around outside corners and no
+    surface.
     """
 
     stretch: Stretch
@@ -102,6 +104,7 @@ class Judged:
     above: PassedOver | None = None
     uncompensated: tuple[UncompensatedCut, ...] = ()
     of_others: tuple[Gouge, ...] = ()
+    loops: tuple[CornerLoop, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -358,13 +361,14 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
 
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
-    surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
+    lines = frozenset(contour.numbers.tolist())
+    surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
     leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
     if stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
-    return Judged(stretch, surface, center, verdict, lines)
+    return Judged(stretch, surface, center, verdict, lines, loops=loops)
 
 
 def _accepted_difference(run: ControlRun, *paths: Path) -> float:
@@ -404,6 +408,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
                 *_cuts(result),
                 *_open_contour(result, gouged),
                 *_leads(result),
+                *_corner_loops(result),
                 *_contact(result),
                 *_uncut(result),
                 *_crossing(result),
@@ -607,6 +612,19 @@ def _leads(result: Judged) -> list[Finding]:
         line, at = _line(gouge.path_number), gouge.surface_at
         listed.append(Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line))
     return listed
+
+
+def _corner_loops(result: Judged) -> list[Finding]:
+    """That a contour crosses itself to go around an outside corner."""
+    told = list[Finding]()
+    for loop in result.loops:
+        lines = enumerated("line", loop.numbers)
+        text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
+        severity = Severity.INFO
+        if loop.long:
+            severity, text = Severity.WARNING, f"{text} It is long. Check that none of it is a wall."
+        told.append(Finding("CORNER-LOOP", severity, text, at=loop.at, line=_line(loop.numbers[0])))
+    return told
 
 
 def _contact(result: Judged) -> list[Finding]:

@@ -1,0 +1,93 @@
+"""Corner loops: moves that go on beyond an outside corner, turn around in the open, and come back along the next wall.
+
+So a corner stays sharp where a control would round it.  The loop is no wall: it begins on the cutter's side of both
+walls, and as it crosses nothing else it stays there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Final
+
+import numpy as np
+
+from core.geometry.path import Floats, Path
+from core.geometry.piece import Side
+from core.geometry.piece_arrays import PieceArrays, piece_arrays
+from core.tolerance import JOINED
+from core.verify.self_crossings import self_crossings
+
+LARGEST_SHARE: Final = 0.5
+"""Share of the rest of the contour from which on a loop is taken for part of it."""
+
+LONG: Final = 0.25
+"""The same from which on a loop may be part of it."""
+
+SHARPEST: Final = 1e-3
+"""Radians that a corner turns at least."""
+
+
+@dataclass(frozen=True, slots=True)
+class CornerLoop:
+    """Where a contour crosses itself, and the numbers of the moves beyond that place, up to its return.
+
+    It may be part of the contour where it is `long`.
+    """
+
+    at: tuple[float, float]
+    numbers: tuple[float, ...]
+    long: bool
+
+
+def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerLoop, ...]]:
+    """The contour with its outside corners where it loops around them, and the loops."""
+    loops = list[CornerLoop]()
+    while len(contour) > 3 and (found := _first_loop(contour, side)) is not None:
+        first, last, at = found
+        shorter = _cut_short(contour, first, last, at)
+        around = float(contour.lengths.sum() - shorter.lengths.sum())
+        numbers = tuple(contour.numbers[first : last + 1].tolist())
+        loops.append(CornerLoop((float(at[0]), float(at[1])), numbers, around > LONG * float(shorter.lengths.sum())))
+        contour = shorter
+    return contour, tuple(loops)
+
+
+def _first_loop(contour: Path, side: Side) -> tuple[int, int, Floats] | None:
+    """The rows of the two lines that cross at the first loop, and the place."""
+    with np.errstate(all="ignore"):
+        walls = piece_arrays(contour)
+        places = self_crossings(walls, closed=False).places
+    length = float(walls.stations[-1])
+    for begin, end in places.tolist():
+        inside = (places > begin + JOINED) & (places < end - JOINED)
+        if inside.any() or end - begin > LARGEST_SHARE * (length - end + begin):
+            continue
+        first, last = (int(np.searchsorted(walls.stations[1:-1], at, side="right")) for at in (begin, end))
+        if last > first + 1 and _goes_around(contour, walls, first, last, side):
+            at = contour.starts[first] + (begin - walls.stations[first]) * contour.start_directions[first]
+            return int(walls.rows[first]), int(walls.rows[last]), at
+    return None
+
+
+def _goes_around(contour: Path, walls: PieceArrays, first: int, last: int, side: Side) -> bool:
+    """Whether what lies between two lines that cross is a loop around an outside corner, on the cutter's side."""
+    rows = walls.rows[first : last + 1]
+    if walls.arcs[first] or walls.arcs[last]:
+        return False
+    leaving, coming = walls.unit[first], walls.unit[last]
+    corner = float(np.angle(coming * np.conj(leaving))) * side.sign
+    ends, starts = (contour.end_directions[rows[:-1]], contour.start_directions[rows[1:]])
+    cross = ends[:, 0] * starts[:, 1] - ends[:, 1] * starts[:, 0]
+    turned = float(np.arctan2(cross, (ends * starts).sum(axis=1)).sum() + contour.sweeps[rows].sum()) * side.sign
+    # the long way round: a full turn more than the corner itself
+    return corner < -SHARPEST and abs(turned - corner - 2.0 * pi) < SHARPEST
+
+
+def _cut_short(contour: Path, first: int, last: int, at: Floats) -> Path:
+    """The contour from row `first` straight to row `last` at a point where both cross."""
+    points = np.concatenate((contour.points[: first + 1], at[None], contour.points[last + 1 :]))
+    rows = [*range(first + 1), *range(last, len(contour))]
+    turns, numbers = contour.turns[rows], contour.numbers[rows]
+    centers = np.where(turns[:, None] == 0, points[:-1], contour.centers[rows])
+    return Path.of(points, centers, turns, numbers)

@@ -1,0 +1,80 @@
+"""Loops around outside corners: moves that keep a corner sharp, and no walls."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from core.controls.control_run import ControlRun
+from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.corner_loops import without_corner_loops
+from core.controls.judged_runs import Judged, judge_run, judged_findings
+from core.controls.registry import run
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.geometry.piece import Line, Side
+
+HEAD = "G21 G17 G40 G90 F300\nG0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0. Y-10.\n"
+FOOT = "Y0.\nX-10.\nG40 X-20. Y-20.\nM30\n"
+LOOPS = {
+    "an arc": "Y48.\nG3 X-8. Y40. I-8. J0.\nG1 X60.\n",
+    "straight": "Y52.\nX-12.\nY40.\nX60.\n",
+    "straight at two corners": "Y52.\nX-12.\nY40.\nX72.\nY52.\nX60.\n",
+}
+"""Around the corner X0 Y40 of a plate of 60 by 40 that is cut around with the tool on its left."""
+
+
+def judged(cut: str, control: str = "fanuc:a") -> tuple[tuple[Judged, ...], list[Finding]]:
+    """The verdicts on a cut with a tool of 10, and what is told of loops."""
+    done = run(f"{HEAD}{cut}{FOOT}".encode(), control, ToolTable.of(CutterTool(1, 10.0)))
+    assert isinstance(done, ControlRun)
+    assert done.stopped_at is None, done.findings
+    results = judge_run(done)
+    return results, [finding for finding in judged_findings(results) if finding.code == "CORNER-LOOP"]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "nine-series:a"])
+@pytest.mark.parametrize("cut", LOOPS)
+def test_a_loop_around_an_outside_corner_is_no_wall(cut: str, control: str) -> None:
+    (result,), told = judged(LOOPS[cut], control)
+    assert result.verdict.clean
+    assert not result.verdict.uncut
+    assert len(told) == (2 if "two" in cut else 1)
+    assert told[0].at == pytest.approx((0.0, 40.0))
+    assert all(finding.severity is Severity.INFO for finding in told)
+
+
+def test_a_long_loop_is_a_warning() -> None:
+    _, (told,) = judged("Y62.\nX-22.\nY40.\nX60.\n")
+    assert told.severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(
+    "cut",
+    [
+        pytest.param("Y48.\nG2 X8. Y40. I8. J0.\nG1 X-9.\nY60.\nX60.\n", id="with other crossings"),
+        pytest.param("Y140.\nX-100.\nY40.\nX60.\n", id="longer than half of the rest"),
+    ],
+)
+def test_what_is_no_such_loop_stays_a_wall(cut: str) -> None:
+    results, told = judged(cut)
+    assert not told
+    assert any(result.verdict.gouges for result in results)
+
+
+def test_on_the_other_side_the_same_moves_are_no_loop() -> None:
+    """There the part lies inside of the loop."""
+    corners = [(0.0, -10.0), (0.0, 48.0), (-8.0, 48.0), (-8.0, 40.0), (60.0, 40.0), (60.0, 0.0)]
+    path = Path.from_pieces([Line(*both) for both in pairwise(corners)])
+    left, loops = without_corner_loops(path, Side.LEFT)
+    assert left.points.tolist() == [[0.0, -10.0], [0.0, 40.0], [60.0, 40.0], [60.0, 0.0]]
+    assert [loop.numbers for loop in loops] == [(1.0, 2.0, 3.0, 4.0)]
+    assert without_corner_loops(path, Side.RIGHT) == (path, ())
+
+
+def test_the_wall_behind_a_loop_is_judged() -> None:
+    """The tool comes back along the next wall 3 too deep: that wall is programmed so, and the plate's is not cut."""
+    (result,), told = judged("Y48.\nG3 X-8. Y40. I-8. J0.\nG1 X60.\nY35.\nX52.\n")
+    assert told
+    assert result.surface.points[:, 1].max() == 40.0
