@@ -41,8 +41,8 @@ class _Pass:
 def cuts_of_other_contours(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Gouge, ...]:
     """What compensated moves in XY cut of contours of other stretches that are cut no deeper than they run.
 
-    For each pair of a line and a contour the deepest cut, in the order of the lines.  A gouge's `path_number` is the
-    line of the move, `surface_number` that of the contour.
+    The deepest cut of each contour, in the order of the lines of the moves.  A gouge's `path_number` is that line,
+    `surface_number` the contour's.
     """
     walls, passes = _walls(contours), _passes(run, contours)
     if len(run.stretches) < 2 or not walls or not passes:
@@ -50,18 +50,16 @@ def cuts_of_other_contours(run: ControlRun, contours: Sequence[CutContour]) -> t
     shapes, highest = list(walls), list(walls.values())
     bounds = _bounds([contour.path for contour in highest])
     reach = max(one.radius for one in passes)
-    found = dict[tuple[float, Shape], Gouge]()
+    found = list[Gouge]()
     for rows, near in near_pairs(bounds, _bounds([one.moves.path() for one in passes]), reach):
         pairs = defaultdict[int, list[_Pass]](list)
         for row, index in zip(rows.tolist(), near.tolist(), strict=True):
             if shapes[row] not in passes[index].own:
                 pairs[row].append(passes[index])
         for row, others in pairs.items():
-            for gouge in _cuts(highest[row], others):
-                key = (gouge.path_number, shapes[row])
-                if key not in found or gouge.depth > found[key].depth:
-                    found[key] = gouge
-    return tuple(sorted(found.values(), key=lambda gouge: gouge.path_number))
+            if gouges := _cuts(highest[row], others):
+                found.append(max(gouges, key=lambda gouge: gouge.depth))
+    return tuple(sorted(found, key=lambda gouge: gouge.path_number))
 
 
 def _walls(contours: Sequence[CutContour]) -> dict[Shape, CutContour]:

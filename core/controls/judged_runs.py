@@ -483,7 +483,8 @@ def _uncompensated(result: Judged) -> list[Finding]:
 
 def _cuts_of_others(result: Judged) -> list[Finding]:
     """Cuts into the contours of other stretches: warnings, for a wall may be meant to be cut, as by a slot."""
-    return [
+    deepest = sorted(result.of_others, key=lambda gouge: -gouge.depth)
+    listed = [
         Finding(
             "OTHER-CONTOUR",
             Severity.WARNING,
@@ -493,8 +494,12 @@ def _cuts_of_others(result: Judged) -> list[Finding]:
             value=gouge.depth,
             line=_line(gouge.path_number),
         )
-        for gouge in result.of_others
+        for gouge in deepest[:MAX_GOUGES]
     ]
+    if len(deepest) > MAX_GOUGES:
+        text = f"{len(deepest) - MAX_GOUGES} more contours are cut by the path of another one, none deeper."
+        listed.append(Finding("OTHER-CONTOUR", Severity.WARNING, text))
+    return listed
 
 
 def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
