@@ -43,6 +43,9 @@ ENDING = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
 KEPT = ("x_end_inc", "y_end_inc")
 """What a LINE that stays on a coordinate says, by axis."""
 
+SQUARE = 1e-9
+"""Cosine of an angle up to which a line is square to an axis."""
+
 TURNS = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
 
@@ -240,6 +243,9 @@ def _element(contour: Contour, index: int, start: Point | None, indices: Sequenc
     data = {name: value for name, value in known.items() if name not in _NO_SHAPE}
     if known.get("parallel") is None:
         data.pop("offset", None)
+    for name in () if start is None else _said_by_angle(data, start):
+        # the heading says it already: no second value
+        del data[name]
     kept = axis_kept_from(start, segment, contour.readings[index])
     if kept is not None:
         data.setdefault(KEPT[kept], 0.0)
@@ -247,6 +253,16 @@ def _element(contour: Contour, index: int, start: Point | None, indices: Sequenc
     link = known.get("angle_inc", known.get("start_angle_inc", link))
     turn = TURNS[segment.direction] if isinstance(segment, ArcSegment) else Turn.NONE
     return Element(index + 1, turn, tuple(data.items()), link, _parallel(contour, index, indices))
+
+
+def _said_by_angle(data: dict[str, float], start: Point) -> list[str]:
+    """The end coordinates, of a line from a known start, that its typed XY ANGLE holds anyway."""
+    if "angle" not in data:
+        return []
+    way = (cos(data["angle"]), sin(data["angle"]))
+    ends = (("x_end", 0, start[0]), ("y_end", 1, start[1]), ("x_end_inc", 0, 0.0), ("y_end_inc", 1, 0.0))
+    held = [one for one in ends if abs(way[one[1]]) <= SQUARE]
+    return [name for name, _, value in held if name in data and abs(data[name] - value) <= JOINED]
 
 
 _NO_SHAPE = ("z_end", "feed", "pick_x", "pick_y", "parallel", "angle_inc", "start_angle_inc")

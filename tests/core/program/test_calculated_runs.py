@@ -585,3 +585,14 @@ def test_random_runs_with_relative_numbers_have_their_original_among_answers_tha
             ties += any(name.endswith("_inc") for segment in case["segments"] for name in segment)
     assert met > 20
     assert ties > 15
+
+
+def test_an_end_coordinate_that_the_angle_holds_anyway_is_no_second_value() -> None:
+    """From (100, 60) along 180 degrees Y stays 60, typed or not: what is missing is the same."""
+    rest = (cw(radius=6, tangent=True), ccw(radius=15, x_center=50, y_center=60, tangent=True))
+    told = []
+    for first in (line(angle=180), line(y_end=60, angle=180)):
+        case = case_of(first, *rest, cw(radius=6, tangent=True), line(x_end=0, y_end=60), start=(100.0, 60.0))
+        told.append(said(case))
+    assert told[0] == told[1]
+    assert "2 more values" in told[0][0]
