@@ -2,90 +2,182 @@
 
 Each contour is judged with its own path first.  A path may cut the wall of another contour too: an island too near to
 a pocket, a contour at a wrong place.  Nothing in a program says which walls are meant to stay: such a cut is a doubt,
-no gouge.  A contour whose whole wall is cut away only roughed the part, and nothing is told of it.
+no gouge.  Nothing is told of a pass that only roughed: where other paths cut away all that it left of its wall, and of
+an island some of its inside stays.
+
+Shapely tells, with chords for arcs, where there is doubt; what is told of it is measured exactly.
 """
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+import shapely
+from shapely.geometry import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Moves, Plane
 from core.controls.rapids_at_depth import CutContour
 from core.controls.repeated_passes import Shape, shape
+from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Floats, Path
-from core.tolerance import ON_PATH
-from core.verify.judge import judge, judge_together
+from core.progress import Progress, silent
+from core.tolerance import GOUGE, ON_PATH
+from core.verify.judge import judge
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge
 
-WHOLE: Final = 0.99
-"""Share of its radius within which a cutter comes to all of a wall that it cuts away."""
+SAG: Final = 1e-3
+"""Millimeters that a chord is off its arc at most."""
+
+SEGMENTS_A_QUARTER: Final = 32
+"""Chords of a quarter circle at the ends of a swept region."""
+
+LEAST: Final = 0.01
+"""Millimeters that a path goes into a wall, or more, where it cuts it away."""
+
+LEFT: Final = 0.05
+"""Millimeters of a wall that may stay where it is cut away; rounded ends leave so much."""
+
+LEAST_INSIDE: Final = 0.01
+"""Share of an island's inside that stays at least where the island is not destroyed."""
+
+MOST_MEASURED: Final = 10
+"""Paths into one contour of which the cuts are measured."""
+
+UNKNOWN_OFFSET: Final = "taken as zero"
+"""What a finding says of a work offset that the program does not set."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
+class ContourCut:
+    """A cut into another contour, and the radius of the cutter."""
+
+    gouge: Gouge
+    radius: float
+
+    @property
+    def through(self) -> bool:
+        """Whether the cutter is behind the wall as a whole: how deep is not known."""
+        return self.gouge.depth >= 2.0 * self.radius - GOUGE
+
+
+@dataclass(eq=False, slots=True)
 class _Pass:
-    """Moves of one radius in a compensated stretch, and the shapes of the contours that the stretch cuts."""
+    """Moves of one radius in a compensated stretch, and the shapes of the contours that the stretch cuts.
+
+    `setup` numbers what the program clamps anew or shifts by values it does not say: places of two are not compared.
+    """
 
     moves: Moves
     radius: float
+    stretch: Stretch
     own: frozenset[Shape]
+    setup: int
+    regions: dict[tuple[float, float], BaseGeometry] = field(default_factory=dict)
+
+    def low(self, top: float) -> Iterator[Path]:
+        """The parts of the moves that are no higher than this."""
+        low = self.moves.points[:, 2] <= top + ON_PATH
+        low[1:] &= low[:-1]
+        low[:1] = False
+        rows = np.flatnonzero(low)
+        for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
+            path = self.moves.part(int(part[0]) - 1, int(part[-1]) + 1).path()
+            if len(path):
+                yield path
+
+    def swept(self, top: float, grown: float) -> BaseGeometry:
+        """What a cutter larger by `grown` on all sides sweeps in the moves no higher than this."""
+        if (top, grown) not in self.regions:
+            lines = [LineString(chords_of(path, SAG)) for path in self.low(top)]
+            reach = max(self.radius + grown, 0.0)
+            region = shapely.union_all([line.buffer(reach, quad_segs=SEGMENTS_A_QUARTER) for line in lines])
+            shapely.prepare(region)
+            self.regions[top, grown] = region
+        return self.regions[top, grown]
 
 
-def cuts_of_other_contours(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Gouge, ...]:
+@dataclass(frozen=True, eq=False, slots=True)
+class _Wall:
+    """A contour where it is cut highest, and its shape."""
+
+    contour: CutContour
+    shape: Shape
+    setup: int
+
+
+def cuts_of_other_contours(
+    run: ControlRun, contours: Sequence[CutContour], progress: Progress = silent
+) -> tuple[ContourCut, ...]:
     """What compensated moves in XY cut of contours of other stretches that are cut no deeper than they run.
 
     The deepest cut of each contour, in the order of the lines of the moves.  A gouge's `path_number` is that line,
     `surface_number` the contour's.
     """
-    walls, passes = _walls(contours), _passes(run, contours)
-    if len(run.stretches) < 2 or not walls or not passes:
+    if len(run.stretches) < 2:
         return ()
-    shapes, highest = list(walls), list(walls.values())
-    bounds = _bounds([contour.path for contour in highest])
-    reach = max(one.radius for one in passes)
-    found = list[Gouge]()
+    walls, passes = _walls(run, contours), _passes(run, contours)
+    if not walls or not passes:
+        return ()
+    found, reach = list[ContourCut](), max(one.radius for one in passes)
+    bounds = _bounds([wall.contour.path for wall in walls])
     for rows, near in near_pairs(bounds, _bounds([one.moves.path() for one in passes]), reach):
         pairs = defaultdict[int, list[_Pass]](list)
         for row, index in zip(rows.tolist(), near.tolist(), strict=True):
-            if shapes[row] not in passes[index].own:
+            if walls[row].setup == passes[index].setup:
                 pairs[row].append(passes[index])
         for row, others in pairs.items():
-            if gouges := _cuts(highest[row], others):
-                found.append(max(gouges, key=lambda gouge: gouge.depth))
-    return tuple(sorted(found, key=lambda gouge: gouge.path_number))
+            progress(row / len(walls))
+            if (cut := _cut(walls[row], others)) is not None:
+                found.append(cut)
+    return tuple(sorted(found, key=lambda cut: cut.gouge.path_number))
 
 
-def _walls(contours: Sequence[CutContour]) -> dict[Shape, CutContour]:
-    """The contours in XY by their shapes, each where it is cut highest."""
-    walls = dict[Shape, CutContour]()
+def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
+    """The contours in XY, of those of one shape the one that is cut highest."""
+    walls, setup = dict[tuple[Shape, int], _Wall](), _setups(run)
     for contour in contours:
         if contour.stretch.plane is Plane.XY and len(contour.path):
-            known = walls.setdefault(shape(contour.path), contour)
-            if contour.top > known.top:
-                walls[shape(contour.path)] = contour
-    return walls
+            key = (shape(contour.path), bisect(setup, _line(contour.stretch)))
+            if key not in walls or contour.top > walls[key].contour.top:
+                walls[key] = _Wall(contour, *key)
+    return list(walls.values())
 
 
 def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
-    """The compensated moves of a run in XY, by stretch and radius."""
-    passes = list[_Pass]()
+    """The compensated moves of a run in XY, by stretch and radius; of those that are alike the lowest."""
+    passes, setups = dict[tuple[Shape, float, int], _Pass](), _setups(run)
     for stretch in run.stretches:
-        if stretch.plane is not Plane.XY:
-            continue
-        own = frozenset(shape(one.path) for one in contours if _belongs(one.stretch, stretch))
-        passes += [_Pass(run.moves.part(part.first, part.last), part.radius, own) for part in stretch.parts()]
-    return [one for one in passes if len(one.moves.path())]
+        own = frozenset(shape(one.path) for one in contours if stretch.first <= one.stretch.first < stretch.last)
+        setup = bisect(setups, _line(stretch))
+        for part in stretch.parts() if stretch.plane is Plane.XY else ():
+            moves = run.moves.part(part.first, part.last)
+            key = (shape(moves.path()), part.radius, setup)
+            lowest = passes[key].moves.points[:, 2].min() if key in passes else np.inf
+            if part.radius > LEAST and len(moves.path()) and moves.points[:, 2].min() < lowest:
+                passes[key] = _Pass(moves, part.radius, stretch, own, setup)
+    return list(passes.values())
 
 
-def _belongs(part: Stretch, stretch: Stretch) -> bool:
-    return stretch.first <= part.first < stretch.last
+def _setups(run: ControlRun) -> list[int]:
+    """The lines at which the program turns the part, or takes a work offset whose values it does not say."""
+    return sorted(
+        finding.line
+        for finding in run.findings
+        if finding.line and (finding.code == "AXIS" or (finding.code == "OFFSET" and UNKNOWN_OFFSET in finding.text))
+    )
+
+
+def _line(stretch: Stretch) -> int:
+    return int(stretch.programmed.lines[-1])
 
 
 def _bounds(paths: Sequence[Path]) -> Floats:
@@ -94,31 +186,45 @@ def _bounds(paths: Sequence[Path]) -> Floats:
     return np.array([(*box[:2].min(axis=1), *box[2:].max(axis=1)) for box in boxes]).T.reshape(4, -1)
 
 
-def _cuts(contour: CutContour, passes: Sequence[_Pass]) -> list[Gouge]:
-    """What the passes cut of a contour; nothing where they cut all of it away."""
-    gouges, centers = list[Gouge](), dict[Shape, tuple[Path, float]]()
+def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
+    """The deepest cut of these passes into a contour; None where there is none, or nothing of it was to stay."""
+    top = wall.contour.top
+    own = shapely.union_all([one.swept(top, LEAST) for one in passes if wall.shape in one.own])
+    line, inside = _outline(wall.contour.path, own)
+    stands, core, cutting = line.intersection(own), inside, list[_Pass]()
     for one in passes:
-        for center in _low(one.moves, contour.top):
-            centers.setdefault((*shape(center), str(one.radius).encode()), (center, one.radius))
-    for center, radius in centers.values():
-        if any(True for _ in near_pairs(center.boxes, contour.path.boxes, radius)):
-            verdict = judge(contour.path, contour.stretch.side, radius, center, contour.accepted, leads=Leads.MOVES)
-            gouges += verdict.gouges
-    if not gouges:
-        return []
-    least = WHOLE * min(radius for _, radius in centers.values())
-    paths = [center for center, _ in centers.values()]
-    verdict = judge_together(contour.path, contour.stretch.side, least, paths, contour.accepted, leads=Leads.MOVES)
-    return gouges if verdict.uncut else []
+        if wall.shape in one.own or not one.swept(top, -LEAST).intersects(line):
+            continue
+        cutting.append(one)
+        region = one.swept(top, -LEAST)
+        stands, core = stands.difference(region), core.difference(region)
+        if stands.length <= LEFT and inside.is_empty:
+            return None
+    destroyed = not inside.is_empty and core.area <= LEAST_INSIDE * inside.area
+    if not cutting or (stands.length <= LEFT and not destroyed):
+        return None
+    return max(
+        (cut for one in cutting[:MOST_MEASURED] for cut in _measured(wall.contour, one)), key=_depth, default=None
+    )
 
 
-def _low(moves: Moves, top: float) -> Iterator[Path]:
-    """The parts of these moves that are no higher than this."""
-    low = moves.points[:, 2] <= top + ON_PATH
-    low[1:] &= low[:-1]
-    low[:1] = False
-    rows = np.flatnonzero(low)
-    for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
-        path = moves.part(int(part[0]) - 1, int(part[-1]) + 1).path()
-        if len(path):
-            yield path
+def _outline(path: Path, own: BaseGeometry) -> tuple[BaseGeometry, BaseGeometry]:
+    """A contour as a line, without over-runs where it encloses something, and what material it encloses."""
+    line = LineString(chords_of(path, SAG))
+    regions = list(shapely.get_parts(shapely.polygonize([shapely.node(line)])))
+    largest = max(regions, key=lambda region: region.area, default=Polygon())
+    if largest.is_empty:
+        return line, largest
+    # around an island its own path stays outside
+    is_island = largest.intersection(own).area < largest.length * 3.0 * LEAST
+    return largest.exterior, largest if is_island else Polygon()
+
+
+def _measured(contour: CutContour, one: _Pass) -> Iterator[ContourCut]:
+    for path in one.low(contour.top):
+        verdict = judge(contour.path, contour.stretch.side, one.radius, path, contour.accepted, leads=Leads.MOVES)
+        yield from (ContourCut(gouge, one.radius) for gouge in verdict.gouges)
+
+
+def _depth(cut: ContourCut) -> float:
+    return cut.gouge.depth

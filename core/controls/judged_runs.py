@@ -19,7 +19,7 @@ from core.controls.contours_and_leads import (
 )
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.corner_loops import CornerLoop, without_corner_loops
-from core.controls.crossing_contours import cuts_of_other_contours
+from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
@@ -103,7 +103,7 @@ class Judged:
     unseen_gouges: int = 0
     above: PassedOver | None = None
     uncompensated: tuple[UncompensatedCut, ...] = ()
-    of_others: tuple[Gouge, ...] = ()
+    of_others: tuple[ContourCut, ...] = ()
     loops: tuple[CornerLoop, ...] = ()
 
 
@@ -150,7 +150,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     if results:
         contours = _cut_contours(run, results)
         cuts = tuple(cut for cut in moves_through(run, contours) if cut.gouge.depth >= least)
-        others = tuple(gouge for gouge in cuts_of_other_contours(run, contours) if gouge.depth >= least)
+        others = tuple(cut for cut in cuts_of_other_contours(run, contours, progress) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated=cuts, of_others=others)
     return tuple(results)
 
@@ -483,21 +483,17 @@ def _uncompensated(result: Judged) -> list[Finding]:
 
 def _cuts_of_others(result: Judged) -> list[Finding]:
     """Cuts into the contours of other stretches: warnings, for a wall may be meant to be cut, as by a slot."""
-    deepest = sorted(result.of_others, key=lambda gouge: -gouge.depth)
-    listed = [
-        Finding(
-            "OTHER-CONTOUR",
-            Severity.WARNING,
-            f"The cutter cuts {{value}} into the contour of line {int(gouge.surface_number)} at X {{x}} Y {{y}}. "
-            "Check that this wall may be cut.",
-            at=gouge.surface_at,
-            value=gouge.depth,
-            line=_line(gouge.path_number),
+    deepest = sorted(result.of_others, key=lambda cut: -cut.gouge.depth)
+    listed = list[Finding]()
+    for cut in deepest[:MAX_GOUGES]:
+        into = (
+            f"the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. Check that this wall may be cut."
         )
-        for gouge in deepest[:MAX_GOUGES]
-    ]
+        text = f"The cutter runs through {into}" if cut.through else f"The cutter cuts {{value}} into {into}"
+        at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
+        listed.append(Finding("OTHER-CONTOUR", Severity.WARNING, text, at=at, value=cut.gouge.depth, line=line))
     if len(deepest) > MAX_GOUGES:
-        text = f"{len(deepest) - MAX_GOUGES} more contours are cut by the path of another one, none deeper."
+        text = f"Other paths cut {len(deepest) - MAX_GOUGES} more contours, none deeper."
         listed.append(Finding("OTHER-CONTOUR", Severity.WARNING, text))
     return listed
 

@@ -7,7 +7,7 @@ They are drawn, never judged by: arcs are chords here, no farther off than half 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import acos, ceil, isfinite, pi
+from math import isfinite
 from typing import Final
 
 import numpy as np
@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from shapely.geometry import LineString, MultiPolygon, Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.path import Floats, Path, as_complex, coordinates
+from core.geometry.chords import chords_of
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
 
 NOTHING: Final = MultiPolygon()
@@ -29,29 +30,6 @@ ACROSS: Final = 2.0
 """Radii of material that are drawn behind an open contour: no gouge is told deeper."""
 MAX_STRETCHES: Final = 200
 """Uncut stretches that are shaded, the thickest first."""
-
-
-def chords_of(path: Path, sag: float) -> Floats:
-    """(m, 2) points of a path, its arcs as chords no farther than `sag` (mm) from them."""
-    if not len(path):
-        return np.empty((0, 2))
-    counts = [
-        _count(sweep, radius, sag) for sweep, radius in zip(path.sweeps.tolist(), path.radii.tolist(), strict=True)
-    ]
-    row = np.arange(len(path)).repeat(counts)
-    nth = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
-    part = nth / np.asarray(counts)[row]
-    starts, ends, centers = (as_complex(points)[row] for points in (path.starts, path.ends, path.centers))
-    turned = centers + (starts - centers) * np.exp(1j * path.sweeps[row] * part)
-    points = np.where(path.turns[row] != 0, turned, starts + (ends - starts) * part)
-    return np.concatenate([coordinates(points), path.points[-1:]])
-
-
-def _count(sweep: float, radius: float, sag: float) -> int:
-    """Chords of an arc, one of a line."""
-    if not sweep or not isfinite(radius) or radius <= sag:
-        return 1
-    return max(ceil(abs(sweep) / min(2.0 * acos(1.0 - sag / radius), pi / 4)), 1)
 
 
 def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: float) -> BaseGeometry:

@@ -72,3 +72,38 @@ def test_a_step_above_a_deeper_wall_is_none() -> None:
 def test_a_slot_through_a_wall_is_asked_about() -> None:
     slot = "G0 X30 Y-20\nG1 Z-5\nG42 D1 X23 Y-12\nY20\nG2 X37 R7\nG1 Y-12\nG40 X30 Y-20\nG0 Z2\n"
     assert told(box(0, 0, 60, -5), slot)
+
+
+def pocket(stock: float, corner: float = 0.0) -> str:
+    """A pocket of 100 by 60 with this stock on its walls, its corners rounded by a radius."""
+    low, right, top = stock, 100 - stock, 60 - stock
+    arc = [f"G3 X{x} Y{y} R{corner}\nG1 " if corner else "" for x, y in ((right, low + corner), (right - corner, top))]
+    arc += [f"G3 X{x} Y{y} R{corner}\nG1 " if corner else "" for x, y in ((low, top - corner), (low + corner, low))]
+    return (
+        f"G0 X50 Y30\nG1 Z-5\nG41 D1 X50 Y{low}\nX{right - corner}\n{arc[0]}Y{top - corner}\n{arc[1]}X{low + corner}\n"
+        f"{arc[2]}Y{low + corner}\n{arc[3]}X50\nG40 Y30\nG0 Z2\n"
+    )
+
+
+@pytest.mark.parametrize(("stock", "corner"), [(0.3, 0.0), (0.03, 6.0), (0.3, 6.0)])
+def test_of_a_roughed_pocket_the_finishing_cut_is_no_cut_of_another_contour(stock: float, corner: float) -> None:
+    """In sharp corners the rough wall stays where neither pass comes; stock of a few hundredths counts too."""
+    assert not told(pocket(stock, corner), pocket(0.0, corner))
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_an_island_that_is_milled_away_is_told(first: bool) -> None:
+    """A pass of 10 around 22 to 38 goes over all of an island from 26 to 34: 64 square millimeters, and none left."""
+    ring = (
+        "G0 X30 Y30\nG1 Z-5\nG41 D1 X30 Y22\nX32\nG3 X38 Y28 R6\nG1 Y32\nG3 X32 Y38 R6\nG1 X28\nG3 X22 Y32 R6\n"
+        "G1 Y28\nG3 X28 Y22 R6\nG1 X30\nG40 Y30\nG0 Z2\n"
+    )
+    island = "G0 X30 Y18\nG1 Z-5\nG41 D1 X30 Y26\nX26\nY34\nX34\nY26\nX30\nG40 Y18\nG0 Z2\n"
+    assert len(told(*(ring, island) if first else (island, ring))) == 1
+
+
+@pytest.mark.parametrize("between", ["G55\n", "G0 A90\n"])
+def test_contours_whose_places_the_program_does_not_compare_are_not_compared(between: str) -> None:
+    """Another work offset that is set on the control, or a turned part."""
+    assert told(box(0, 0, 40, -5), box(30, 0, 40, -5))
+    assert not told(box(0, 0, 40, -5), between, box(30, 0, 40, -5))
