@@ -256,7 +256,7 @@ def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:
         print(f"No diameter of tool {told} is known: add {sizes} with the real diameter{table}.")
     for tool in missing:
         if (said := commented_size(program, tool)) is not None:
-            print(f"The comment in line {said.line} says {said.diameter} of tool {tool}.")
+            print(f"The comment in line {said.line} says diameter {said.diameter} for tool {tool}.")
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:

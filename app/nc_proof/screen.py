@@ -612,11 +612,13 @@ class ProofScreen(BaseScreen):
         named = self.tool if missing is None else missing
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         said = commented_size(self.document.text.texts, named)
-        comment = [] if said is None else [f"The comment in line {said.line} says {said.diameter} of tool {named}."]
+        comment = (
+            "" if said is None else f"The comment in line {said.line} says diameter {said.diameter} for tool {named}."
+        )
         lines = [
             f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
             f"A diameter alone: tool {named}. {named}= takes it away.",
-            *comment,
+            *comments,
         ]
 
         def refusal(text: str) -> str:

@@ -147,6 +147,16 @@ def has_long_leads(path: Path, contours: tuple[RowRange, ...]) -> bool:
     return bool(ways.max() > LONG * around.max())
 
 
+def leads_at_corner(path: Path, contours: tuple[RowRange, ...]) -> bool:
+    """Whether a line there and back at a corner of a contour is taken for its leads: it may be a wall run twice."""
+    for first, last in contours:
+        lines = first > 0 and last < len(path) and not path.turns[first - 1] and not path.turns[last]
+        back = lines and np.abs(path.points[first - 1] - path.points[last + 1]).max() <= CLOSED
+        if back and float(path.end_directions[last - 1] @ path.start_directions[first]) < cos(OVERLAP):
+            return True
+    return False
+
+
 def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
     """The rows of leads that blend into a contour or out of it: in line with it up to an arc, and what is beyond it.
 

@@ -73,7 +73,7 @@ class ToolTable:
 
 @dataclass(frozen=True, slots=True)
 class CommentedSize:
-    """The diameter that a comment says of a tool, in the program's unit, as it is written there, and its line."""
+    """The diameter that a comment says of a tool, as it is written there, with a unit if one follows, and its line."""
 
     line: int
     diameter: str
@@ -82,21 +82,29 @@ class CommentedSize:
 def commented_size(lines: Sequence[str], number: ToolId) -> CommentedSize | None:
     """What a program says of a tool's diameter in its first comment that does; a proposal, for no control reads it.
 
-    Known are `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.
+    Known are `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.  Fractions, several
+    tools or sizes in one comment, and sizes of a shank, a wear or an offset are left alone.
     """
     for row, line in enumerate(lines, 1):
         for found in _COMMENT.finditer(line):
             size = _COMMENTED.search(found[0])
-            if size is not None and size[1].lstrip("0") == str(number):
-                return CommentedSize(row, size[2])
+            if size is None or size[1].lstrip("0") != str(number) or _OTHER_SIZES.search(found[0]):
+                continue
+            if len(_A_TOOL.findall(found[0])) == len(_A_SIZE.findall(found[0])) == 1 and float(size[2]) > 0.0:
+                return CommentedSize(row, f"{size[2]}{size[3] or ''}")
     return None
 
 
 _COMMENT: Final = re.compile(r"\([^)]*\)?|;.*")
+_A_TOOL: Final = re.compile(r"\bT(?:OOL)?\s*\d", re.IGNORECASE)
+_A_SIZE: Final = re.compile(r"\b(?:DIA(?:METER|\.)?\b|D\s*[=:])", re.IGNORECASE)
+_OTHER_SIZES: Final = re.compile(r"\b(?:SHANK|WEAR|OFFSET|OFS)\b", re.IGNORECASE)
 _COMMENTED: Final = re.compile(
-    r"\bT(?:OOL)?\s*(\d{1,8})\b[^()]*?\b(?:DIA(?:METER|\.)?\s*[=:]?|D\s*[=:])\s*(\d+(?:\.\d+)?|\.\d+)", re.IGNORECASE
+    r"\bT(?:OOL)?\s*(\d{1,8})\b[^()]*?\b(?:DIA(?:METER|\.)?\s*[=:]?|D\s*[=:])\s*"
+    r"(\d+\.\d+|\d+(?=\.?(?:[^\d.]|$))|\.\d+)\.?\s?(MM\b|IN\b)?(?!\s*[\d/,-])",
+    re.IGNORECASE,
 )
-"""The number of a tool and its diameter; a D without an equal sign is the number of an offset."""
+"""The number of a tool, its diameter and the unit; a D without an equal sign is the number of an offset."""
 
 
 def missing_tool(number: int | None) -> str:

@@ -15,6 +15,7 @@ from core.controls.contours_and_leads import (
     SplitContours,
     blend_leads,
     has_long_leads,
+    leads_at_corner,
     split_where_it_closes,
 )
 from core.controls.control_run import ControlRun, Stretch
@@ -78,8 +79,8 @@ class Judged:
     Surface and center path are without the passes that they repeat, each by itself; `lines` are those of the whole
     surface, since of two equal passes one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, which
-    is doubtful where they are `long_leads`, and `lead_gouges` what is cut of them, measured with `lead_slack` of extra
-    tolerance: they may be surface after all.
+    is doubtful where they are `long_leads` or, there and back at a corner, `corner_leads`; `lead_gouges` is what is cut
+    of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
     `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
     lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
     too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
@@ -95,6 +96,7 @@ class Judged:
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
     long_leads: bool = False
+    corner_leads: bool = False
     lead_gouges: tuple[Gouge, ...] = ()
     lead_slack: float = 0.0
     by_itself: bool = False
@@ -341,6 +343,7 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
             results[0],
             leads=tuple(dict.fromkeys(map(int, leads))),
             long_leads=long,
+            corner_leads=leads_at_corner(whole, tuple(contours)),
             lead_gouges=lead_gouges,
             lead_slack=verdict.radius_slack,
         )
@@ -611,6 +614,7 @@ def _leads(result: Judged) -> list[Finding]:
         slack = (result.lead_slack,) if result.lead_slack > 0.0 else ()
         text += " It is judged with {0} extra tolerance." if slack else ""
         line, at = _line(gouge.path_number), gouge.surface_at
+        severity = Severity.WARNING if result.corner_leads else severity
         listed.append(Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line))
     return listed
 

@@ -136,7 +136,7 @@ def test_what_a_comment_says_of_a_tool_nobody_gave_is_told(capsys: pytest.Captur
     file = tmp_path / "w.nc"
     file.write_text("G20 G90\n(TOOL 3 END MILL DIAMETER 0.5000)\nT3 M6\nG41 D3 G1 X1. Y0 F10.\nM2\n")
     rows = output(capsys, file, "--control", "all")[1].splitlines()
-    assert rows[-1] == "The comment in line 2 says 0.5000 of tool 3."
+    assert rows[-1] == "The comment in line 2 says diameter 0.5000 for tool 3."
 
 
 @pytest.mark.parametrize("text", ["G20 T3 M6\nG43 H3\nG0 X1.\nM2\n", "G20 G43 H3\nG0 X1.\nM2\n"])

@@ -18,6 +18,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect
 from core.controls.iso.machine import Control, Machine
+from core.controls.iso.macro import FaultError
 from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL, ZERO
 from core.controls.iso.reader import Block, whole
@@ -466,17 +467,17 @@ class MacroMachine(Machine):
     def _set_offset(self, kind: int, number: int, block: Block) -> None:
         if "R" not in block.words:
             self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
-        self._write_offset(kind, number, block.words["R"] * self.scale / self._measure(kind), add=self.incremental)
+        self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
         if kind not in (12, 13) and not self.offsets.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
-    def _measure(self, kind: int) -> float:
+    def _radii_in(self, kind: int) -> float:
         """The radii in a value of this L; says once where they are two."""
         if kind not in (12, 13) or not self.dialect.diameters_apart:
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
-            text = "This value is taken as a diameter (setting 40 DIAMETER). At RADIUS the offset is twice as large."
+            text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
             self.log.tell(Severity.WARNING, "HAAS-DIAMETER", text, self.line, 1)
         return 2.0
 
@@ -511,6 +512,7 @@ class MacroMachine(Machine):
         """A system variable; a sentence where it is not known before the control runs, None for no variable."""
         if not isinstance(key, int):
             return None
+        self._refuse_unknown_memory(key)
         if self._is_offset(key):
             return self._offset_variable(key)
         if key in _GROUPS:
@@ -549,6 +551,14 @@ class MacroMachine(Machine):
             return 2001 <= key <= 2800
         return 2001 <= key <= 2400 or 10_001 <= key <= 13_999
 
+    def _refuse_unknown_memory(self, key: int) -> None:
+        """What a variable of this number holds depends on the control's model or its parameters: not followed."""
+        if self.dialect.diameters_apart and key >= 10_000:
+            raise FaultError("BEYOND", f"cutcomp does not follow #{key} on this control. Use #100 to #199.", 0)
+        if not self.dialect.diameters_apart and 2401 <= key <= 2499:
+            text = f"#{key} is a D only at parameter 6004#5 = 1, which is not followed. Use #13001 and up."
+            raise FaultError("BEYOND", text, 0)
+
     def _offset_of(self, key: int) -> tuple[int, int]:
         """The L of G10 that writes a variable's memory, and the number in it."""
         if self.dialect.diameters_apart:
@@ -571,7 +581,7 @@ class MacroMachine(Machine):
             value = self._geometry_radius(number) or 0.0
         elif kind == 10 and number not in memory:
             value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
-        return from_mm(value * self._measure(kind), self.unit)
+        return from_mm(value * self._radii_in(kind), self.unit)
 
     def _origin_variable(self, key: int) -> float | None:
         if 5201 <= key <= 5203:
@@ -592,9 +602,10 @@ class MacroMachine(Machine):
     def set_variable(self, key: int, value: float) -> bool:
         """Sets a system variable; False where a program cannot."""
         millimeters = to_mm(value, self.unit)
+        self._refuse_unknown_memory(key)
         if self._is_offset(key):
             kind, number = self._offset_of(key)
-            self._write_offset(kind, number, millimeters / self._measure(kind))
+            self._write_offset(kind, number, millimeters / self._radii_in(kind))
             return True
         if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
             return True

@@ -6,7 +6,7 @@ import re
 from math import inf
 from typing import Final, NoReturn
 
-from core.controls.control_tools import tool_id
+from core.controls.control_tools import MAX_DIGITS, tool_id
 from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
@@ -120,7 +120,10 @@ def tool(state: State, block: Block) -> None:
     rest = block.after(number.end())
     name = number[2] if number[2] is not None else (number[3] or "").replace(",", ".").removeprefix("+")
     if number[4]:
-        name = f"{state.value(number[4], block):g}"
+        value = state.value(number[4], block)
+        if not (0.0 <= value < 10.0**MAX_DIGITS and value.is_integer()):
+            state.stop("TOOL", f"{number[4]} is no tool number. Give it a whole number.", block, number[4])
+        name = str(int(value))
     if number[1] == "DEF":
         _define(state, rest, name, state.words(rest, _DEF, TOOL_WORD))
     else:

@@ -374,7 +374,7 @@ class Fanuc(VectorQueue, Control):
         text = f"{why}: the tool stands square here and the next move runs slanting. It may overcut or leave stock. "
         text += remedy
         if self.calls_counted:
-            text += " M98 and M99 are counted as such blocks, as on some controls."
+            text += " Some controls count M98 and M99 as such blocks, as here."
         self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
         self.end_square()
 

@@ -326,3 +326,10 @@ def test_the_comparison_reports_it_too() -> None:
     tools = end_mills({1: 6.0})
     rows = {row.control: row for row in compare(ring_and_key(3).encode(), tools, Unit.MM)}
     assert getattr(rows["linuxcnc"], "gouge", 0.0) >= 2.0 - 1e-6
+
+
+def test_what_is_cut_of_a_line_there_and_back_at_a_corner_is_a_warning() -> None:
+    """It leads in and out along the bottom wall's line, with a wall of its own for all that is known."""
+    cut = "G41 D1 G1 X-30. Y0. F100.\nX0.\nY50.\nX50.\nY0.\nX0.\nX-30.\nG40 X-45. Y-15."
+    found = judged_findings(judge_run(ran(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
+    assert {finding.severity for finding in found if finding.code == "LEAD-GOUGE"} == {Severity.WARNING}

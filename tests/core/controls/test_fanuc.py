@@ -314,6 +314,11 @@ def test_haas_has_work_offsets_g110_to_g129_which_are_g154_p1_to_p20() -> None:
     assert alarms(ran("G21\nG123 G0 X1.\nM30")) == [("PS0010", 2)]
 
 
+@pytest.mark.parametrize(("control", "block"), [("haas:a", "#10001=.5"), ("haas:a", "X#10001"), ("fanuc:a", "X#2401")])
+def test_a_memory_that_depends_on_the_model_is_not_followed(control: str, block: str) -> None:
+    assert alarms(ran(f"{HEAD}{block}\nM30", control)) == [("BEYOND", 2)]
+
+
 @pytest.mark.parametrize("code", ["G141", "G101", "G234", "G35"])
 def test_what_a_haas_has_and_cutcomp_does_not_follow_is_no_alarm(code: str) -> None:
     assert alarms(ran(f"G21\n{code} X1.\nM30", "haas:a")) == [("BEYOND", 2)]
@@ -773,5 +778,5 @@ def test_the_older_variables_of_work_offsets_are_those_of_g10() -> None:
 def test_calls_that_count_as_blocks_without_movement_are_named() -> None:
     """M98 and M99 of two subprograms in a row: whether a control counts them is not known of all."""
     program = f"{ENTERED}M98 P2\nM98 P3\nG40 X0\nM30\nO2\nY40\nM99\nO3\nX0\nM99"
-    assert told(ran(program), "FN-N2")[0].text.endswith("M98 and M99 are counted as such blocks, as on some controls.")
+    assert told(ran(program), "FN-N2")[0].text.endswith("Some controls count M98 and M99 as such blocks, as here.")
     assert "M98" not in told(ran(f"{ENTERED}M8\nM9\nY40\nG40 X0\nM30"), "FN-N2")[0].text

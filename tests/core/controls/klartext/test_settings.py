@@ -61,6 +61,8 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("TOOL DEF L+0 R+5",), "TOOL", 4),
         (("TOOL CALL 1 Z X",), "TWICE", 4),
         (("TOOL NAME 1",), "WORD", 4),
+        (("Q5 = -3", "TOOL CALL Q5 Z"), "TOOL", 5),
+        (("Q5 = 1.5", "TOOL CALL Q5 Z"), "TOOL", 5),
         (("CYCL CALL",), "CYCLE", 4),
         (("L X+1 Y+1 FMAX M99",), "CYCLE", 4),
         (("CYCL",), "WORD", 4),
