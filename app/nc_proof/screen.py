@@ -612,9 +612,7 @@ class ProofScreen(BaseScreen):
         named = self.tool if missing is None else missing
         own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
         said = commented_size(self.document.text.texts, named)
-        comment = (
-            "" if said is None else f"The comment in line {said.line} says diameter {said.diameter} for tool {named}."
-        )
+        comments = [] if said is None else [f"The comment in line {said.line} says diameter {said.diameter}."]
         lines = [
             f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
             f"A diameter alone: tool {named}. {named}= takes it away.",

@@ -547,3 +547,11 @@ async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_sav
         assert (tmp_path / "p.nc").read_bytes().startswith(b"(LEFT)\r\n")
         await one.press("f8")
         assert isinstance(one.app.screen, HomeScreen)
+
+
+async def test_the_tool_dialog_says_what_the_program_says_of_the_diameter(tmp_path):
+    async with at_proof(tmp_path, b"G20 F10\n(TOOL 1 END MILL DIAMETER 0.5000)\nG42 D1 X1 Y1\nX3\nM2\n") as one:
+        await one.press("t")
+        lines = one.app.screen.query_one("#loss", Static)
+        assert "The comment in line 2 says diameter 0.5000." in str(lines.content)
+        await one.press("escape")
