@@ -78,7 +78,6 @@ class _Pass:
 
     moves: Moves
     radius: float
-    stretch: Stretch
     own: frozenset[Shape]
     setup: int
     regions: dict[tuple[float, float], BaseGeometry] = field(default_factory=dict)
@@ -163,7 +162,7 @@ def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
             key = (shape(moves.path()), part.radius, setup)
             lowest = passes[key].moves.points[:, 2].min() if key in passes else np.inf
             if part.radius > LEAST and len(moves.path()) and moves.points[:, 2].min() < lowest:
-                passes[key] = _Pass(moves, part.radius, stretch, own, setup)
+                passes[key] = _Pass(moves, part.radius, own, setup)
     return list(passes.values())
 
 

@@ -30,6 +30,7 @@ from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows, joined
 from core.progress import Progress, silent
+from core.progress import part as part_of
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
 from core.verify.contact import AirCut, air_cuts
@@ -40,6 +41,9 @@ from core.verify.verdict import Gouge, OverRun, Verdict
 
 MAX_GOUGES: Final = 20
 """Gouges of a stretch that have a finding each, deepest first."""
+
+JUDGED: Final = 0.8
+"""Share of the work that is done when each stretch is judged, and its contours are still to be compared."""
 
 MAX_LINES: Final = 6
 """Lines that a finding of several places names."""
@@ -143,8 +147,9 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
     least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
+    judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)
     for done, stretch in enumerate(run.stretches):
-        progress(done / len(run.stretches))
+        judging(done / len(run.stretches))
         results += [
             _seen(result, least)
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
@@ -152,7 +157,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     if results:
         contours = _cut_contours(run, results)
         cuts = tuple(cut for cut in moves_through(run, contours) if cut.gouge.depth >= least)
-        others = tuple(cut for cut in cuts_of_other_contours(run, contours, progress) if cut.gouge.depth >= least)
+        others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated=cuts, of_others=others)
     return tuple(results)
 
