@@ -437,7 +437,7 @@ class ProofScreen(BaseScreen):
         if self.result is None:
             return Content("running ...")
         answer = self.result.answer
-        role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated else "$c-good"
+        role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated or answer.warnings else "$c-good"
         text = f"{answer.outcome}; {counted(answer.count, 'move')}"
         # what comes before an alarm is not the whole program
         if answer.stretches != 1 and answer.stopped_at is None:
