@@ -99,7 +99,8 @@ class CompareControls(ModalScreen["Chosen | None"]):
         for answer in event.answers:
             good = "$c-warn" if answer.warnings else "$c-good"
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else good
-            lines = [Content.assemble(f"{answer.name:<20}", (answer.outcome_and_warnings, role))]
+            outcome = answer.outcome if answer.errors else answer.outcome_and_warnings
+            lines = [Content.assemble(f"{answer.name:<20}", (outcome, role))]
             more = answer.why_said or answer.parts
             lines += [Content.styled(f"    {more}", "$c-label")] if more else []
             rows.add_option(Option(Content("\n").join(lines), id=answer.control))
