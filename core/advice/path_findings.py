@@ -232,7 +232,7 @@ def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tu
         behind, before = first <= number, number <= last
         # a stretch may run over START
         if np.where(first <= last, behind & before, behind | before).any():
-            text = f"Segment {number:g} has radius {{0}}, the tool {{1}}. To cut it use a tool of {{value}} or smaller."
+            text = "The radius {0} is smaller than the tool's {1}. To cut it use a tool of {value} or smaller."
             return (Finding("ARC_TIGHT", Severity.INFO, text, number, value=2.0 * small, lengths=(small, radius)),)
     return ()
 

@@ -22,9 +22,11 @@ from shapely.geometry import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.iso.modal_state import TAKEN_AS_ZERO
 from core.controls.moves import Moves, Plane
 from core.controls.rapids_at_depth import CutContour
 from core.controls.repeated_passes import Shape, shape
+from core.finding import Severity
 from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Floats, Path
@@ -43,7 +45,7 @@ SEGMENTS_A_QUARTER: Final = 32
 LEAST: Final = 0.01
 """Millimeters that a path goes into a wall, or more, where it cuts it away."""
 
-LEFT: Final = 0.05
+LEFT_OVER: Final = 0.05
 """Millimeters of a wall that may stay where it is cut away; rounded ends leave so much."""
 
 LEAST_INSIDE: Final = 0.01
@@ -51,9 +53,6 @@ LEAST_INSIDE: Final = 0.01
 
 MOST_MEASURED: Final = 10
 """Paths into one contour of which the cuts are measured."""
-
-UNKNOWN_OFFSET: Final = "taken as zero"
-"""What a finding says of a work offset that the program does not set."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +170,9 @@ def _setups(run: ControlRun) -> list[int]:
     return sorted(
         finding.line
         for finding in run.findings
-        if finding.line and (finding.code == "AXIS" or (finding.code == "OFFSET" and UNKNOWN_OFFSET in finding.text))
+        if finding.line
+        and finding.severity is Severity.WARNING
+        and (finding.code == "AXIS" or (finding.code == "OFFSET" and TAKEN_AS_ZERO in finding.text))
     )
 
 
@@ -197,10 +198,10 @@ def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
         cutting.append(one)
         region = one.swept(top, -LEAST)
         stands, core = stands.difference(region), core.difference(region)
-        if stands.length <= LEFT and inside.is_empty:
+        if stands.length <= LEFT_OVER and inside.is_empty:
             return None
     destroyed = not inside.is_empty and core.area <= LEAST_INSIDE * inside.area
-    if not cutting or (stands.length <= LEFT and not destroyed):
+    if not cutting or (stands.length <= LEFT_OVER and not destroyed):
         return None
     return max(
         (cut for one in cutting[:MOST_MEASURED] for cut in _measured(wall.contour, one)), key=_depth, default=None

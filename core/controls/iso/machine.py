@@ -18,7 +18,7 @@ from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
-from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
+from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Point3, flat
 from core.finding import Severity
@@ -421,7 +421,7 @@ class Machine(ModalState):
     def _select_system(self, code: int, block: Block) -> None:
         """Another work offset; one that the program did not set is taken as zero, and reported."""
         if code not in self.origin.systems and code != G54:
-            text = f"The offset of G{code / 10:g} is not in the program; it is taken as zero."
+            text = f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}"
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
         self.set_origin(replace(self.origin, system=code))
 

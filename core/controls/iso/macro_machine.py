@@ -20,7 +20,7 @@ from core.controls.iso.dialect import Code, CodeAction, Dialect
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro import FaultError
 from core.controls.iso.macro_b import VACANT
-from core.controls.iso.modal_state import EXTERNAL, ZERO
+from core.controls.iso.modal_state import EXTERNAL, TAKEN_AS_ZERO, ZERO
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
@@ -427,7 +427,7 @@ class MacroMachine(Machine):
             super()._select_system(code, block)
             return
         if EXTENDED_SYSTEM + number not in self.origin.systems:
-            text = f"The offset of {name} is not in the program; it is taken as zero."
+            text = f"The offset of {name} {TAKEN_AS_ZERO}"
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
         self.set_origin(replace(self.origin, system=EXTENDED_SYSTEM + number))
 

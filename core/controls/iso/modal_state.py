@@ -25,6 +25,9 @@ G54: Final = 540
 EXTERNAL: Final = 0
 """The key of the offset that shifts all work offsets, on controls that have one."""
 
+TAKEN_AS_ZERO: Final = "is not in the program; it is taken as zero."
+"""What is told of a work offset that the program does not set: places under it compare with no other's."""
+
 INVERSE: Final = 930
 PER_MINUTE: Final = 940
 

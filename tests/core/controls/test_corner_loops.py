@@ -14,6 +14,7 @@ from core.controls.registry import run
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Line, Side
+from core.verify.judge import judge
 
 HEAD = "G21 G17 G40 G90 F300\nG0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0. Y-10.\n"
 FOOT = "Y0.\nX-10.\nG40 X-20. Y-20.\nM30\n"
@@ -78,3 +79,7 @@ def test_the_wall_behind_a_loop_is_judged() -> None:
     (result,), told = judged("Y48.\nG3 X-8. Y40. I-8. J0.\nG1 X60.\nY35.\nX52.\n")
     assert told
     assert result.surface.points[:, 1].max() == 40.0
+    # a center 3 from that wall, which should be 5 from it
+    too_deep = Path.from_pieces([Line((-5.0, 43.0), (60.0, 43.0))])
+    (gouge,) = judge(result.surface, Side.LEFT, 5.0, too_deep).gouges
+    assert gouge.depth == pytest.approx(2.0)
