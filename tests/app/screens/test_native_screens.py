@@ -406,3 +406,15 @@ async def test_del_and_ins_in_the_segment_list_are_delete_and_insert_segment(key
     async with operator() as one:
         await one.press("f9", "down", "down", key)
         assert len(one.session.block.segments) == count
+
+
+async def test_a_row_of_tool_setup_has_room_for_what_is_in_it():
+    async with operator() as one:
+        await run(one, "app.tools")
+        await one.press(*"2000", "enter", "'BALL MILL", "enter")
+        await everything(one)
+        shown = {}
+        for name in ("number", "type"):
+            field = one.screen.query_one(f"NumberField.tool-{name}")
+            shown[name] = "".join(segment.text for segment in field.render_line(0)).strip()
+        assert shown == {"number": "2000", "type": "BALL MILL"}
