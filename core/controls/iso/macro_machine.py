@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, radians, sin, tan
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NoReturn
 
 from core.controls.compensation.elements import arc_element
 from core.controls.control_run import Log
@@ -37,6 +37,9 @@ FIRST_BUILDER_CODE: Final = 1000
 
 _TURNED_OFF: Final = (150, 500, 690)
 """Codes of transforms that leave the axis words of their block for a move."""
+
+_LINE: Final = 10
+_ARCS: Final = frozenset({20, 30})
 
 _CLOCKS: Final = (3001, 3002, 3011, 3012)
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
@@ -235,14 +238,31 @@ class MacroMachine(Machine):
         turned = radians(angle)
         return solid(center[0] + radius * cos(turned), center[1] + radius * sin(turned), height, self.plane)
 
+    def _motion(self, block: Block) -> None:
+        if block.corner is not None:
+            if self.mode in _ARCS:
+                self._stop_at_arc_corner(block)
+            if self.mode != _LINE or {"X", "Y", "Z"}.isdisjoint(block.words):
+                self._stop_without_two_lines(block)
+        super()._motion(block)
+
+    def _stop_at_arc_corner(self, block: Block) -> NoReturn:
+        text = "cutcomp follows ,R and ,C only between two straight moves. Write the corner's moves."
+        self.log.stop("BEYOND", text, block.line, 1)
+
+    def _stop_without_two_lines(self, block: Block) -> NoReturn:
+        text = "A rounding or chamfer stands between two straight moves. Write the second one in the next block."
+        self.log.stop("PS0051", text, block.line, 1)
+
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
         following, self.following = self.following, None
         if block.corner is None or block is not self.current:
             super()._straight(block, end, rapid=rapid)
             return
+        if following is not None and not _ARCS.isdisjoint(following.g):
+            self._stop_at_arc_corner(block)
         if following is None or rapid or not self._goes_on_straight(following):
-            text = "A rounding or chamfer stands between two straight moves. Write the second one in the next block."
-            self.log.stop("PS0051", text, block.line, 1)
+            self._stop_without_two_lines(block)
         incremental = self.incremental
         self.incremental = 910 in following.g or (incremental and 900 not in following.g)
         beyond = self._target_from(end, following.words)
@@ -325,6 +345,8 @@ class MacroMachine(Machine):
         super()._act(code, block)
 
     def _run_once(self, code: Code, block: Block) -> None:
+        if block.corner is not None and code.value not in _TURNED_OFF:
+            self._stop_without_two_lines(block)
         if code.action is CodeAction.TRANSFORM:
             self._set_transform(code.value, block)
             if code.value in _TURNED_OFF:

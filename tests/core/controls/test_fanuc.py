@@ -605,6 +605,17 @@ def test_a_rounding_longer_than_its_move_is_an_alarm() -> None:
     assert alarms(ran(f"{HEAD}X50.,R60.\nY40.\nM30")) == [("PS0055", 2)]
 
 
+@pytest.mark.parametrize("moves", ["G2 X50. Y-50. R50.,R2.\nG1 Y-80.", "X50.,R2.\nG2 X80. Y-30. R30."])
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_rounding_beside_an_arc_is_not_followed(control: str, moves: str) -> None:
+    assert [code for code, _ in alarms(ran(f"{HEAD}{moves}\nM30", control))] == ["BEYOND"]
+
+
+@pytest.mark.parametrize("block", ["G0 X50.,R2.", "M8,R2.", "G4 P1,R2.", "G1,R2."])
+def test_a_rounding_without_a_straight_move_is_an_alarm(block: str) -> None:
+    assert alarms(ran(f"{HEAD}{block}\nG1 Y40.\nM30")) == [("PS0051", 2)]
+
+
 def test_a_message_of_the_program_is_told_and_the_program_goes_on() -> None:
     done = ran("#3006=1(TURN THE PART)\nG21 G1 X5. F9\nM30")
     assert ends(done) == [(5.0, 0.0)]
