@@ -6,6 +6,7 @@ and the extra `web`, and takes a minute.
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import signal
 import tempfile
@@ -103,4 +104,5 @@ async def report() -> list[str]:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("tests.reports.serve", description=__doc__).parse_args()
     asyncio.run(report())

@@ -121,6 +121,9 @@ class State:
             text = "R+ and R- are for single-axis blocks, which are not supported. Write L with R0, RL or RR."
         else:
             written = block.body[block.column_of(name) - block.column :].split(maxsplit=1)[0]
+            if written.startswith("QS"):
+                text = f"cutcomp does not follow {quoted(written)}: a parameter that holds text. Write the text."
+                self.stop(code, text, block, name)
             code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.stop(code, text, block, name)
 

@@ -66,6 +66,7 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("CYCL CALL",), "CYCLE", 4),
         (("L X+1 Y+1 FMAX M99",), "CYCLE", 4),
         (("CYCL",), "WORD", 4),
+        (("TOOL CALL QS1 Z S1000",), "BEYOND", 4),
         (("CYCL DEF 12.0 PGM CALL", "CYCL DEF 12.1 OTHER", "CYCL CALL"), "BEYOND", 6),
         (("CYCL DEF 200 DRILLING", "L X+0 Y+0 FMAX", "L X+9 RL F9", "L X+20", "CYCL CALL"), "CYCLE", 8),
         (("CYCL DEF 200 DRILLING", "L X+0 Y+0 FMAX", "L X+9 RL F9", "CYCL DEF 220 POLAR PATTERN"), "CYCLE", 7),
