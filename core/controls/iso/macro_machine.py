@@ -6,7 +6,7 @@ mirror image, scaling and rotation.  An axis that went to a machine point is now
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import atan2, cos, hypot, radians, sin, tan
 from types import MappingProxyType
@@ -93,10 +93,10 @@ class Offsets:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """What turns programmed points into those of the work coordinates.
+    """What turns programmed points into those of the work coordinates: rotation, then scaling, then the mirror image.
 
-    `mirror`: by axis the coordinate of the mirror; `factor` scales about `fixed`; `angle` turns about `center` in a
-    plane, radians.
+    So the center of a rotation is scaled and mirrored too, and one mirrored axis reverses its sense.  `mirror`: by
+    axis the coordinate of the mirror; `factor` scales about `fixed`; `angle` turns about `center` in a plane, radians.
     """
 
     mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
@@ -111,15 +111,18 @@ class Transform:
 
     def applied(self, point: Point3) -> Point3:
         """A programmed point in work coordinates."""
-        mirrored = [2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(point)]
-        x, y, z = (fixed + (value - fixed) * self.factor for value, fixed in zip(mirrored, self.fixed, strict=True))
-        return self._turned((x, y, z), self.angle)
+        turned = self._turned(point, self.angle)
+        scaled = [fixed + (value - fixed) * self.factor for value, fixed in zip(turned, self.fixed, strict=True)]
+        return self._mirrored(scaled)
 
     def undone(self, point: Point3) -> Point3:
         """The programmed point of one in work coordinates."""
-        turned = self._turned(point, -self.angle)
-        scaled = [fixed + (value - fixed) / self.factor for value, fixed in zip(turned, self.fixed, strict=True)]
-        x, y, z = (2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(scaled))
+        mirrored = self._mirrored(point)
+        x, y, z = (fixed + (value - fixed) / self.factor for value, fixed in zip(mirrored, self.fixed, strict=True))
+        return self._turned((x, y, z), -self.angle)
+
+    def _mirrored(self, point: Sequence[float]) -> Point3:
+        x, y, z = (2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(point))
         return x, y, z
 
     def _turned(self, point: Point3, angle: float) -> Point3:
@@ -360,6 +363,8 @@ class MacroMachine(Machine):
 
     def _set_transform(self, code: int, block: Block) -> None:
         words, state = block.words, self.transform
+        if code in (510, 511):
+            self._stop_out_of_order(code, block)
         match code:
             case 150:
                 self.polar = None
@@ -382,9 +387,18 @@ class MacroMachine(Machine):
                 self._rotate(block)
 
     def _absolute(self, axis: int, words: Mapping[str, float]) -> float:
-        """A coordinate of a block in work coordinates, that of the tool where it has none."""
+        """A coordinate of a transform's block, that of the tool where it has none, before the transforms in force."""
         letter = "XYZ"[axis]
-        return words[letter] * self.scale + self.shift[axis] if letter in words else self.position[axis]
+        if letter in words:
+            return words[letter] * self.scale + self.shift[axis]
+        return replace(self.transform, angle=0.0).undone(self.position)[axis]
+
+    def _stop_out_of_order(self, code: int, block: Block) -> None:
+        """Mirror image, scaling and rotation are programmed in this order; what another one does is not known."""
+        before = "G68" if self.transform.angle else "G51" if code == 511 and self.transform.factor != 1.0 else ""
+        if before:
+            text = f"cutcomp does not follow G{code / 10:g} while {before} is in force. Write it before {before}."
+            self.log.stop("BEYOND", text, block.line, block.column("G", code))
 
     def _scale(self, block: Block) -> None:
         words = block.words
@@ -399,14 +413,22 @@ class MacroMachine(Machine):
         self.transform = replace(self.transform, factor=factor, fixed=(x, y, z))
 
     def _rotate(self, block: Block) -> None:
-        words = block.words
+        words, column = block.words, block.column("G", 680)
         if not {"I", "J", "K"}.isdisjoint(words):
             text = "cutcomp follows G68 with an angle R only, and the path after it would be wrong."
-            self.log.stop("BEYOND", text, block.line, block.column("G", 680))
+            self.log.stop("BEYOND", text, block.line, column)
+        if "R" not in words:
+            text = "G68 has no R: the control may turn by the angle of a parameter or setting. Write R."
+            self.log.stop("BEYOND", text, block.line, column)
+        if self.incremental:
+            text = "cutcomp takes R of G68 as an angle from 0. Under G91 the control may add it to the angle in force."
+            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
+        if self.transform.mirror or self.transform.factor != 1.0:
+            text = "cutcomp assumes that the mirror image or scaling in force holds for the center of G68 too."
+            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
         first, second, _ = self.plane.axes
         center = self._absolute(first, words), self._absolute(second, words)
-        angle = radians(words.get("R", 0.0))
-        self.transform = replace(self.transform, angle=angle, center=center, plane=self.plane)
+        self.transform = replace(self.transform, angle=radians(words["R"]), center=center, plane=self.plane)
 
     def _warn_of_axes(self, block: Block) -> None:
         """An axis that is not followed is told once."""

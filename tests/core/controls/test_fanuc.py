@@ -587,6 +587,28 @@ def test_rotation_mirror_scale_and_polar_points_are_as_calculated() -> None:
     assert ends(ran(f"{HEAD}G16\nX10. Y90.\nG15\nM30")) == [(0.0, 10.0)]
 
 
+def test_a_mirror_image_reverses_a_rotation_and_scaling_moves_its_center() -> None:
+    # 10 at 30 degrees, mirrored in x = 0
+    mirrored = ran(f"{HEAD}G51.1 X0\nG68 X0 Y0 R30.\nX10. Y0\nM30")
+    assert ends(mirrored) == [(pytest.approx(-5 * 3**0.5), pytest.approx(5.0))]
+    # (20, 0) turned about (10, 0) is (10, 10)
+    scaled = ran(f"{HEAD}G51 X0 Y0 P2000\nG68 X10. Y0 R90.\nX20. Y0\nM30")
+    assert ends(scaled) == [(pytest.approx(20.0), pytest.approx(20.0))]
+    assert told(mirrored, "FN-ROTATION")
+    assert told(scaled, "FN-ROTATION")
+
+
+@pytest.mark.parametrize(
+    "blocks", ["G68 X0 Y0 R30.\nG51.1 X0", "G68 X0 Y0 R9.\nG51 P2.", "G51 P2.\nG51.1 X0", "G68 X0 Y0"]
+)
+def test_a_rotation_that_depends_on_the_control_is_not_followed(blocks: str) -> None:
+    assert [code for code, _ in alarms(ran(f"{HEAD}{blocks}\nX5. Y1.\nM30"))] == ["BEYOND"]
+
+
+def test_a_rotation_programmed_incrementally_may_be_added() -> None:
+    assert told(ran(f"{HEAD}G91 G68 X0 Y0 R45.\nX5. Y1.\nM30"), "FN-ROTATION")
+
+
 def test_a_mirrored_contour_is_compensated_on_the_other_side() -> None:
     # mirrored in x = 0, G41 along +X becomes a path along -X with the tool on its right, above it
     done = ran(f"{HEAD}G51.1 X0\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
