@@ -1,7 +1,8 @@
 """Drilling cycles, G73, G74 and G81 to G89: every hole as the moves that make it.
 
-Depth, R and the peck stay until another cycle.  Under G91 R counts from the height at which the row of holes began, and
-the depth from R.  G98 comes back to that height, G99 to R.
+Depth, R and the peck stay until another cycle.  Under G91 R counts from the height at which the row of holes began,
+and the depth from R; on Fanuc's family where they are written, elsewhere wherever they hold.  G98 comes back to that
+height, G99 to R.
 """
 
 from __future__ import annotations
@@ -79,27 +80,36 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
         cycle.began = flat(state.position, state.plane)[2] - flat(state.shift, state.plane)[2]
     for needed in ("R", letter) if cycle.code != code else ():
         if needed == "R" and needed not in words and not state.dialect.cycle_r_needed:
-            cycle.r = 0.0 if state.incremental else cycle.began
+            cycle.r = 0.0 if _counts_from_here(state) else cycle.began
             text = "The cycle has no R; cutcomp takes the height at which it begins."
             state.log.tell(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
         elif needed not in words:
             _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
+    written_from_here = state.incremental and state.dialect.fanuc_cycles
     if "R" in words:
-        cycle.r = words["R"] * scale
+        cycle.r = words["R"] * scale + (cycle.began if written_from_here else 0.0)
     if letter in words:
-        cycle.depth = words[letter] * scale
+        cycle.depth = words[letter] * scale + (cycle.r if written_from_here else 0.0)
     if "Q" in words:
         cycle.peck = words["Q"] * scale
     cycle.code = code
 
 
+def _counts_from_here(state: ModalState) -> bool:
+    """Whether R and the depth in force count from where the row began and from R."""
+    return state.incremental and not state.dialect.fanuc_cycles
+
+
 def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator[DrillMove]:
     """All holes of a block; `fresh` in the first one of a cycle."""
     cycle, plane = state.cycle, state.plane
+    repeats = _repeats(state, block)
+    if not repeats:
+        return
     here = flat(state.position, plane)
     origin = flat(state.shift, plane)[2]
-    r = cycle.r + origin + (cycle.began if state.incremental else 0.0)
-    ground = cycle.depth + (r if state.incremental else origin)
+    r = cycle.r + origin + (cycle.began if _counts_from_here(state) else 0.0)
+    ground = cycle.depth + (r if _counts_from_here(state) else origin)
     if r < ground:
         _stop(state, "R is below the bottom of the hole. Correct R or the depth.", block, "RXYZG")
     over, level = here[2], cycle.began + origin
@@ -110,11 +120,9 @@ def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator
         _check_first(state, code, block)
     back = r if cycle.to_r else level
     over = over if over > r else back
-    first, second, _ = flat(state.target(block.words), plane)
-    step = (first - here[0], second - here[1]) if state.incremental else (0.0, 0.0)
-    for index in range(_repeats(state, block)):
-        x, y = first + index * step[0], second + index * step[1]
-        yield from _hole(state, code, block, Hole(x, y, back if index else over, r, ground, back, plane))
+    for index in range(repeats):
+        first, second, _ = flat(state.target(block.words), plane)
+        yield from _hole(state, code, block, Hole(first, second, back if index else over, r, ground, back, plane))
 
 
 def _check_first(state: ModalState, code: int, block: Block) -> None:
@@ -127,7 +135,7 @@ def _check_first(state: ModalState, code: int, block: Block) -> None:
 def _repeats(state: ModalState, block: Block) -> int:
     letters = state.dialect.repeat_letters
     letter = next((letter for letter in letters if letter in block.words), letters[0])
-    number, least = whole(block.words.get(letter, 1.0)), 1 if letter == "L" else 0
+    number, least = whole(block.words.get(letter, 1.0)), 0 if state.dialect.fanuc_cycles else 1
     if number is None or not least <= number <= MAX_REPEATS:
         text = f"{letter}, how often the cycle runs, is a whole number from {least} to {MAX_REPEATS}."
         _stop(state, text, block, letter)

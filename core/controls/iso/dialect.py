@@ -122,6 +122,7 @@ class Dialect:
     nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
     of one group the last counts, with a warning.  `reference_known`: the machine's zero is a point of the program,
     otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
+    `fanuc_cycles`: R and the depth of a cycle stay heights where G90 and G91 change, and 0 repeats only store them.
     `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.  `program_names`: a
     name in angle brackets may stand for O and its number.  `without_point`: what makes X10 ten least increments.
     `diameters_apart`: D has a memory of its own, in diameters.  `macro_codes`: the parameters that make G codes macros.
@@ -158,6 +159,7 @@ class Dialect:
     last_code_counts: bool = False
     reference_known: bool = True
     repeat_letters: str = "L"
+    fanuc_cycles: bool = False
     m97_calls: bool = False
     program_names: bool = False
     without_point: str = ""

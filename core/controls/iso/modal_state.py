@@ -75,7 +75,8 @@ class Origin:
 class Cycle:
     """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
 
-    `r` and `depth` are as written; `to_r` is G99; `mode_before` is the motion in force before the cycle.
+    `r` and `depth` are as written, on Fanuc's family heights also under G91; `to_r` is G99; `mode_before` is the motion
+    in force before the cycle.
     """
 
     code: int | None = None

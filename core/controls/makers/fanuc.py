@@ -93,6 +93,7 @@ DIALECT: Final = Dialect(
     reference_known=False,
     feed_needed=True,
     repeat_letters="KL",
+    fanuc_cycles=True,
     program_names=True,
     without_point="at 3401#0 = 0",
     macro_codes="parameters 6050 to 6059",

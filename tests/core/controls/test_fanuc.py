@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
+from math import cos, radians, sin
 from typing import Any, Final
 
 import pytest
@@ -636,6 +638,33 @@ def test_a_rounding_beside_an_arc_is_not_followed(control: str, moves: str) -> N
 @pytest.mark.parametrize("block", ["G0 X50.,R2.", "M8,R2.", "G4 P1,R2.", "G1,R2."])
 def test_a_rounding_without_a_straight_move_is_an_alarm(block: str) -> None:
     assert alarms(ran(f"{HEAD}{block}\nG1 Y40.\nM30")) == [("PS0051", 2)]
+
+
+def holes(program: str, control: str = "fanuc:a") -> list[tuple[float, float, float]]:
+    """The bottoms of the holes of a program: where a move at feed down ends."""
+    moves = list(ran(program, control).moves)
+    down = [move for before, move in pairwise(moves) if not move.rapid and move.point[2] < before.point[2]]
+    return [(round(move.point[0], 3) + 0.0, round(move.point[1], 3) + 0.0, move.point[2]) for move in down]
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_cycle_keeps_its_heights_where_its_holes_go_on_incrementally(control: str) -> None:
+    program = "G21 G90 G0 X0 Y0 Z50.\nG99 G81 X0 Y0 Z-10. R2. F100\nG91 X10. K3\nG90 G80\nM30"
+    assert holes(program, control) == [(x, 0.0, -10.0) for x in (0.0, 10.0, 20.0, 30.0)]
+    program = "G21 G90 G0 X0 Y0 Z50.\nG91 G99 G81 X10. Z-12. R-48. K2 F100\nG90 X50. Y20.\nG80\nM30"
+    assert holes(program, control) == [(10.0, 0.0, -10.0), (20.0, 0.0, -10.0), (50.0, 20.0, -10.0)]
+
+
+def test_repeats_of_a_cycle_go_around_the_pole() -> None:
+    program = "G21 G90 G0 X0 Y0 Z5.\nG16\nG99 G81 X20. Y0 Z-6. R2. F100\nG91 Y60. K5\nG15 G90 G80\nM30"
+    places = [(round(20 * cos(radians(angle)), 3), round(20 * sin(radians(angle)), 3)) for angle in range(0, 360, 60)]
+    assert [hole[:2] for hole in holes(program)] == [(x + 0.0, y + 0.0) for x, y in places]
+
+
+@pytest.mark.parametrize(("control", "letter"), [("fanuc:a", "K"), ("fanuc:a", "L"), ("haas:a", "L")])
+def test_a_cycle_with_no_repeats_is_only_stored(control: str, letter: str) -> None:
+    program = f"G21 G90 G0 X0 Y0 Z5.\nG99 G81 X9. Z-5. R2. F100 {letter}0\nX20.\nG80\nM30"
+    assert holes(program, control) == [(20.0, 0.0, -5.0)]
 
 
 def test_a_message_of_the_program_is_told_and_the_program_goes_on() -> None:
