@@ -252,13 +252,16 @@ class Machine(ModalState):
         self.control.unit = self.unit
 
     def _take_tool(self, block: Block) -> None:
-        number = self.tool_number(block)
+        number, before = self.tool_number(block), self.tool
         if number is not None:
             self.control.tool_called(number, block)
             self.select_tool(number, block)
         if _TOOL_CHANGE in block.m:
             self.tool = self.next_tool
             self.control.tool_changed()
+        if self.control.active and self.tool != before:
+            text = f"Tool {self.tool} is put in, and compensation goes on with the radius in force. Write G40 first."
+            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
 
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:

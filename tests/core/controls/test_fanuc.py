@@ -640,6 +640,14 @@ def test_a_rounding_without_a_straight_move_is_an_alarm(block: str) -> None:
     assert alarms(ran(f"{HEAD}{block}\nG1 Y40.\nM30")) == [("PS0051", 2)]
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "allen-bradley:a", "rosettacnc:normal"])
+def test_a_tool_that_is_changed_under_compensation_is_told(control: str) -> None:
+    program = f"T1 M6\n{HEAD}G54 G0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0 Y-10.\nY50.\n{{0}}\nX50.\nG40 X60.\nM30"
+    changed = ran(program.format("T2 M6"), control, {1: 3.0, 2: 5.0})
+    assert [finding.line for finding in changed.findings if finding.code == "OFFSET"] == [7]
+    assert not told(ran(program.format("T1 M6"), control, {1: 3.0, 2: 5.0}), "OFFSET")
+
+
 def holes(program: str, control: str = "fanuc:a") -> list[tuple[float, float, float]]:
     """The bottoms of the holes of a program: where a move at feed down ends."""
     moves = list(ran(program, control).moves)
