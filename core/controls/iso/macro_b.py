@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import acos, asin, atan, atan2, ceil, cos, degrees, exp, floor, fmod, radians, sin, sqrt, tan
 from math import log as natural_log
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NamedTuple
 
 from core.controls.control_run import Log
 from core.controls.iso.macro import (
@@ -63,7 +63,7 @@ class Variables(MacroParameters):
     """The variables of one run: #1 to #33 of each macro, the common ones, and those of the control.
 
     `vacant_arguments`: the main program has read one of #1 to #26 that nothing had set.  `unset` are common variables
-    read in a sum before anything set them; the control may keep a value in them.
+    read in a sum, a word or a comparison before anything set them; the control may keep a value in them.
     """
 
     def __init__(self, machine_value: Callable[[int | str], float | str | None], set_system: SetSystem) -> None:
@@ -285,7 +285,8 @@ class MacroReader(ExpressionReader):
     def _operated(
         self, at: int, name: str, work: Callable[[float, float], float], left: float, right: float
     ) -> float:  # fmt: skip
-        if name not in _RELATIONS and (isinstance(left, Vacant) or isinstance(right, Vacant)):
+        vacant = isinstance(left, Vacant), isinstance(right, Vacant)
+        if any(vacant) and not (name in _RELATIONS and all(vacant)):
             self.variables.unset += [number for number, _ in self.unset]
         if name in _RELATIONS:
             self.differences.append(abs(left - right))
@@ -367,13 +368,23 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
         values.set(key, reader.expression())
 
 
-def words_of(
-    line: CompactText, values: Variables, increment: float, start: int = 0
-) -> tuple[str, tuple[int, ...], tuple[str, float] | None]:  # fmt: skip
-    """The words of a block as plain text, the column of each, and its `,R` or `,C`; vacant words are left out."""
+class BlockWords(NamedTuple):
+    """The words of a block as plain text, vacant ones left out, and the column of each; its `,R` or `,C`.
+
+    `skip`: the column of its block skip, 0 without one.
+    """
+
+    text: str
+    columns: tuple[int, ...]
+    corner: tuple[str, float] | None
+    skip: int
+
+
+def words_of(line: CompactText, values: Variables, increment: float, start: int = 0) -> BlockWords:
+    """The words of a block with the values of its variables."""
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
-    words, columns, corner = list[str](), list[int](), None
+    words, columns, corner, skip = list[str](), list[int](), None, 0
     while reader.at < len(text):
         begin, sign = reader.at, text[reader.at]
         reader.at += 1
@@ -381,6 +392,7 @@ def words_of(
             continue
         if sign == "/":
             reader.at += text[reader.at : reader.at + 1].isdigit()
+            skip = line.columns[begin] + 1
         elif sign == "," and text[reader.at : reader.at + 1] in ("R", "C"):
             reader.at += 1
             corner = text[begin + 1], reader.value()
@@ -391,7 +403,8 @@ def words_of(
                 columns.append(line.columns[begin] + 1)
         else:
             raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
-    return " ".join(words), tuple(columns), corner
+    values.unset += [key for key, _ in reader.unset]
+    return BlockWords(" ".join(words), tuple(columns), corner, skip)
 
 
 def _word_value(reader: MacroReader, letter: str, begin: int) -> float:

@@ -56,9 +56,13 @@ _CALLED: Final = re.compile(r"(?<![A-Z])P([0-9]*+)")
 NAMES_TOLD: Final = 3
 """Programs that were not run are named up to here; of the rest only the number is."""
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
-_SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
-_WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])")
-_NO_LENGTHS: Final = re.compile(r"G0?5|G6[56]|M9[789]")
+_NO_POINT: Final = r"[ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])"
+_WITHOUT_POINT: Final = re.compile(f"[XYZIJKRQ]{_NO_POINT}")
+_REPEATS_ASIDE: Final = re.compile(f"[XYZRQ]{_NO_POINT}")
+_ARGUMENTS_WITHOUT_POINT: Final = re.compile(f"[ABCIJKQRUVWXYZ]{_NO_POINT}")
+_ARC: Final = re.compile(r"G0?[23](?![0-9])|[IJ]")
+_MACRO_CALL: Final = re.compile(r"G6[56]")
+_NO_LENGTHS: Final = re.compile(r"G0?5(?![0-9])|M9[6789]")
 _LETTERS: Final = re.compile(r"(?<![A-Z])(?!DPRNT|BPRNT|POPEN|PCLOS|SETVN)[A-Z]{2,}(?![A-Z\[])|[A-Z][ \t]++[A-Z]{2}")
 _FOR_EDITORS: Final = re.compile(r"[ \t]*+(?:\$[a-z]|#(?:end)?region\b)", re.IGNORECASE)
 """Lines such as $AddRegPart and #region, which never reach a control."""
@@ -312,9 +316,11 @@ class MacroFlow(Flow):
         return True
 
     def _note_points(self, bare: str, row: int) -> None:
-        """Remembers coordinates without a decimal point."""
+        """Remembers lengths without a decimal point; K beside a cycle counts its repeats."""
         if not _NO_LENGTHS.search(bare):
-            places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
+            pattern = _WITHOUT_POINT if _ARC.search(bare) else _REPEATS_ASIDE
+            pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
+            places = (match.start() + self.starts[row] + 1 for match in pattern.finditer(bare))
             self.no_point.extend((self.numbers[row], column) for column in places)
 
     def _tell_unset(self, row: int) -> None:
@@ -322,7 +328,8 @@ class MacroFlow(Flow):
         unset, self.variables.unset = self.variables.unset, []
         if unset:
             text = (
-                f"The program does not set #{unset[0]}; cutcomp takes 0, and the control may keep another value in it."
+                f"The program does not set #{unset[0]}; cutcomp takes it as vacant, 0 in a sum. "
+                "The control may keep a value in it."
             )
             self.log.tell(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
 
@@ -510,21 +517,20 @@ class MacroFlow(Flow):
         self._after_move(block, row, moved)
 
     def _block(self, row: int, line: CompactText, start: int) -> Block | None:
-        number, text = self.numbers[row], self.lines[row]
-        self.machine.line = number
-        if _SKIP.match(text):
-            said = "Block skip is assumed off, so this block runs."
-            self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)
+        number = self.machine.line = self.numbers[row]
         if line.text.startswith(":"):
             line = line._replace(text=f"O{line.text[1:]}")
         if row in self.begins and (name := re.match(r"O?<[^>]*>", line.text)):
             start = name.end()
         increment = 0.001 if self.machine.unit is Unit.MM else 0.0001
         try:
-            words, columns, corner = words_of(line, self.variables, increment, start)
+            words, columns, corner, skip = words_of(line, self.variables, increment, start)
         except FaultError as fault:
             self._fault(fault, row, line)
         self._tell_unset(row)
+        if skip:
+            said = "Block skip is assumed off, so this block runs."
+            self.log.tell(Severity.INFO, "SKIP", said, number, skip)
         if not columns:
             return None
         block = Block(number, words, self.starts[row], columns=columns, corner=corner)
@@ -669,7 +675,7 @@ class MacroFlow(Flow):
             self.log.tell(Severity.INFO, "FN-BODY", said, 1, 1)
         if self.no_point:
             unit, count = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in", len(self.no_point)
-            which = f"{count} coordinates, the first one here, have" if count > 1 else "This coordinate has"
+            which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
             said = (
                 f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
             )

@@ -569,7 +569,7 @@ def test_two_codes_of_a_group_the_last_one_counts() -> None:
 
 def test_coordinates_without_a_point_are_counted_once() -> None:
     (finding,) = told(ran("G21 G1 F100.\nX10 Y-5\nX0\nX3.\nM30"), "FN-POINT")
-    assert finding.text.startswith("2 coordinates")
+    assert finding.text.startswith("2 lengths")
     assert (finding.line, finding.column) == (2, 1)
 
 
@@ -646,6 +646,34 @@ def test_a_tool_that_is_changed_under_compensation_is_told(control: str) -> None
     changed = ran(program.format("T2 M6"), control, {1: 3.0, 2: 5.0})
     assert [finding.line for finding in changed.findings if finding.code == "OFFSET"] == [7]
     assert not told(ran(program.format("T1 M6"), control, {1: 3.0, 2: 5.0}), "OFFSET")
+
+
+@pytest.mark.parametrize(
+    ("blocks", "column"),
+    [
+        ("G65 P5 A50 D1\nM30\nO5\nG0 Y#1\nM99", 8),
+        ("G54 X10\nM30", 5),
+        ("G99 G81 Z-5. R2. F9.\nG91 X10. K3\nM30", 0),
+        ("G91 X10. R1. K3\nM30", 0),
+        ("G18 G2 X10. Z0. K5\nM30", 17),
+        ("M96 P10 Q5\nM30", 0),
+    ],
+)
+def test_lengths_without_a_point_are_told_and_counts_are_not(blocks: str, column: int) -> None:
+    assert [finding.column for finding in told(ran(HEAD + blocks), "FN-POINT")] == [column] * bool(column)
+
+
+def test_common_variables_that_nothing_has_set_are_told_wherever_they_are_read() -> None:
+    for block in ("X#500", "IF[#501EQ1]GOTO9", "#1=#502+1", "G#503 X1."):
+        assert told(ran(f"{HEAD}{block}\nN9 M30"), "PARAMETER"), block
+    for block in ("IF[#501EQ#0]GOTO9", "#1=#502", "#504=1\nX#504"):
+        assert not told(ran(f"{HEAD}{block}\nN9 M30"), "PARAMETER"), block
+
+
+def test_a_block_skip_inside_a_block_is_told() -> None:
+    skipped = ran(f"{HEAD}X50. /Y60.\nM30")
+    assert [finding.column for finding in told(skipped, "SKIP")] == [6]
+    assert ends(skipped) == [(50.0, 60.0)]
 
 
 def holes(program: str, control: str = "fanuc:a") -> list[tuple[float, float, float]]:
