@@ -123,9 +123,10 @@ class Dialect:
     of one group the last counts, with a warning.  `reference_known`: the machine's zero is a point of the program,
     otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
     `fanuc_cycles`: R and the depth of a cycle stay heights where G90 and G91 change, and 0 repeats only store them.
-    `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.  `program_names`: a
-    name in angle brackets may stand for O and its number.  `without_point`: what makes X10 ten least increments.
-    `diameters_apart`: D has a memory of its own, in diameters.  `macro_codes`: the parameters that make G codes macros.
+    `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
+    is a program's number alone.  `program_names`: a name in angle brackets may stand for O and its number.
+    `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
+    `macro_codes`: the parameters that make G codes macros.
     `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
     of O-words that may run, before the run is given up.
     """
@@ -160,6 +161,7 @@ class Dialect:
     reference_known: bool = True
     repeat_letters: str = "L"
     fanuc_cycles: bool = False
+    homes_all: bool = False
     m97_calls: bool = False
     program_names: bool = False
     without_point: str = ""
@@ -175,9 +177,9 @@ _ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")
 _TAKEN_BY_G: Final[Mapping[int, str]] = MappingProxyType(
     {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}
     | {430: "H", 490: "H", 640: "P", 960: "D", 440: "H", 541: "P", 1540: "P"}
-    | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "P", 680: "R", 1030: "P", 1870: "PE"}
+    | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "PIJK", 680: "R", 1030: "P", 1870: "PE"}
 )
-_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({970: "PL", 980: "PL", 990: "P"})
+_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"})
 _TAKEN_BY_ARC: Final = "IJKR"
 _TAKEN_BY_CYCLE: Final = "RQPLIJK"
 
@@ -190,7 +192,8 @@ def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
     for code in block.g:
         taken.update(_TAKEN_BY_G.get(code, ""))
     for code in block.m:
-        taken.update(_TAKEN_BY_M.get(code, ""))
+        if code != 970 or dialect.m97_calls:
+            taken.update(_TAKEN_BY_M.get(code, ""))
     if mode in (20, 30):
         taken.update(_TAKEN_BY_ARC)
     elif mode not in (0, 10, 800, None):

@@ -384,6 +384,8 @@ def words_of(line: CompactText, values: Variables, increment: float, start: int 
     """The words of a block with the values of its variables."""
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
+    if ")" in text:
+        raise FaultError("PS0114", "A ) has no ( before it: a comment cannot hold another one.", text.index(")"))
     words, columns, corner, skip = list[str](), list[int](), None, 0
     while reader.at < len(text):
         begin, sign = reader.at, text[reader.at]

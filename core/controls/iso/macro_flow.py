@@ -565,6 +565,10 @@ class MacroFlow(Flow):
         if 980 in block.m or (970 in block.m and self.dialect.m97_calls):
             self._call_subprogram(block)
             return True
+        for code in (960, 1980):
+            if code in block.m and "P" in block.words:
+                text = f"cutcomp does not follow M{code // 10} P, which may run other blocks. Check them by themselves."
+                self.log.stop("BEYOND", text, block.line, block.column("M", code))
         return self._return_from(block) if 990 in block.m else True
 
     def _call_subprogram(self, block: Block) -> None:

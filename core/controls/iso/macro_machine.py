@@ -446,6 +446,8 @@ class MacroMachine(Machine):
             end = self.target(block.words)
             if end != self.position:
                 self._straight(block, end, rapid=True)
+        elif self.dialect.homes_all:
+            named = [0, 1, 2]
         self._lose(named, block)
 
     def _move_in_machine(self, block: Block) -> None:

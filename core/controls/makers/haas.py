@@ -33,6 +33,7 @@ DIALECT: Final[Dialect] = replace(
         ("once", CodeAction.UNSUPPORTED, (120, 130, 350, 360, 700, 710, 720, 1000, 1010, 1070, 1360, 1410, 1430)),
         ("once", CodeAction.UNSUPPORTED, (1500, 1740, 1840, 2340, 2540, 2550)),
     ),
+    homes_all=True,
     m97_calls=True,
     program_names=False,
     without_point="with setting 162 off",

@@ -676,6 +676,22 @@ def test_a_block_skip_inside_a_block_is_told() -> None:
     assert ends(skipped) == [(50.0, 60.0)]
 
 
+def test_a_haas_sends_all_axes_home_where_none_is_named() -> None:
+    assert [finding.line for finding in told(ran(f"{HEAD}G28\nM30", "haas:a"), "HOME")] == [2]
+    assert not told(ran(f"{HEAD}G28\nM30"), "HOME")
+
+
+def test_calls_that_wait_for_a_signal_or_lie_elsewhere_are_not_followed() -> None:
+    for block in ("M96 P10", "M198 P5"):
+        assert alarms(ran(f"{HEAD}{block}\nM30")) == [("BEYOND", 2)]
+    assert told(ran(f"{HEAD}M97 P10\nM30\nN10 G1 X5.\nM99"), "UNUSED")
+
+
+def test_a_comment_in_a_comment_is_called_so() -> None:
+    (finding,) = told(ran(f"{HEAD}(A (B) C)\nM30"), "PS0114")
+    assert (finding.text, finding.column) == ("A ) has no ( before it: a comment cannot hold another one.", 9)
+
+
 def holes(program: str, control: str = "fanuc:a") -> list[tuple[float, float, float]]:
     """The bottoms of the holes of a program: where a move at feed down ends."""
     moves = list(ran(program, control).moves)
