@@ -112,7 +112,11 @@ class LinuxCnc(OneMoveQueue, Control):
             if code // 10 == 38 and code != 380:
                 text = "cutcomp cannot know where the probe stops."
                 self.log.stop("N-PROBE", text, block.line, block.column("G", code))
+        for letter in "FSN":
+            if block.words.get(letter, 0.0) < 0.0:
+                self.log.stop("N-NEGATIVE", f"{letter} cannot be negative.", block.line, block.column(letter))
         if block.m:
+            self._check_m_groups(block)
             self._m_codes(block)
         self._take_diameters(block)
 
@@ -122,6 +126,17 @@ class LinuxCnc(OneMoveQueue, Control):
             self.diameters = 70 in block.g
         if self.diameters and "X" in block.words:
             block.words["X"] /= 2.0
+
+    def _check_m_groups(self, block: Block) -> None:
+        """A block has at most four M codes, and one of a group."""
+        if len(block.m) > MAX_M_CODES:
+            text = f"A block can have {MAX_M_CODES} M codes. Write the others in another block."
+            self.log.stop("GROUP", text, block.line, block.column("M", block.m[MAX_M_CODES]))
+        for group in _M_GROUPS:
+            taken = [code for code in block.m if code in group]
+            if len(taken) > 1:
+                text = f"M{taken[0] // 10} and M{taken[1] // 10} are of one group. Write them in two blocks."
+                self.log.stop("GROUP", text, block.line, block.column("M", taken[1]))
 
     def _m_codes(self, block: Block) -> None:
         """M codes that compensation refuses, that are not followed, or that the machine's builder gives a meaning."""
@@ -158,7 +173,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 text = f"No code in this block uses {letter}. Remove it."
                 text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}" if letter == "H" else text
                 self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
-        if 40 in block.g and "P" not in block.words:
+        if 40 in block.g and block.words.get("P", -1.0) < 0.0:
             text = "G4 needs P and the seconds to wait."
             self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
@@ -315,4 +330,18 @@ _TAKES_AXES: Final = frozenset((100, 280, 300, 520, 920))
 _KNOWN_M: Final = frozenset(
     10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
 )
+MAX_M_CODES: Final = 4
+_M_GROUPS: Final = tuple(
+    frozenset(10 * code for code in group)
+    for group in (
+        (0, 1, 2, 30, 60, 99),
+        (3, 4, 5, 19, *range(70, 74)),
+        (6, 61),
+        (7, 8, 9),
+        range(48, 54),
+        range(62, 69),
+        range(100, 200),
+    )
+)
+"""Stops, spindle, tool, coolant, overrides, outputs and the machine's own: as the interpreter refuses them in pairs."""
 _CENTERS: Final = frozenset("IJKR")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -197,6 +198,22 @@ def test_what_the_interpreter_refuses_is_refused_or_warned_of(name: str, tmp_pat
     assert witness(REFUSED[name], tmp_path, DIAMETERS, Unit.IN).refusal
     ours = ran(REFUSED[name], "linuxcnc", t1=0.5)
     assert ours.stopped_at is not None or told(ours, "END")
+
+
+M_PAIRS = list(combinations(["M0", "M30", "M60", "M3", "M5", "M19", "M7", "M8", "M9", "M48", "M53", "M62 P1"], 2))
+
+
+@needs_witness
+def test_m_codes_of_one_group_are_refused_as_by_the_interpreter_itself(tmp_path: Path) -> None:
+    blocks = [f"{one} {other}" for one, other in M_PAIRS] + ["M3 M8 M48 M62 P1", "M3 M8 M48 M62 P1 M0"]
+    blocks += ["F-3", "S-5", "G4 P-1", "N-1"]
+    refused = 0
+    for block in blocks:
+        text = f"G20 F9 S100\nG0 X-1 Y-1\n{block}\nM2\n"
+        fared = outcome(text, tmp_path, DIAMETERS, Unit.IN)[0]
+        assert fared.startswith(("same moves", "both refuse")), block
+        refused += fared.startswith("both refuse")
+    assert 10 < refused < len(blocks) - 10
 
 
 def test_entry_corner_and_exit_by_hand() -> None:
