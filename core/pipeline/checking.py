@@ -28,7 +28,7 @@ from core.progress import Progress, silent
 from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = (
-    *("MACRO", "LIMIT", "BEYOND"),
+    *("MACRO", "LIMIT", "BEYOND", "N-PROBE"),
     *("FN-DARC", "FN-CYCLE", "FN-TRANSFORM", "FN-WHERE", "FN-PARAMETER", "FN-ENDLESS"),
 )
 """Rules at which not the control stops but the reading of the program."""

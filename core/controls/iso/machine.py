@@ -452,6 +452,9 @@ class Machine(ModalState):
     def _set_system(self, block: Block, *, from_here: bool) -> None:
         """G10 L2 P: a work offset is set; with L20 so that the present position reads as written."""
         number, most = whole(block.words.get("P", -1.0)), 9 if self.dialect.tool_data_kinds else 6
+        if self.dialect.tool_data_kinds and block.words.get("R", 0.0):
+            text = "cutcomp does not follow a work offset with a rotation R, and the path after it would be wrong."
+            self.log.stop("BEYOND", text, block.line, block.column("R"))
         if number is None or not 0 <= number <= most or block.words.get("R", 0.0):
             text = f"A work offset is set by G10 L2 P1 to P{most} with X, Y, Z, without a rotation R."
             self.log.stop("DATA", text, block.line, block.column("R" if "R" in block.words else "PL"))

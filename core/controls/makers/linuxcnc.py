@@ -100,6 +100,9 @@ class LinuxCnc(OneMoveQueue, Control):
     def watch(self, block: Block) -> None:
         """Words without a code that takes them, and codes that compensation does not allow."""
         self.machine.check_codes(block)
+        if any(DIALECT.codes[code].action is CodeAction.UNSUPPORTED for code in block.g if code in DIALECT.codes):
+            # the run stops at the code itself
+            return
         words = block.words
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
             text = f"D needs G41, G42, G41.1 or G42.1 in its block. In any block {only_on(OFFSETS_ANYWHERE)}"
