@@ -188,3 +188,11 @@ def test_corner_words_are_not_followed_and_no_alarm() -> None:
     """Its manual of the lathe has `,C` and `,R`; how they meet compensation is not stated."""
     done = ran("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
     assert [(finding.code, finding.line, finding.column) for finding in done.findings][-1] == ("BEYOND", 2, 12)
+
+
+def test_rotation_mirror_image_scaling_and_polar_words_are_not_followed() -> None:
+    for code in ("G68", "G51.1 X0", "G14.1", "G16"):
+        (finding,) = told(ran(f"G21 G0 X0 Y0\n{code}\nX1\nM2\n", "allen-bradley:a"), "BEYOND")
+        assert finding.line == 2
+    off = ran("G21 G14 G15 G50.1 G69 G0 X0 Y0\nX1\nM2\n", "allen-bradley:a")
+    assert (off.stopped_at, off.findings) == (None, ())
