@@ -13,6 +13,9 @@ from core.geometry.piece import Point
 from core.tolerance import JOINED
 
 NOT_BETWEEN: Final = "RND and CHF must stand directly between two contour elements of one side. Move the block."
+NO_LEAD: Final = (
+    "cutcomp follows RND only directly between two contour elements of one side, not as a lead. Write APPR or DEP."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +40,8 @@ class WaitingElement:
     def push(self, step: ProgrammedStep) -> None:
         """The next step."""
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
+            if self.blend and self.blend.round:
+                self._stop("BEYOND", self.blend, NO_LEAD)
             self.flush()
             self.center.push(step)
             return
@@ -49,7 +54,7 @@ class WaitingElement:
     def flush(self) -> None:
         """Hand on the element that waits: what follows does not round it."""
         if self.blend:
-            self._stop(self.blend, NOT_BETWEEN)
+            self._stop("CORNER", self.blend, NOT_BETWEEN)
         step, self.step = self.step, None
         if step:
             self.center.push(step)
@@ -58,17 +63,17 @@ class WaitingElement:
         """Hand on the waiting element and what joins it to the next; the next one cut short."""
         first, self.step, self.blend = self.step, None, None
         if first is None or first.role is not second.role or first.plane is not second.plane:
-            self._stop(blend, NOT_BETWEEN)
+            self._stop("CORNER", blend, NOT_BETWEEN)
         parts = (rounding if blend.round else chamfer)(first.element, second.element, blend.size)
         if isinstance(parts, str):
-            self._stop(blend, parts)
+            self._stop("CORNER", blend, parts)
         between = parts[1]._replace(line=blend.line, column=blend.column, rapid=False, feed=blend.feed)
         self.center.push(first._replace(element=parts[0], corner=KLARTEXT_CORNERS))
         self.center.push(first._replace(element=between, corner=KLARTEXT_CORNERS))
         return second._replace(element=parts[2])
 
-    def _stop(self, blend: Blend, text: str) -> NoReturn:
-        self.center.log.stop("CORNER", text, blend.line, blend.column)
+    def _stop(self, code: str, blend: Blend, text: str) -> NoReturn:
+        self.center.log.stop(code, text, blend.line, blend.column)
 
 
 Blended = tuple[Element, Element, Element]

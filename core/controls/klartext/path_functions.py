@@ -9,7 +9,7 @@ from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
 from core.controls.iso.arcs import ArcRadii, NoArc, center_by_radius
 from core.controls.klartext.center_path import ProgrammedStep, Role
-from core.controls.klartext.corner_rounding import Blend
+from core.controls.klartext.corner_rounding import NO_LEAD, Blend
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON_WORDS, SIDES, State, Words
@@ -329,6 +329,8 @@ def corner(state: State, block: Block) -> None:
     size = state.length(block, words, name)
     if size <= JOINED:
         state.stop("CORNER", f"The size of {block.head} must be above 0.", block)
+    if block.head == "RND" and state.waiting.step is None and state.side:
+        state.stop("BEYOND", NO_LEAD, block)
     if state.waiting.step is None or state.last is None or state.waiting.blend:
         state.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
     feed = state.length(block, words, "F") if "F" in words else state.feed

@@ -114,6 +114,8 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("L X+1 M",), "NUMBER", 4),
         (("LBL",), "LABEL", 4),
         (("CHF",), "CORNER", 4),
+        (("L X+0 Y+20 RL F300", "RND R5", "L Y+50"), "BEYOND", 5),
+        (("L X+0 Y+20 RL F300", "L Y+50", "L X+50", "RND R5", "L Y+70 R0"), "BEYOND", 7),
         (("DEP PLT LEN5",), "WORD", 4),
         (("APPR XX",), "WORD", 4),
         (("END",), "WORD", 4),

@@ -1,4 +1,4 @@
-; CORNER at line 8 column 1
+; BEYOND at line 8 column 1
 BEGIN PGM BAD MM
 TOOL DEF 1 L+0 R+5
 TOOL CALL 1 Z S1000 F100
