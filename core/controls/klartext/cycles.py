@@ -40,7 +40,8 @@ _PATTERNS: Final = frozenset((220, 221))
 """Cycles that run the last one at many places as soon as they are defined."""
 
 _DRILLING: Final = frozenset((*range(200, 208), 209, 240, 241))
-_RETURNING: Final = frozenset((1, 2, 3, 4, 5, 17, 18, 212, 213, 214, 215))
+_TAPPING: Final = frozenset((1, 2, 17, 18))
+_RETURNING: Final = _TAPPING | {3, 4, 5, 212, 213, 214, 215}
 _WAITING: Final = frozenset((9, 13, 14, 20, 32, 39))
 """Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
 
@@ -51,6 +52,7 @@ _PROGRAM: Final = 12
 _FIRST_PROBE: Final = 400
 
 SKIPPED: Final = "The moves of cycle {} are skipped; {}."
+NOT_JUDGED: Final = "What cycle {} mills is not judged; {}."
 
 
 def cycle(state: State, block: Block) -> None:
@@ -166,8 +168,11 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
     _refuse_compensated(state, block)
     state.waiting.flush()
     state.last = None
+    severity, said = Severity.WARNING, NOT_JUDGED
+    if number in _DRILLING or number in _TAPPING:
+        severity, said = Severity.INFO, SKIPPED
     if number in _RETURNING:
-        state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends where it began"), block)
+        state.tell(severity, "CYCLE", said.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
     if number in _DRILLING and height is not None:
@@ -183,5 +188,5 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
     unknown = {third} if number in _DRILLING else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
-    text = SKIPPED.format(number, f"cutcomp takes {names} from the next absolute words")
-    state.tell(Severity.INFO, "CYCLE", text, block)
+    text = said.format(number, f"cutcomp takes {names} from the next absolute words")
+    state.tell(severity, "CYCLE", text, block)

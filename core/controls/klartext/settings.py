@@ -24,6 +24,7 @@ _UNSUPPORTED: Final = (
     ),
     (re.compile(r"FN\b|IF\b", re.ASCII), "is not supported. Use FN 0 to 13 with numbers."),
     (re.compile(r"PLANE\b|TRANS\b", re.ASCII), "turns, mirrors or tilts, which is not supported."),
+    (re.compile(r"PATTERN\b", re.ASCII), "names points for cycles, which is not supported."),
     (re.compile(r"FUNCTION\b|SEL\b", re.ASCII), "is not supported, and the path after it could be wrong."),
     (re.compile(r"[XYZ]\s*[-+]?[\d.Q]", re.ASCII), "is a paraxial block, which is not supported. Write L before it."),
 )

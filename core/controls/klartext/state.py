@@ -124,6 +124,9 @@ class State:
             if written.startswith("QS"):
                 text = f"cutcomp does not follow {quoted(written)}: a parameter that holds text. Write the text."
                 self.stop(code, text, block, name)
+            if written.startswith("#"):
+                text = f"cutcomp does not follow {quoted(written)}: a row of a table. Write its values."
+                self.stop(code, text, block, name)
             code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.stop(code, text, block, name)
 
@@ -142,6 +145,9 @@ class State:
 
     def value(self, formula: str, block: Block, name: str = "") -> float:
         """The value of a formula."""
+        if "%" in formula:
+            text = "cutcomp does not follow % in a formula, since its sign differs. Write what is left over."
+            self.stop("BEYOND", text, block, name)
         value = evaluate(formula, self.parameters)
         if isinstance(value, str):
             self.stop("Q", value, block, name)
