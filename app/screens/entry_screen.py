@@ -61,7 +61,7 @@ class EntryScreen(BaseScreen):
         self.query_one("#entry", Input).value = text
 
     @abstractmethod
-    def entered(self, text: str) -> None:
+    def entered(self, text: str) -> object:
         """Do something with the name."""
 
     @on(Input.Changed, "#entry")

@@ -245,12 +245,9 @@ class ImportScreen(BaseScreen):
         self.options = ImportOptions.usual(unit, None if self._fresh else self.current_session.program.unit)
         await self._list_again(self.options)
 
-    def _list(self, options: ImportOptions) -> None:
-        """The list by other options."""
-        self._list_in_worker(options)
-
     @work(exclusive=True, group="import")
-    async def _list_in_worker(self, options: ImportOptions) -> None:
+    async def _list(self, options: ImportOptions) -> None:
+        """The list by other options."""
         await self._list_again(options)
 
     async def _list_again(self, options: ImportOptions) -> None:
@@ -488,12 +485,9 @@ class ImportScreen(BaseScreen):
         self._change(reversed_contour, self.chosen)
         self._show_row()
 
-    def action_start(self) -> None:
-        """Ask for another start of the contour with the cursor."""
-        self._start()
-
     @work(exclusive=True, group="question")
-    async def _start(self) -> None:
+    async def action_start(self) -> None:
+        """Ask for another start of the contour with the cursor."""
         contour, unit = self.contour, self.unit
         if contour is None:
             return
@@ -511,12 +505,9 @@ class ImportScreen(BaseScreen):
             self._change(STARTS[word], [contour])
         self._show_row()
 
-    def action_fit(self) -> None:
-        """Fit arcs to the contours' runs of lines; those that are fitted are lines again."""
-        self._fit()
-
     @work(exclusive=True, group="question")
-    async def _fit(self) -> None:
+    async def action_fit(self) -> None:
+        """Fit arcs to the contours' runs of lines; those that are fitted are lines again."""
         await self._fit_chosen()
 
     async def _fit_chosen(self) -> None:
@@ -546,12 +537,9 @@ class ImportScreen(BaseScreen):
         self._show_rows(0 if contour is None else contour.number)
         self.call_after_refresh(self.say, text)
 
-    def action_tolerance(self) -> None:
-        """Ask for the tolerance of joints and the fit of arcs, then list anew."""
-        self._tolerance()
-
     @work(exclusive=True, group="question")
-    async def _tolerance(self) -> None:
+    async def action_tolerance(self) -> None:
+        """Ask for the tolerance of joints and the fit of arcs, then list anew."""
         options, unit = self.options, self.unit
         if options is None:
             return
@@ -564,12 +552,9 @@ class ImportScreen(BaseScreen):
             tolerance, fit = (to_mm(value, unit) for value in typed)
             self._list(replace(options, tolerance=tolerance, fit=fit or FIT[unit]))
 
-    def action_layers(self) -> None:
-        """Ask for the layers, then list anew."""
-        self._layers()
-
     @work(exclusive=True, group="question")
-    async def _layers(self) -> None:
+    async def action_layers(self) -> None:
+        """Ask for the layers, then list anew."""
         drawing, options = self.drawing, self.options
         if drawing is None or options is None:
             return
@@ -587,12 +572,9 @@ class ImportScreen(BaseScreen):
         branches = () if self.listed is None else self.listed.branches
         return next((each for each in branches if contour.number in each.contours and len(each.contours) > 1), None)
 
-    def action_branch(self) -> None:
-        """Ask on which of the ways at a branch the contour with the cursor goes on."""
-        self._ask_branch()
-
     @work(exclusive=True, group="question")
-    async def _ask_branch(self) -> None:
+    async def action_branch(self) -> None:
+        """Ask on which of the ways at a branch the contour with the cursor goes on."""
         contour = self.contour
         branch = None if contour is None else self._branch_of(contour)
         if contour is None or branch is None:
@@ -660,12 +642,9 @@ class ImportScreen(BaseScreen):
 
     # ---- take
 
-    def action_take(self) -> None:
-        """Make a block of each contour that is chosen, in one edit."""
-        self._take()
-
     @work(exclusive=True, group="question")
-    async def _take(self) -> None:
+    async def action_take(self) -> None:
+        """Make a block of each contour that is chosen, in one edit."""
         contours = self.chosen
         if not contours or self._working:
             return

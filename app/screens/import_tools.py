@@ -60,12 +60,9 @@ class ImportToolsScreen(EntryScreen):
         self.unit = Unit.MM if self.unit is Unit.IN else Unit.IN
         self._show_unit()
 
-    def entered(self, text: str) -> None:
-        """Read the table; ask before anything changes."""
-        self._import(text)
-
     @work(exclusive=True, group="question")
-    async def _import(self, text: str) -> None:
+    async def entered(self, text: str) -> None:
+        """Read the table; ask before anything changes."""
         program, faults = self.current_session.program, self.query_one("#table-faults", Static)
         try:
             table = read_table(typed(text), self.unit, program.unit)

@@ -188,12 +188,9 @@ class PostScreen(EntryScreen):
         how = "." if not self.made.overridable else " must be mended or overridden."
         return Sentence(f"NC file name. {what.capitalize()}{how}", Tone.WARNING)
 
-    def entered(self, text: str) -> None:
-        """Write the NC file; asks before a file is replaced, and for the phrase that overrides a gouge."""
-        self._post(text)
-
     @work(exclusive=True, group="posting")
-    async def _post(self, text: str) -> None:
+    async def entered(self, text: str) -> None:
+        """Write the NC file; asks before a file is replaced, and for the phrase that overrides a gouge."""
         if self.stopped:
             self._make(self.current_session.program)
             return

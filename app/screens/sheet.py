@@ -70,12 +70,9 @@ class SheetScreen(EntryScreen):
         if Path(self.text).name:
             self.text = str(Path(self.text).with_suffix(ending))
 
-    def entered(self, text: str) -> None:
-        """Write the sheet; asks before a file is replaced."""
-        self._write(text)
-
     @work(exclusive=True, group="question")
-    async def _write(self, text: str) -> None:
+    async def entered(self, text: str) -> None:
+        """Write the sheet; asks before a file is replaced."""
         session = self.current_session
         path = await self.host.output_named(text, ".html", session.file)
         if not await self.host.may_write(path, session.file):
