@@ -705,7 +705,7 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
         path, settings = document.file.path, self.settings
         remembered = "" if path is None else settings.tools_of(path)
-        self.push_screen(ProofScreen(document, self.keep_nc, asked, settings.control, remembered))
+        self.push_screen(ProofScreen(document, self.keep_document, asked, settings.control, remembered))
 
     def keep_control(self, control: str) -> None:
         """NC programs are run on this control from now on."""

@@ -9,6 +9,8 @@ import asyncio
 from abc import abstractmethod
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
@@ -171,13 +173,10 @@ class FileActions(App[int]):
     def keep(self, session: Session) -> None:
         """Put what was edited on the disk, before the next key is read."""
         self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT)
-        self._keep(self.document)
+        self.keep_document(self.document)
 
-    def keep_nc(self, document: NcDocument) -> None:
-        """Put what was edited in an NC text on the disk."""
-        self._keep(document)
-
-    def _keep(self, document: Document) -> None:
+    def keep_document(self, document: Document) -> None:
+        """Put what was edited in a document on the disk."""
         service = self.service
         if service is None:
             return
@@ -201,7 +200,7 @@ class FileActions(App[int]):
             return
         self._edited_meanwhile = False
         for document in self._all_open():
-            self._keep(document)
+            self.keep_document(document)
 
     def tell(self, notice: Notice | None) -> None:
         """What the service has to say."""
@@ -264,32 +263,26 @@ class FileActions(App[int]):
         answers = [Answer(answer.word, answer.effect) for answer in ask.answers]
         return await self.push_screen_wait(Question(ask.title, ask.lines, answers, ask.safe, ask.details))
 
-    def open_file(self, path: Path) -> None:
-        """Work on a file, or show a folder; what is not saved is asked about first."""
-        if not self.disk_is_behind():
-            self._open(path)
-
-    def open_copy(self, copy: Path) -> None:
-        """Offer the work of a kept copy on the file that it is about."""
-        if not self.disk_is_behind():
-            self._open(copy, kept_copy=copy)
-
     @work(group="question")
-    async def _open(self, path: Path, *, kept_copy: Path | None = None) -> None:
+    async def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
+        """Work on a file, or show a folder; of a kept copy the work is offered on the file that it is about.
+
+        What is not saved is asked about first.
+        """
         service, here = self.service, self.document.file.path
-        if service is None:
+        if service is None or self.disk_is_behind():
             return
 
         def opened() -> Opened[Any] | Trouble | Path:
-            if kept_copy is None:
+            if not kept_copy:
                 where = _named(chosen(path, here))
                 return where if is_folder(where) or is_drawing(where) else service.open(where)
-            file = file_of_copy(kept_copy, kept_copy.parent)
-            return service.copy_without_name(kept_copy) if file is None else service.open(file, kept_copy=kept_copy)
+            file = file_of_copy(path, path.parent)
+            return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
 
         result = await self.on_disk(opened)
         if isinstance(result, Trouble) and result.open_already is not None:
-            await self._open_already(result, opened, again=kept_copy is not None)
+            await self._open_already(result, opened, again=kept_copy)
         elif isinstance(result, Trouble):
             self.say(result.text, Tone.ERROR)
         elif isinstance(result, Path) and is_drawing(result):
@@ -301,18 +294,14 @@ class FileActions(App[int]):
 
     async def _open_drawing(self, path: Path) -> None:
         """IMPORT on a drawing, into a new program, or into the open one, which is asked unless that is new itself."""
-        service, program = self.service, self.document.program
-        assert service is not None
-        fresh = self.document.is_new
+        program, fresh = self.document.program, self.document.is_new
         if not fresh:
             word = await self.ask(into_which(path, self.document))
             if word == GO_BACK:
                 return
             if word == NEW_PROGRAM:
-                if not await self.may_close("NEW PROGRAM?", self._all_open()):
+                if not await self._new("NEW PROGRAM?", program.unit):
                     return
-                await self.close_documents(self._all_open())
-                self.adopt(service.new(program.unit))
                 fresh = True
         self.show_drawing(path, fresh=fresh)
 
@@ -349,31 +338,25 @@ class FileActions(App[int]):
             if isinstance(result, Trouble):
                 self.say(result.text, Tone.ERROR)
 
-    def action_new(self, unit: str) -> None:
+    @work(group="question")
+    async def action_new(self, unit: str) -> None:
         """A new program in this unit."""
-        if not self.disk_is_behind():
-            self._new(Unit(unit))
+        if await self._new("NEW PROGRAM?", Unit(unit)):
+            self.keep_settings(replace(self.settings, unit=Unit(unit)))
 
     @work(group="question")
-    async def _new(self, unit: Unit) -> None:
-        if self.service is None or not await self.may_close("NEW PROGRAM?", self._all_open()):
-            return
-        await self.close_documents(self._all_open())
-        self.keep_settings(Settings(**{**_fields(self.settings), "unit": unit}))
-        self.adopt(self.service.new(unit))
-
-    def action_guide(self) -> None:
+    async def action_guide(self) -> None:
         """A first part, step by step."""
-        if not self.disk_is_behind():
-            self._guide()
+        if await self._new("GUIDED FIRST PART?", Unit.IN):
+            self.begin_guide()
 
-    @work(group="question")
-    async def _guide(self) -> None:
-        if self.service is None or not await self.may_close("GUIDED FIRST PART?", self._all_open()):
-            return
+    async def _new(self, title: str, unit: Unit) -> bool:
+        """Work on a new program where everything that is open may be closed; whether it may."""
+        if self.service is None or self.disk_is_behind() or not await self.may_close(title, self._all_open()):
+            return False
         await self.close_documents(self._all_open())
-        self.adopt(self.service.new(Unit.IN))
-        self.begin_guide()
+        self.adopt(self.service.new(unit))
+        return True
 
     def _all_open(self) -> list[Document]:
         return [self.document, *(proof.document for proof in self.proofs)]
@@ -522,13 +505,11 @@ class FileActions(App[int]):
             self.say(error.text, Tone.ERROR)
             return None
 
-    def close_nc(self, document: NcDocument) -> None:
-        """Leave an NC text; changes that are not saved are asked about."""
-        if not self.disk_is_behind():
-            self._close_nc(document)
-
     @work(group="question", description="close")
-    async def _close_nc(self, document: NcDocument) -> None:
+    async def close_nc(self, document: NcDocument) -> None:
+        """Leave an NC text; changes that are not saved are asked about."""
+        if self.disk_is_behind():
+            return
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
             document = self.proof.document
             await self.close_documents([document])
@@ -549,7 +530,7 @@ class FileActions(App[int]):
             if not name.strip():
                 return None
             path = typed(name)
-        while isinstance(result := await self.on_disk(_saving(service, document, path, agreed)), Ask):
+        while isinstance(result := await self.on_disk(partial(service.save, document, path, agreed)), Ask):
             word = await self.ask(result)
             if word == GO_BACK:
                 return None
@@ -610,12 +591,6 @@ class FileActions(App[int]):
             self.exit(0)
 
 
-def _saving(
-    service: DocumentService, document: AnyDocument, path: Path | None, agreed: frozenset[str]
-) -> Callable[[], Saved[AnyDocument] | Ask | Trouble]:
-    return lambda: service.save(document, path, agreed)
-
-
 def _named(path: Path) -> Path:
     """The file that a typed name means; one that ends like an NC program or a drawing is no program."""
     return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
@@ -633,7 +608,3 @@ def session_of(document: ContourDocument, before: Session | None = None) -> Sess
         look_only=document.file.holder is not None,
     )
     return session if before is None or before.program is not session.program else session.like(before)
-
-
-def _fields(settings: Settings) -> dict[str, Any]:
-    return {name: getattr(settings, name) for name in Settings.__slots__}

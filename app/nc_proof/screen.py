@@ -39,7 +39,6 @@ from app.nc_proof.runs import (
 from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase
 from app.session.messages import Sentence, Tone
-from app.session.session import Session
 from app.session.words import counted
 from app.session.work import Work
 from app.widgets.drawing import Drawing
@@ -651,9 +650,6 @@ class ProofScreen(BaseScreen):
         self._with_tool(replace(tool, diameter=size))
 
     # ---- the frame
-
-    def show_session(self, session: Session) -> None:
-        """Nothing of the contour program stands here."""
 
     def show_state_on(self, status: Status) -> None:
         """The unit of the NC text, and its edits."""

@@ -122,11 +122,8 @@ class Host(Protocol):
     def proof_is_open(self) -> bool:
         """Whether an NC PROOF is open, in front or below."""
 
-    def open_file(self, path: Path) -> None:
-        """Work on a file; what is not saved is asked about."""
-
-    def open_copy(self, copy: Path) -> None:
-        """Offer the work of a kept copy on the file that it is about."""
+    def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
+        """Work on a file, or offer the work of a kept copy; what is not saved is asked about."""
 
     def save_as(self, text: str) -> None:
         """Save the program under a typed name."""
@@ -142,9 +139,6 @@ class Host(Protocol):
 
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""
-
-    def show_folder(self, folder: Path, at: Path | None = None) -> None:
-        """HOME with the files of a folder, the cursor on one of them."""
 
     def go_to(self, entry: FindingEntry) -> None:
         """MILL CONTOUR with the cursor on the place of a finding."""

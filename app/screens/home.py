@@ -31,7 +31,6 @@ from app.documents.survey import (
 )
 from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
-from app.session.session import Session
 from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
 from app.widgets.plain import PlainText
@@ -103,9 +102,6 @@ class HomeScreen(BaseScreen):
         if self._was_in_front:
             self.list_anew()
         self._was_in_front = True
-
-    def show_session(self, session: Session) -> None:
-        """Nothing of the session stands here."""
 
     # ---- the list
 
@@ -241,10 +237,8 @@ class HomeScreen(BaseScreen):
             return
         if each.folder:
             self.show_folder(each.path)
-        elif each.copy is not None:
-            self.host.open_copy(each.path)
         else:
-            self.host.open_file(each.path)
+            self.host.open_file(each.path, kept_copy=each.copy is not None)
 
     async def action_leave(self) -> None:
         """Back to the work that is open, where there is any: an empty form is nobody's."""

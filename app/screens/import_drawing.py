@@ -31,7 +31,6 @@ from app.documents.programs import empty_program
 from app.screens.base import BaseScreen
 from app.screens.dialogs import GO_BACK, Answer, ChooseSeveral, NumberEntry, NumberForm, Question
 from app.session.messages import Sentence, Tone
-from app.session.session import Session
 from app.session.words import length, place
 from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import Drawing
@@ -190,9 +189,6 @@ class ImportScreen(BaseScreen):
         self._show_title()
         prepare_workers()
         self._read()
-
-    def show_session(self, session: Session) -> None:
-        """Nothing of the session stands here."""
 
     @property
     def unit(self) -> Unit:
