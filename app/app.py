@@ -568,7 +568,8 @@ class CutcompApp(FileActions, TransformActions, WorkActions):
 
     @work(exclusive=True, group="question")
     async def _ask_unit(self, text: str) -> None:
-        from app.screens.dialogs import GO_BACK, Answer, Question
+        from app.documents.questions import GO_BACK, Answer
+        from app.screens.dialogs import Question
 
         own = "INCH" if self.session.program.unit is Unit.IN else "MM"
         answers = [Answer(word, "as it is: go on" if word == own else "PROGRAM PARAMETERS") for word in ("INCH", "MM")]

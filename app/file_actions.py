@@ -40,7 +40,7 @@ from app.documents.questions import (
 )
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
-from app.screens.dialogs import Answer, Phrase, Question
+from app.screens.dialogs import Phrase, Question
 from app.session.messages import Tone
 from app.session.session import SEGMENT, Session
 from core.program.file.read import StoreError
@@ -260,8 +260,7 @@ class FileActions(App[int]):
 
     async def ask(self, ask: Ask) -> str:
         """The word of the answer to a question; only in a worker."""
-        answers = [Answer(answer.word, answer.effect) for answer in ask.answers]
-        return await self.push_screen_wait(Question(ask.title, ask.lines, answers, ask.safe, ask.details))
+        return await self.push_screen_wait(Question(ask.title, ask.lines, ask.answers, ask.safe, ask.details))
 
     @work(group="question")
     async def open_file(self, path: Path, *, kept_copy: bool = False) -> None:

@@ -89,7 +89,6 @@ class RanDotted(Message):
 class Compared(Message):
     """A worker has run a text on every control."""
 
-    question: Question
     answers: tuple[Answer, ...]
 
 

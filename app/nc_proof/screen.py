@@ -18,7 +18,7 @@ from textual.worker import Worker, get_current_worker
 
 from app.documents.document import NcDocument
 from app.documents.nc_text import NcText
-from app.nc_proof.dialogs import ChooseControl, CompareControls
+from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,
@@ -37,17 +37,18 @@ from app.nc_proof.runs import (
     with_largest_tool,
 )
 from app.screens.base import BaseScreen
-from app.screens.dialogs import Phrase
+from app.screens.dialogs import ChooseLine, Phrase
 from app.session.messages import Sentence, Tone
 from app.session.words import counted
 from app.session.work import Work
 from app.widgets.drawing import Drawing
-from app.widgets.option_rows import OptionRows
+from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
+from core.controls.registry import choices
 from core.finding import Finding, Severity
 from core.progress import Progress, Stopped, part
 from core.units import Kind, Unit, Unreadable, parse, sentence
@@ -581,7 +582,9 @@ class ProofScreen(BaseScreen):
     @work(exclusive=True, group="question")
     async def action_control(self) -> None:
         """Choose the control from a list."""
-        control = await self.app.push_screen_wait(ChooseControl(self.question.control))
+        rows = control_rows(choices())
+        here = self.question.control
+        control = await self.app.push_screen_wait(ChooseLine("CONTROL", rows, here, classes="wide-box"))
         if control and self.take_lines():
             self.host.keep_control(control)
             self._ask(replace(self.question, control=control))

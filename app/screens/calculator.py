@@ -7,11 +7,11 @@ from typing import ClassVar
 
 from textual import on
 from textual.app import ComposeResult
-from textual.binding import Binding, BindingType
-from textual.containers import Horizontal, Vertical
-from textual.screen import ModalScreen
+from textual.binding import BindingType
+from textual.containers import Horizontal
 from textual.widgets import Input, OptionList, Static
 
+from app.screens.dialogs import LINES_UP_AND_DOWN, Dialog
 from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainLabel, PlainText
 from core.program.calculator import Case, Quantity, Refusal, calculate, field_text, outputs_for
@@ -19,37 +19,32 @@ from core.program.fields import Field
 from core.units import Unit
 
 
-class Calculator(ModalScreen[str]):
+class Calculator(Dialog[str]):
     """The numbers of a case and its answers; the result is the text of the chosen one, empty for none.
 
     `typed` holds the texts by name, as they were typed.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape,f8,alt+8", "none", "Go back", show=False),
-        Binding("down", "app.focus_next", "Next", show=False),
-        Binding("up", "app.focus_previous", "Before", show=False),
-    ]
+    BINDINGS: ClassVar[list[BindingType]] = LINES_UP_AND_DOWN
 
     def __init__(self, case: Case, field: Field, unit: Unit, typed: Mapping[str, str]) -> None:
-        super().__init__()
+        super().__init__(f"{case.name}: {field.label}")
         self.case, self.field, self.unit = case, field, unit
         self.typed = dict(typed)
         self._texts: list[str] = []
 
-    def compose(self) -> ComposeResult:
-        """A framed box: a line a number, then the answers, then what is wrong."""
-        with Vertical(id="question"):
-            for quantity in self.case.inputs:
-                with Horizontal(classes="field"):
-                    yield PlainLabel(quantity.label, classes="label")
-                    yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
-            yield OptionRows(id="answers")
-            yield PlainText(id="number-trouble")
+    def compose_box(self) -> ComposeResult:
+        """A line a number, then the answers, then what is wrong."""
+        for quantity in self.case.inputs:
+            with Horizontal(classes="field"):
+                yield PlainLabel(quantity.label, classes="label")
+                yield Input(self.typed.get(quantity.name, ""), name=quantity.name, compact=True, classes="number")
+        yield OptionRows(id="answers")
+        yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
         """The title, and what the texts of last time come to."""
-        self.query_one("#question").border_title = f"{self.case.name}: {self.field.label}"
+        super().on_mount()
         self._show()
 
     @on(Input.Changed)
@@ -101,7 +96,3 @@ class Calculator(ModalScreen[str]):
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
         self.dismiss(self._texts[event.option_index])
-
-    def action_none(self) -> None:
-        """Go back."""
-        self.dismiss("")

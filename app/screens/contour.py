@@ -12,6 +12,7 @@ from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import DataTable, Label
+from textual.widgets.option_list import Option
 
 from app.documents.tool_tables import tool_line
 from app.screens.contour_cells import (
@@ -650,9 +651,9 @@ class ContourScreen(FormScreen):
     async def _choose_tool(self, name: str) -> None:
         """A tool of the tool table into TOOL or FINISH TOOL."""
         session = self.current_session
-        rows = [(f"{tool.number}", tool_line(tool, session.program.unit)) for tool in session.program.tools]
+        rows = [Option(tool_line(tool, session.program.unit), id=f"{tool.number}") for tool in session.program.tools]
         if name == "finish_tool":
-            rows.insert(0, ("0", "no finish pass"))
+            rows.insert(0, Option("no finish pass", id="0"))
         number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows))
         field = self._field(name)
         if number and field is not None:

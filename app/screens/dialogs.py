@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import ClassVar
+from typing import Any, ClassVar, Final, TypeVar
 
 from textual import events, on
 from textual.app import ComposeResult
@@ -17,6 +18,7 @@ from textual.widget import Widget
 from textual.widgets import Input, OptionList, Static
 from textual.widgets.option_list import Option
 
+from app.documents.questions import GO_BACK, Answer
 from app.widgets.field import LineInput
 from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainLabel, PlainText
@@ -26,45 +28,66 @@ TALL = 16
 """Rows from which on a question has blank lines."""
 MORE = "And more."
 """In place of details for which there is no room."""
-GO_BACK = "GO BACK"
-"""The answer that changes nothing; Esc and F8 give it too."""
+LINES_UP_AND_DOWN: Final[list[BindingType]] = [
+    Binding("down", "app.focus_next", "Next", show=False),
+    Binding("up", "app.focus_previous", "Before", show=False),
+]
+Result = TypeVar("Result")
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """An answer to a question: its word, whose first letter is its key, and what it does."""
+class Dialog(ModalScreen[Result]):
+    """A framed box over the screen that it is about; Esc and F8 give `NOTHING`."""
 
-    word: str
-    effect: str = ""
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
+    NOTHING: ClassVar[Any] = ""
+
+    def __init__(self, title: str, *, classes: str = "") -> None:
+        super().__init__()
+        self.question, self._box_classes = title, classes
+
+    def compose(self) -> ComposeResult:
+        """The box."""
+        with Vertical(id="question", classes=self._box_classes):
+            yield from self.compose_box()
+
+    @abstractmethod
+    def compose_box(self) -> ComposeResult:
+        """What is in it."""
+
+    def on_mount(self) -> None:
+        """The title."""
+        self.query_one("#question").border_title = self.question
+
+    def action_none(self) -> None:
+        """Go back."""
+        self.dismiss(self.NOTHING)
 
 
-class Question(ModalScreen[str]):
+class Question(Dialog[str]):
     """A question: its title, what would be lost, and the answers; the screen's result is the word of one.
 
     `details` stand under the lines as far as there is room.  `safe` is the answer that is chosen at first.  Esc and F8
     answer GO BACK.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape,f8,alt+8,ctrl+q", "answer('GO BACK')", "Go back", show=False)
-    ]
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+q", "none", "Go back", show=False)]
+    NOTHING: ClassVar[str] = GO_BACK
 
     def __init__(
         self, title: str, lines: Sequence[str], answers: Sequence[Answer], safe: str, details: Sequence[str] = ()
     ) -> None:
-        super().__init__()
-        self.question, self.lines, self.details, self.safe = title, tuple(lines), tuple(details), safe
+        super().__init__(title, classes="-wide" if details else "")
+        self.lines, self.details, self.safe = tuple(lines), tuple(details), safe
         self.answers = (*answers, Answer(GO_BACK, "nothing changes"))
 
-    def compose(self) -> ComposeResult:
-        """A framed box: the loss, then one answer a line."""
-        with Vertical(id="question", classes="-wide" if self.details else ""):
-            yield PlainText("\n".join((*self.lines, *self.details)), id="loss")
-            yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
+    def compose_box(self) -> ComposeResult:
+        """The loss, then one answer a line."""
+        yield PlainText("\n".join((*self.lines, *self.details)), id="loss")
+        yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
 
     def on_mount(self) -> None:
         """The safe answer is chosen."""
-        self.query_one("#question").border_title = self.question
+        super().on_mount()
         words = [answer.word for answer in self.answers]
         self.query_one(OptionList).highlighted = words.index(self.safe)
 
@@ -110,10 +133,6 @@ class Question(ModalScreen[str]):
         if self.readable or event.option_id == GO_BACK:
             self.dismiss(event.option_id or GO_BACK)
 
-    def action_answer(self, word: str) -> None:
-        """Give an answer."""
-        self.dismiss(word)
-
     def on_key(self, event: events.Key) -> None:
         """A letter gives its answer at once; the softkeys beside the box are those of the screen behind it."""
         letter = (event.character or "").upper()
@@ -134,28 +153,21 @@ def _line(answer: Answer) -> str:
     return f" {key:<4}{answer.word}{f', {answer.effect}' if answer.effect else ''}"
 
 
-class Phrase(ModalScreen[str]):
+class Phrase(Dialog[str]):
     """A question that is answered by typing a phrase; Esc and F8 give an empty one.
 
     What `refusal` says of a phrase is shown below it, and the question stays.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "answer", "Go back", show=False)]
-
     def __init__(self, title: str, lines: Sequence[str], refusal: Callable[[str], str] | None = None) -> None:
-        super().__init__()
-        self.question, self.lines, self.refusal = title, tuple(lines), refusal
+        super().__init__(title)
+        self.lines, self.refusal = tuple(lines), refusal
 
-    def compose(self) -> ComposeResult:
-        """A framed box: what is asked, then the line to type in."""
-        with Vertical(id="question"):
-            yield PlainText("\n".join(self.lines), id="loss")
-            yield LineInput(id="phrase", compact=True)
-            yield PlainText(id="phrase-trouble")
-
-    def on_mount(self) -> None:
-        """The title."""
-        self.query_one("#question").border_title = self.question
+    def compose_box(self) -> ComposeResult:
+        """What is asked, then the line to type in."""
+        yield PlainText("\n".join(self.lines), id="loss")
+        yield LineInput(id="phrase", compact=True)
+        yield PlainText(id="phrase-trouble")
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
@@ -164,10 +176,6 @@ class Phrase(ModalScreen[str]):
             self.query_one("#phrase-trouble", Static).update(refused)
         else:
             self.dismiss(event.value)
-
-    def action_answer(self) -> None:
-        """Go back."""
-        self.dismiss("")
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,17 +198,14 @@ class NumberEntry:
         return value
 
 
-class NumberForm(ModalScreen[tuple[float, ...]]):
+class NumberForm(Dialog[tuple[float, ...]]):
     """A few numbers; Enter on the last one takes them, the result is empty for none.
 
     A text that cannot be read keeps the cursor and is said below; so is what `refusal` says of the numbers together.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape,f8,alt+8", "none", "Go back", show=False),
-        Binding("down", "app.focus_next", "Next", show=False),
-        Binding("up", "app.focus_previous", "Before", show=False),
-    ]
+    BINDINGS: ClassVar[list[BindingType]] = LINES_UP_AND_DOWN
+    NOTHING: ClassVar[tuple[float, ...]] = ()
 
     def __init__(
         self,
@@ -210,25 +215,23 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
         unit: Unit,
         refusal: Callable[..., str] | None = None,
     ) -> None:
-        super().__init__()
-        self.question, self.lines, self.entries, self.unit = title, tuple(lines), tuple(entries), unit
+        super().__init__(title)
+        self.lines, self.entries, self.unit = tuple(lines), tuple(entries), unit
         self.refusal = refusal
 
-    def compose(self) -> ComposeResult:
-        """A framed box: what is done, then a line a number."""
-        with Vertical(id="question"):
-            yield PlainText("\n".join(self.lines), id="loss")
-            for number, entry in enumerate(self.entries):
-                with Horizontal(classes="field"):
-                    yield PlainLabel(entry.label, classes="label")
-                    yield LineInput(entry.text, id=f"number-{number}", classes="number", compact=True)
-            yield PlainText(id="number-trouble")
+    def compose_box(self) -> ComposeResult:
+        """What is done, then a line a number."""
+        yield PlainText("\n".join(self.lines), id="loss")
+        for number, entry in enumerate(self.entries):
+            with Horizontal(classes="field"):
+                yield PlainLabel(entry.label, classes="label")
+                yield LineInput(entry.text, id=f"number-{number}", classes="number", compact=True)
+        yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
         """The title, and the keys."""
-        box = self.query_one("#question")
-        box.border_title = self.question
-        box.border_subtitle = "Enter: next   Esc: back"
+        super().on_mount()
+        self.query_one("#question").border_subtitle = "Enter: next   Esc: back"
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
@@ -259,63 +262,50 @@ class NumberForm(ModalScreen[tuple[float, ...]]):
     def _say(self, text: str) -> None:
         self.query_one("#number-trouble", Static).update(text)
 
-    def action_none(self) -> None:
-        """Go back."""
-        self.dismiss(())
 
+class ChooseLine(Dialog[str]):
+    """A list to choose from, the cursor on the option `here`; the result is an option's id, empty with Esc and F8."""
 
-class ChooseLine(ModalScreen[str]):
-    """A list to choose from: each row has its result and its words; Esc and F8 give an empty result."""
+    def __init__(self, title: str, options: Sequence[Option], here: str = "", *, classes: str = "") -> None:
+        super().__init__(title, classes=classes)
+        self.options, self.here = tuple(options), here
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
-
-    def __init__(self, title: str, rows: Sequence[tuple[str, str]]) -> None:
-        super().__init__()
-        self.question, self.rows = title, tuple(rows)
-
-    def compose(self) -> ComposeResult:
-        """A framed list."""
-        with Vertical(id="question"):
-            yield OptionRows(*(Option(words, id=result) for result, words in self.rows), id="answers")
+    def compose_box(self) -> ComposeResult:
+        """The list."""
+        yield OptionRows(*self.options, id="answers")
 
     def on_mount(self) -> None:
-        """The cursor on the first row."""
-        self.query_one("#question").border_title = self.question
-        self.query_one(OptionList).highlighted = 0 if self.rows else None
+        """The cursor on its row, else on the first."""
+        super().on_mount()
+        ids = [option.id for option in self.options]
+        self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0 if ids else None
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
         self.dismiss(event.option_id or "")
 
-    def action_none(self) -> None:
-        """Go back."""
-        self.dismiss("")
 
-
-class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
+class ChooseSeveral(Dialog["frozenset[str] | None"]):
     """A list of which several can be chosen: Space marks, Enter takes what is marked; Esc and F8 give None.
 
     Each row has its result and its words; `chosen` are the results that are marked at first.
     """
 
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape,f8,alt+8", "none", "Go back", show=False),
-        Binding("space", "mark", "Mark", show=False),
-    ]
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "mark", "Mark", show=False)]
+    NOTHING: ClassVar[None] = None
 
     def __init__(self, title: str, rows: Sequence[tuple[str, str]], chosen: Collection[str]) -> None:
-        super().__init__()
-        self.question, self.rows, self.chosen = title, tuple(rows), set(chosen)
+        super().__init__(title)
+        self.rows, self.chosen = tuple(rows), set(chosen)
 
-    def compose(self) -> ComposeResult:
-        """A framed list."""
-        with Vertical(id="question"):
-            yield PlainText("Space marks, Enter takes what is marked.", id="loss")
-            yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
+    def compose_box(self) -> ComposeResult:
+        """The list."""
+        yield PlainText("Space marks, Enter takes what is marked.", id="loss")
+        yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
-        self.query_one("#question").border_title = self.question
+        super().on_mount()
         self.query_one(OptionList).highlighted = 0 if self.rows else None
 
     def _words(self, row: int) -> Content:
@@ -332,7 +322,3 @@ class ChooseSeveral(ModalScreen["frozenset[str] | None"]):
     @on(OptionList.OptionSelected)
     def _selected(self) -> None:
         self.dismiss(frozenset(self.chosen))
-
-    def action_none(self) -> None:
-        """Go back."""
-        self.dismiss(None)

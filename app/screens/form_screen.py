@@ -9,6 +9,7 @@ from textual import on, work
 from textual.binding import Binding, BindingType
 from textual.widget import Widget
 from textual.widgets import Input, Select
+from textual.widgets.option_list import Option
 
 from app.screens.base import BaseScreen
 from app.screens.dialogs import ChooseLine
@@ -303,7 +304,8 @@ class FormScreen(BaseScreen):
         from core.program.calculator import CASES, outputs_for
 
         cases = {case.name: case for case in CASES if outputs_for(case, field.kind)}
-        name = await self.app.push_screen_wait(ChooseLine("CALCULATOR", [(each, f" {each}") for each in cases]))
+        rows = [Option(f" {each}", id=each) for each in cases]
+        name = await self.app.push_screen_wait(ChooseLine("CALCULATOR", rows))
         if not name:
             return
         dialog = Calculator(cases[name], field, self.current_session.program.unit, self._sums.get(name, {}))

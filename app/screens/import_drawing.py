@@ -28,8 +28,9 @@ from app.documents.drawing_files import (
     prepare_workers,
 )
 from app.documents.programs import empty_program
+from app.documents.questions import GO_BACK, Answer
 from app.screens.base import BaseScreen
-from app.screens.dialogs import GO_BACK, Answer, ChooseSeveral, NumberEntry, NumberForm, Question
+from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question
 from app.session.messages import Sentence, Tone
 from app.session.words import length, place
 from app.widgets.contour_table import ContourTable

@@ -11,8 +11,9 @@ from textual.content import Content
 from textual.widgets import Static
 
 from app.documents.naming import typed
+from app.documents.questions import Answer
 from app.documents.tool_tables import merged, read_table, tool_line
-from app.screens.dialogs import Answer, Question
+from app.screens.dialogs import Question
 from app.screens.entry_screen import EntryScreen
 from app.session.messages import Sentence, Tone
 from app.widgets.plain import PlainText

@@ -10,7 +10,8 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 
-from app.screens.dialogs import Answer, Question
+from app.documents.questions import Answer
+from app.screens.dialogs import Question
 from app.screens.form_screen import FormScreen
 from app.screens.values import cell_of
 from app.session.messages import Sentence

@@ -252,7 +252,7 @@ async def test_a_question_for_which_there_is_no_room_is_not_answered_unread():
         assert isinstance(one.app, CutcompApp)
         answers: list[str | None] = []
         lines = ["part.toml is open on another terminal since 7:15. Look at it, or take it over."]
-        from app.screens.dialogs import Answer
+        from app.documents.questions import Answer
 
         one.app.push_screen(
             Question("OPEN ALREADY", lines, [Answer("LOOK"), Answer("TAKE OVER")], "LOOK"), answers.append

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from textual.widgets import OptionList
 
-from app.screens.dialogs import Answer, Question
+from app.documents.questions import Answer
+from app.screens.dialogs import Question
 from core.program.model import Number
 from tests.app.widget_pilot import operator
 
