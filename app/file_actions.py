@@ -6,7 +6,6 @@ The document service decides and knows no screen; what it asks is asked here in 
 from __future__ import annotations
 
 import asyncio
-from abc import abstractmethod
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, wait
 from dataclasses import replace
@@ -15,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from textual import work
-from textual.app import App
 
+from app.desk import Desk
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.files import refuse_program, why, write_data, write_output
 from app.documents.folders import chosen, short_path, written_at
@@ -40,15 +39,18 @@ from app.documents.questions import (
 )
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from app.documents.settings import Settings, SettingsFile
+from app.screens.base import BaseScreen
 from app.screens.dialogs import Phrase, Question
+from app.session.derivation import Request
 from app.session.messages import Tone
 from app.session.session import SEGMENT, Session
+from core.program.edit import Edited, FormPlace, Refused
 from core.program.file.read import StoreError
 from core.units import Unit
 
 if TYPE_CHECKING:
     from app.nc_proof.screen import ProofScreen
-    from app.screens.base import BaseScreen
+    from core.pipeline.checking import Asked
 
 Result = TypeVar("Result")
 
@@ -56,7 +58,7 @@ NO_ANSWER: Final = "The folder does not answer: still trying. You can go on; it 
 ANSWERS: Final = "The folder answers again: all work is on the disk."
 
 
-class FileActions(App[int]):
+class FileActions(Desk):
     """The App's side of files; `service` is None where nothing is to be kept, as in a test of one screen.
 
     All work on files is done by `disk`, one piece after the other.  The keys wait half a second for it; then they go
@@ -74,68 +76,12 @@ class FileActions(App[int]):
         self._behind = set[Future[Any]]()
         self._edited_meanwhile = False
 
-    # ---- what the App itself has
-
-    @abstractmethod
-    def drop_empty_segment(self) -> None:
-        """Take a new segment with the cursor away in which nothing was typed."""
-
-    @abstractmethod
-    def begin(self, session: Session) -> None:
-        """Work on another program from now on."""
-
-    @abstractmethod
-    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line."""
-
-    @abstractmethod
-    def quiet(self) -> None:
-        """The prompts again, on every screen."""
-
-    @abstractmethod
-    def take_typed(self) -> bool:
-        """Take what is half-typed on the screen in front; False where it is refused."""
-
-    @abstractmethod
-    def bring_form(self) -> None:
-        """MILL CONTOUR to the front."""
-
-    @abstractmethod
-    def bring_proof(self, proof: ProofScreen) -> None:
-        """An NC PROOF that is open to the front."""
-
-    @abstractmethod
-    def show_folder(self, folder: Path, at: Path | None = None) -> None:
-        """HOME with the files of a folder, the cursor on one of them."""
-
-    @abstractmethod
-    def show_nc(self, document: NcDocument) -> None:
-        """NC PROOF on a text."""
-
-    @property
-    @abstractmethod
-    def proof(self) -> ProofScreen | None:
-        """NC PROOF, where it is in front."""
-
-    @property
-    @abstractmethod
-    def proofs(self) -> list[ProofScreen]:
-        """Every NC PROOF that is open."""
-
-    @abstractmethod
-    def show_screen(self, screen: BaseScreen) -> None:
-        """A screen over all others."""
-
-    @abstractmethod
-    def begin_guide(self) -> None:
-        """Lead through a first part from now on."""
-
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
         """IMPORT on a drawing: its contours go to the open program, which takes the drawing's unit if it is `fresh`."""
         # shapely and numpy are not needed by the first paint
         from app.screens.import_drawing import ImportScreen
 
-        self.show_screen(ImportScreen(path, fresh=fresh))
+        self.push_screen(ImportScreen(path, fresh=fresh))
 
     # ---- the disk, which may not answer
 
@@ -202,6 +148,76 @@ class FileActions(App[int]):
         for document in self._all_open():
             self.keep_document(document)
 
+    def apply(self, edited: Edited, label: str) -> bool:
+        """Take an edit, or say why it is refused; whether it was taken."""
+        if isinstance(edited, Refused):
+            self.say(edited.text, Tone.ERROR)
+            return False
+        if self.looking:
+            self.try_out(None)
+            self.say(self.looking, Tone.ERROR)
+            return False
+        self._change(self.session.with_program(edited, label))
+        return True
+
+    def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
+        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field.
+
+        A new segment in which nothing was typed is gone once the cursor has left it.
+        """
+        session, here = self.session, self.session.place
+        if place != here and (rest := session.without_empty()) is not session:
+            session = rest
+            if place.block == here.block and place.segment > here.segment:
+                place = FormPlace(place.block, place.segment - 1)
+        self._change(session.at(place, field))
+
+    def action_undo(self) -> None:
+        """Take one edit back; what is half-typed is forgotten."""
+        if isinstance(self.screen, BaseScreen) and self.screen.take_over("undo"):
+            return
+        self._forget_typed()
+        label = self.session.history.undo_label
+        if label is None:
+            self.say("There is nothing to undo.")
+            return
+        self._change(self.session.undone())
+        self.say(f"Undone: {label}. Ctrl+Y brings it back.")
+
+    def action_redo(self) -> None:
+        """Make one undone edit again; what is half-typed is forgotten."""
+        if isinstance(self.screen, BaseScreen) and self.screen.take_over("redo"):
+            return
+        self._forget_typed()
+        label = self.session.history.redo_label
+        if label is None:
+            self.say("There is nothing to redo.")
+            return
+        self._change(self.session.redone())
+        self.say(f"Done again: {label}.")
+
+    def _forget_typed(self) -> None:
+        if isinstance(self.screen, BaseScreen):
+            self.screen.forget_typed()
+
+    def _change(self, session: Session) -> None:
+        """The journal first, then the session, then what follows from it."""
+        before = self.session
+        if session is before:
+            # such as a number typed over with the same one
+            self.try_out(None)
+            return
+        self.keep(session)
+        self.session = session
+        self.shown = session
+        self._advise_later()
+        if session.program is not before.program:
+            self._derive(Request(session.program))
+
+    def drop_empty_segment(self) -> None:
+        """Take a new segment with the cursor away in which nothing was typed."""
+        self._change(self.session.without_empty())
+
     def tell(self, notice: Notice | None) -> None:
         """What the service has to say."""
         if notice is not None:
@@ -235,7 +251,7 @@ class FileActions(App[int]):
         else:
             self.document = document
             self.begin(session_of(document))
-            self.bring_form()
+            self._uncover(0)
             if document.file.path is not None:
                 self.keep_settings(self.settings.using(document.file.path))
         self.tell_and_ask(opened)
@@ -326,9 +342,9 @@ class FileActions(App[int]):
         if not again or document.kind is not self.document.kind:
             proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
             if proof is None:
-                self.bring_form()
+                self._uncover(0)
             else:
-                self.bring_proof(proof)
+                self._uncover(self.screen_stack.index(proof))
             self.say(trouble.text)
         elif await self.may_close("OPEN AGAIN?", self._all_open()):
             await self.close_documents(self._all_open())
@@ -347,7 +363,7 @@ class FileActions(App[int]):
     async def action_guide(self) -> None:
         """A first part, step by step."""
         if await self._new("GUIDED FIRST PART?", Unit.IN):
-            self.begin_guide()
+            self.guided = True
 
     async def _new(self, title: str, unit: Unit) -> bool:
         """Work on a new program where everything that is open may be closed; whether it may."""
@@ -387,6 +403,20 @@ class FileActions(App[int]):
 
         await self.on_disk(close)
 
+    def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
+        """NC PROOF on a text, with the control, the tools and the unit that were asked for at the start."""
+        from app.nc_proof.screen import ProofScreen
+
+        path, settings = document.file.path, self.settings
+        remembered = "" if path is None else settings.tools_of(path)
+        self.push_screen(ProofScreen(document, self.keep_document, asked, settings.control, remembered))
+
+    def show_folder(self, folder: Path, at: Path | None = None) -> None:
+        """HOME with the files of a folder, the cursor on one of them."""
+        from app.screens.home import HomeScreen
+
+        self.push_screen(HomeScreen(folder, at))
+
     # ---- save
 
     def action_save(self) -> None:
@@ -406,18 +436,14 @@ class FileActions(App[int]):
 
         path = self.document.file.path if self.proof is None else self.proof.document.file.path
         name = str(path) if path is not None else f"{self.document.title or 'part'}.toml"
-        self.show_screen(SaveAsScreen(name))
+        self.push_screen(SaveAsScreen(name))
 
     def action_open_path(self) -> None:
         """Ask for the path of a file to open."""
         from app.screens.save_and_open import OpenPathScreen
 
         folder = self.settings.folder
-        self.show_screen(OpenPathScreen(f"{folder}/" if folder else ""))
-
-    def action_import_drawing(self) -> None:
-        """Ask for the path of a drawing."""
-        self.action_open_path()
+        self.push_screen(OpenPathScreen(f"{folder}/" if folder else ""))
 
     def save_as(self, text: str) -> None:
         """Save under a typed name; while a folder does not answer, only a copy on another disk."""
@@ -560,17 +586,12 @@ class FileActions(App[int]):
         if result is None:
             return False
         self.document = self.document.after_saving(result.document)
-        self.begin(session_of(self.document, self.current_session))
+        self.begin(session_of(self.document, self.session))
         if self.document.file.path is not None:
             self.keep_settings(self.settings.using(self.document.file.path))
         self.quiet()
         self.notify(result.notice.text, timeout=4)
         return True
-
-    @property
-    @abstractmethod
-    def current_session(self) -> Session:
-        """The session as it is now."""
 
     # ---- leave
 

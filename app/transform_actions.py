@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Final
 
 from textual import work
-from textual.app import App
 
+from app.file_actions import FileActions
 from app.screens.dialogs import NumberEntry, NumberForm
-from app.session.session import Session
 from core.program import transform
 from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm
@@ -22,18 +20,8 @@ ANGLE: Final = NumberEntry("ANGLE", Kind.ANGLE, "90")
 COPIES: Final = NumberEntry("COPIES", Kind.COUNT, "1")
 
 
-class TransformActions(App[int]):
+class TransformActions(FileActions):
     """The App's side of shapes."""
-
-    session: Session
-
-    @abstractmethod
-    def apply(self, edited: Edited, label: str) -> bool:
-        """Take an edit, or say why it is refused."""
-
-    @abstractmethod
-    def quiet(self) -> None:
-        """The prompts again, on every screen."""
 
     async def _edited(
         self, title: str, line: str, entries: Sequence[NumberEntry], edit: Callable[..., Edited]

@@ -16,7 +16,7 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any, ClassVar, Final, Protocol, cast
@@ -119,8 +119,8 @@ class Host(Protocol):
         """An NC program has these tools from now on."""
 
     @property
-    def proof_is_open(self) -> bool:
-        """Whether an NC PROOF is open, in front or below."""
+    def proofs(self) -> Sequence[Screen[None]]:
+        """Every NC PROOF that is open."""
 
     def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
         """Work on a file, or offer the work of a kept copy; what is not saved is asked about."""

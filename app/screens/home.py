@@ -65,7 +65,7 @@ class HomeScreen(BaseScreen):
         Softkey("NEW MM", "app.new('MM')", "MM"),
         Softkey("OPEN A PATH", "app.open_path", "PATH"),
         Softkey("FOLDER ABOVE", "folder_above", "ABOVE"),
-        Softkey("NC PROOF", "app.nc_proof", "PROOF"),
+        Softkey("NC PROOF", "app.open_path", "PROOF"),
         Softkey("GUIDED FIRST PART", "app.guide", "GUIDE"),
         Softkey("QUIT", "app.quit", "QUIT"),
     )
@@ -243,7 +243,7 @@ class HomeScreen(BaseScreen):
     async def action_leave(self) -> None:
         """Back to the work that is open, where there is any: an empty form is nobody's."""
         session = self.current_session
-        if session.file is None and not session.unsaved and not self.host.proof_is_open:
+        if session.file is None and not session.unsaved and not self.host.proofs:
             self.say("Enter opens a file, F2 and F3 start a new part, F8 quits.")
         else:
             await self.run_action("app.back")

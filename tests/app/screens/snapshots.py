@@ -80,7 +80,7 @@ def on(start: str | Program, stages: Mapping[str, str]) -> Part:
     """A walk on the form of another program."""
 
     def begin(app: CutcompApp) -> None:
-        app.bring_form()
+        app._uncover(0)
         app.begin(session_on(start))
 
     return begin, stages

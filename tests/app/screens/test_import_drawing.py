@@ -445,7 +445,7 @@ async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
         await one.settle()
         await one.press("ctrl+k", *["'i", "'m", "'p", "'o", "'r", "'t"], "'d")
         await one.press("ctrl+k")
-        await app.run_action("app.import_drawing")
+        await app.run_action("app.open_path")
         await one.settle()
         await one.press("p", "l", "a", "t", "e", "full_stop", "d", "x", "f", "enter")
         await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
