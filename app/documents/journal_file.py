@@ -24,9 +24,6 @@ Record = Mapping[str, Any]
 
 SUFFIX: Final = ".cutcomp-journal"
 
-NAMELESS: Final[int] = getattr(os, "O_TMPFILE", 0)
-"""Opens a file without a name in a folder; 0 where the system has none."""
-
 
 @dataclass(slots=True)
 class JournalFile:
@@ -70,48 +67,8 @@ class JournalFile:
                 self.aside = set_aside(self.path, "kept")
             else:
                 self.path.unlink()
-        handle = self._filled_first()
-        if handle is None:
-            handle = self._named_first()
-        sync_folder(self.path.parent)
-        self.handle, self.length, self.unwritten = handle, len(self.unwritten), b""
-
-    def _filled_first(self) -> int | None:
-        """A file that has its name when all is in it; None where the file system has no files without a name.
-
-        Behind a save it begins with all that the one before held: the first half of it would be older work, and would
-        be offered instead of what was saved.
-        """
-        if not NAMELESS:
-            return None
-        try:
-            handle = os.open(self.path.parent, NAMELESS | os.O_RDWR | os.O_APPEND | os.O_CLOEXEC, 0o600)
-        except OSError:
-            return None
-        try:
-            self._fill(handle, self.unwritten)
-            _name(handle, self.path)
-        except OSError:
-            os.close(handle)
-            return None
-        return handle
-
-    def _named_first(self) -> int:
-        handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
-        try:
-            self._fill(handle, self.unwritten)
-        except OSError:
-            os.close(handle)
-            with suppress(OSError):
-                self.path.unlink()
-            raise
-        return handle
-
-    def _fill(self, handle: int, data: bytes) -> None:
-        if self.program is not None:
-            _share(handle, self.program)
-        write_all(handle, data)
-        os.fsync(handle)
+        handle, data = self._beside_first(self.unwritten), self.unwritten
+        self.handle, self.length, self.unwritten = handle, len(data), b""
 
     def replace(self, records: Iterable[Record]) -> None:
         """Put a journal with these lines in the place of this one, in one step; OSError leaves the one that stands."""
@@ -127,12 +84,15 @@ class JournalFile:
         self.unwritten, self.total, self.length, self.handle = b"", total, len(data), handle
 
     def _beside_first(self, data: bytes) -> int:
-        """The open file, written beside its place and renamed into it."""
+        """The open file, written beside its place and renamed into it: half of it would be offered as older work."""
         new = new_path(self.path)
         new.unlink(missing_ok=True)
         handle = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
         try:
-            self._fill(handle, data)
+            if self.program is not None:
+                _share(handle, self.program)
+            write_all(handle, data)
+            os.fsync(handle)
             new.replace(self.path)
         except OSError:
             os.close(handle)
@@ -156,7 +116,7 @@ class JournalFile:
         if self.handle is None:
             return None
         status = os.fstat(self.handle)
-        for path in chain((self.path,), _asides_later(self.path)):
+        for path in chain((self.path,), asides(self.path)):
             with suppress(OSError):
                 if os.path.samestat(path.stat(), status):
                     return path
@@ -207,21 +167,16 @@ def new_path(path: Path) -> Path:
     return path.with_name(f"{path.name}.new")
 
 
-def asides(path: Path) -> list[Path]:
-    """The journals that were moved aside from a place, the last one first."""
-    begin = f"{place_of(path).name}."
+def asides(path: Path) -> Iterator[Path]:
+    """The journals that were moved aside from a place, the last one first; looked for when the first is asked for."""
+    begin, new = f"{place_of(path).name}.", new_path(place_of(path)).name
     dated = list[tuple[int, Path]]()
     with suppress(OSError), os.scandir(path.parent) as inside:
         for entry in inside:
-            if entry.name.startswith(begin):
+            if entry.name.startswith(begin) and entry.name != new:
                 with suppress(OSError):
                     dated.append((entry.stat().st_mtime_ns, Path(entry.path)))
-    return [path for _, path in sorted(dated, reverse=True)]
-
-
-def _asides_later(path: Path) -> Iterator[Path]:
-    """The same; the folder is not looked through before the first one is asked for."""
-    yield from asides(path)
+    yield from (path for _, path in sorted(dated, reverse=True))
 
 
 def place_of(path: Path) -> Path:
@@ -243,16 +198,6 @@ def set_aside(path: Path, why: str) -> Path:
     path.rename(aside)
     sync_folder(aside.parent)
     return aside
-
-
-def _name(handle: int, path: Path) -> None:
-    """Give an open file without a name this one; OSError where it is taken."""
-    folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-    try:
-        # only with a folder it is the file that is named, and not the link to it in /proc
-        os.link(f"/proc/self/fd/{handle}", path.name, dst_dir_fd=folder, follow_symlinks=True)
-    finally:
-        os.close(folder)
 
 
 def _share(handle: int, program: Path) -> None:

@@ -29,7 +29,7 @@ from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.screens.values import prompt_of
-from app.session.block_findings import Entry, block_findings, remedy
+from app.session.block_findings import TO_TYPE, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
@@ -42,7 +42,7 @@ from app.widgets.picture import Picture
 from app.widgets.plain import PlainLabel
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey
-from app.widgets.verdict import STILL_TO_TYPE, Case, Verdict
+from app.widgets.verdict import Case, Verdict
 from core.finding import Finding, Severity
 from core.program import fields as table
 from core.program.edit import (
@@ -445,7 +445,7 @@ class ContourScreen(FormScreen):
         session = self.current_session
         for finding in session.derived_block.findings:
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
-            to_type = finding.code in STILL_TO_TYPE
+            to_type = finding.code in TO_TYPE
             if here and finding.severity is Severity.ERROR and (session.block.segments or not to_type):
                 tone = Tone.WARNING if to_type else Tone.ERROR
                 return Sentence(sentence(finding, session.program.unit) + self._or_later(finding), tone)
@@ -470,7 +470,7 @@ class ContourScreen(FormScreen):
             text += f" Or F7: point to the end of segment {finding.segment:g}."
         elif len(text) < self.size.width - 1:
             text += f"\n{prompt}"
-        return Sentence(text, Tone.WARNING if finding.code in STILL_TO_TYPE else Tone.ERROR)
+        return Sentence(text, Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR)
 
     def prompt_text(self) -> Sentence:
         """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be; in a list what its keys do."""

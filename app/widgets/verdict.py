@@ -19,6 +19,8 @@ from textual.reactive import reactive
 from textual.widgets import Static
 
 from app.documents.survey import Outcome
+from app.session.block_findings import TO_TYPE
+from app.session.posting import deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
 from core.pipeline.derived import DerivedBlock
@@ -26,15 +28,12 @@ from core.units import Unit, sentence
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Row, Table
-    from core.comp.compensated import Compensated
     from core.verify.verdict import Verdict as Judgment
 
 HIGHEST: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """Cells of the chips' line on the narrowest screens."""
-STILL_TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
-"""Errors that only say that a block is still to be typed."""
 
 
 OUTCOME_ROLES: Final = {
@@ -73,7 +72,7 @@ MARKS: Final[Mapping[str, Marks]] = MappingProxyType(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
-    """The path the verdict is about: that of the block, or of a row of the look-ahead table.
+    """The block whose path the verdict is about.
 
     `working` is the part of the calculation that is done, None where all of it is; the verdict is the last one until
     then, and also where the calculation was `stopped`.
@@ -82,34 +81,13 @@ class Case:
     block: DerivedBlock
     table: Table | None
     unit: Unit
-    row: Row | None = None
     working: float | None = None
     stopped: bool = False
 
     @property
     def judgment(self) -> Judgment | None:
         """What is known of the path, None while nothing is."""
-        if self.row is not None:
-            return self.row.verdict
         return None if self.block.paths is None else self.block.paths.verdict
-
-    @property
-    def control_path(self) -> Compensated | None:
-        """The control's path, None for the best one, which deletes nothing."""
-        if self.row is not None:
-            return self.row.compensated
-        work = self.block.paths
-        return None if work is None or work.best is not None else work.compensated
-
-    @property
-    def deleted(self) -> str:
-        """The numbers of the segments that are deleted."""
-        return "" if self.control_path is None else segment_numbers(self.control_path.deleted.segments.tolist())
-
-    @property
-    def lookahead(self) -> int:
-        """The value the verdict is about."""
-        return self.block.lookahead.value if self.row is None else self.row.value
 
 
 class Verdict(Vertical):
@@ -154,13 +132,9 @@ def title(case: Case) -> str:
         return "CUTTER COMP. ON: the tool center runs on the contour"
     known = "" if case.working is None else f"  working {round(100 * case.working)} %"
     known = "  stopped" if case.stopped else known
-    name = "PATH BEST" if case.control_path is None and block.paths is not None else _lookahead(case)
+    best = block.paths is not None and block.paths.best is not None
+    name = "PATH BEST" if best else f"LOOK-AHEAD {block.lookahead.tag} {block.lookahead.value}"
     return f"{name}{known or _effect(case)}"
-
-
-def _lookahead(case: Case) -> str:
-    tag = "" if case.row is not None else f"{case.block.lookahead.tag} "
-    return f"LOOK-AHEAD {tag}{case.lookahead}"
 
 
 def _effect(case: Case) -> str:
@@ -175,8 +149,8 @@ def _effect(case: Case) -> str:
     if not judgment.judged:
         return " is not judged"
     effect = " leaves stock uncut" if judgment.uncut else " is clean"
-    if case.deleted:
-        effect = f" deletes {_segments(case.deleted)}"
+    if deleted := deleted_segments(case.block):
+        effect = f" deletes {_segments(deleted)}"
     return f"{effect}{_only(case.block)}"
 
 
@@ -202,7 +176,7 @@ def strip(case: Case, marks: Marks) -> Content:
     for value in range(1, HIGHEST + 1):
         row = None if case.table is None else case.table.row(value)
         role, mark = _fate(row, marks)
-        here = value == case.lookahead
+        here = value == case.block.lookahead.value
         parts.append((f" {value} ", f"bold reverse {role}") if here else (mark, role))
     parts.append((f" {HIGHEST}", "$c-label"))
     parts.append((f"   {_advice(case)}", "$c-label"))
@@ -225,7 +199,7 @@ def _advice(case: Case) -> str:
     best = case.table.recommended
     if best is None:
         return "none is clean, F10 says why" if case.table.notes else "no value is clean"
-    if best == case.lookahead:
+    if best == case.block.lookahead.value:
         return "this is best"
     row = case.table.row(best)
     if deleted := segment_numbers(row.deleted):
@@ -244,25 +218,25 @@ def chips(case: Case, marks: Marks) -> Content:
     left = length(judgment.uncut_length, case.unit)
     whole = not isfinite(judgment.uncut_length) or judgment.uncut
     uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if whole else (f"{marks.good} UNCUT none", "$c-good")
-    gone = (f"{marks.deleted} DELETED {case.deleted}", "$c-deleted")
-    deleted = gone if case.deleted else (f"{marks.good} DELETED none", "$c-good")
+    gone = deleted_segments(case.block)
+    deleted = (f"{marks.deleted} DELETED {gone}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
     return _row((gouge, uncut, deleted))
 
 
 def _stopped_short(case: Case) -> bool:
     """Whether the path ends before a segment with an error, and does no harm up to there."""
     block = case.block
-    open_end = case.row is None and not block.solved.whole and not (case.judgment and case.judgment.gouges)
+    open_end = not block.solved.whole and not (case.judgment and case.judgment.gouges)
     # a run that waits for more numbers is told on the prompt
-    return open_end and any(finding.code not in STILL_TO_TYPE | {"NOT_YET"} for finding in block.errors)
+    return open_end and any(finding.code not in TO_TYPE | {"NOT_YET"} for finding in block.errors)
 
 
 def _in_the_way(case: Case, marks: Marks) -> Content:
     """The first error, as much of its sentence as has room; F10 lists it in full."""
     if not case.block.known or not case.block.errors:
         return Content("")
-    first = next((one for one in case.block.errors if one.code not in STILL_TO_TYPE), case.block.errors[0])
-    role = "$c-warn" if first.code in STILL_TO_TYPE else "$c-err"
+    first = next((one for one in case.block.errors if one.code not in TO_TYPE), case.block.errors[0])
+    role = "$c-warn" if first.code in TO_TYPE else "$c-err"
     text = f"{marks.gouge} {sentence(first, case.unit)}"
     # the prompt and F10 say what follows
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
@@ -288,7 +262,7 @@ def _row(found: Iterable[tuple[str, str]]) -> Content:
 
 def first_step(block: DerivedBlock) -> str:
     """What to do in a block without segments; a text that cannot be read is an error even there."""
-    if block.block.segments or any(finding.code not in STILL_TO_TYPE for finding in block.errors):
+    if block.block.segments or any(finding.code not in TO_TYPE for finding in block.errors):
         return ""
     if any(finding.code == "MISSING" for finding in block.errors):
         return "Type START, then right arrow for segment 1."
