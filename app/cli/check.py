@@ -20,7 +20,6 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.cli.control_options import (
-    Unusable,
     add_options,
     bytes_of,
     control_of,
@@ -29,6 +28,7 @@ from app.cli.control_options import (
     tools_of,
     unit_of,
 )
+from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, Unusable, reported, say
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.control_tools import commented_size
@@ -43,25 +43,14 @@ JSON_VERSION: Final = 1
 FILES_AT_ONCE: Final = 4
 """Files that a process is given at a time, at most: more would keep the first answers back."""
 
-CLEAN: Final = 0
-FINDINGS: Final = 1
-UNUSABLE: Final = 2
-
 MOST_NAMES: Final = 10
 """Suffixes of files left out that are named."""
 
 
+@reported
 def check(arguments: list[str]) -> int:
     """Runs the command; returns 0 for clean, 1 for errors found, 2 for what cannot be used."""
     options = _parser().parse_args(arguments)
-    try:
-        return _done(options)
-    except Unusable as trouble:
-        print(f"cutcomp: {trouble}", file=sys.stderr)
-        return UNUSABLE
-
-
-def _done(options: argparse.Namespace) -> int:
     asked = _asked(options)
     paths = list(_programs(options.files))
     if options.contour:
@@ -109,7 +98,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
             names = " ".join(map(printable, sorted(others)[:MOST_NAMES]))
             count = counted(len(every) - len(found), "file")
             text = f"{name_of(path)}: {count} left out that are no programs by their names: {names}"
-            print(f"cutcomp: {text}", file=sys.stderr)
+            say(text)
         yield from found or [path]
 
 
@@ -196,7 +185,7 @@ def _status(checked: _Checked) -> int:
 def _told(checked: _Checked) -> int:
     """A file's status; what could not be read is said on standard error."""
     if checked.unusable:
-        print(f"cutcomp: {checked.unusable}", file=sys.stderr)
+        say(checked.unusable)
     return _status(checked)
 
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, say
+from app.cli.shell import CLEAN, FINDINGS, Unusable, reported, say
 from app.documents.files import load, load_from
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.file.read import StoreError
@@ -30,10 +29,6 @@ OTHER_PICTURES: Final = frozenset(
     (".bmp", ".dwg", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
 )
 """Endings of pictures that a drawing is not written as: who opens the file would be told that it is broken."""
-
-
-class Unusable(Exception):
-    """The arguments or the file cannot be used; the text says why and what to do."""
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
@@ -66,17 +61,6 @@ def _with_lookahead(program: Program, text: str) -> Program:
     else:
         raise Unusable(f"--lookahead {text}: type {LOWEST} to {HIGHEST}, or cal.")
     return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))
-
-
-def _command(action: Callable[[argparse.Namespace], int]) -> Callable[[argparse.Namespace], int]:
-    def run(options: argparse.Namespace) -> int:
-        try:
-            return action(options)
-        except Unusable as error:
-            say(str(error))
-            return UNUSABLE
-
-    return run
 
 
 def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
@@ -220,8 +204,8 @@ def _deliver(text: str, output: Path | None) -> None:
 
 
 COMMANDS: Final = {
-    "path": _command(path),
-    "lookahead": _command(lookahead),
-    "post": _command(post),
-    "plot": _command(plot),
+    "path": reported(path),
+    "lookahead": reported(lookahead),
+    "post": reported(post),
+    "plot": reported(plot),
 }

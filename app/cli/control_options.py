@@ -5,16 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from app.cli.shell import Unusable
 from app.documents.files import read_file, why
 from app.documents.nc_text import MAX_NC_BYTES
 from core.controls.control_tools import CutterTool, ToolTable, read_table, tool_id
 from core.controls.program_text import quoted
 from core.program.tools import table_faults
 from core.units import Kind, Unit, Unreadable, parse
-
-
-class Unusable(Exception):
-    """Arguments or a file that cannot be used; the text says why."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

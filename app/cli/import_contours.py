@@ -9,10 +9,9 @@ from math import isfinite, nan
 from pathlib import Path
 from typing import Final
 
-from app.cli.control_options import Unusable as UnusableOptions
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
 from app.cli.drawing_list import Asked, list_drawing
-from app.cli.shell import CLEAN, UNUSABLE, say
+from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
@@ -38,10 +37,6 @@ UNITS: Final = {
 }
 
 
-class Unusable(Exception):
-    """The arguments or the file cannot be used; the text says why and what to do."""
-
-
 def import_contours(arguments: list[str]) -> int:
     """Runs the command; returns 0, or 2 for what cannot be used."""
     options = _parser().parse_args(arguments)
@@ -55,7 +50,7 @@ def import_contours(arguments: list[str]) -> int:
         more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
         say(f"{with_tool_option(str(error))}{more}")
         return UNUSABLE
-    except (Unusable, UnusableOptions, StoreError, NotTaken) as error:
+    except (Unusable, StoreError, NotTaken) as error:
         say(str(error))
         return UNUSABLE
     except DrawingError as error:

@@ -5,25 +5,21 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.cli.shell import UNUSABLE, prepare, say
+from app.cli.shell import Unusable, prepare, reported
 
 
+@reported
 def proof(arguments: list[str]) -> int:
     """Run the command; returns the exit status."""
-    from app.cli.control_options import Unusable, control_of, tools_of, unit_of
+    from app.cli.control_options import control_of, tools_of, unit_of
     from app.documents.programs import is_nc
     from core.pipeline.checking import Asked
 
     options = _parser().parse_args(arguments)
-    try:
-        control = "" if options.control is None else control_of(options.control)
-        asked = Asked(control, tools_of(options), shop=False, unit=unit_of(options))
-    except Unusable as trouble:
-        say(str(trouble))
-        return UNUSABLE
+    control = "" if options.control is None else control_of(options.control)
+    asked = Asked(control, tools_of(options), shop=False, unit=unit_of(options))
     if options.file.is_file() and not is_nc(options.file):
-        say(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
-        return UNUSABLE
+        raise Unusable(f"{options.file} is a program, not an NC file: cutcomp {options.file} opens it.")
     prepare()
     from app.cli.screens import run
 

@@ -5,8 +5,12 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from functools import wraps
+from typing import Final, TypeVar
+
+Asked = TypeVar("Asked")
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
@@ -35,6 +39,24 @@ class TerminalOptions:
     characters: str = ""
     light: bool = False
     mouse: bool = False
+
+
+class Unusable(Exception):
+    """Arguments or a file that cannot be used; the text says why and what to do."""
+
+
+def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
+    """The command, which says what cannot be used and returns the status of that."""
+
+    @wraps(command)
+    def run(asked: Asked) -> int:
+        try:
+            return command(asked)
+        except Unusable as error:
+            say(str(error))
+            return UNUSABLE
+
+    return run
 
 
 NOTHING_ASKED: Final = TerminalOptions()

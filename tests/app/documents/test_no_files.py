@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.control_options import Unusable, bytes_of
+from app.cli.control_options import bytes_of
+from app.cli.shell import Unusable
 from app.documents.files import load, write_output
 from app.documents.journal_file import journal_path
 from app.documents.programs import is_nc
