@@ -45,7 +45,6 @@ class CompareControls(Dialog["Chosen | None"]):
 
     def on_mount(self) -> None:
         """Ask all controls."""
-        super().on_mount()
         self.query_one("#question").border_subtitle = "Enter takes a control, Space draws its path dotted"
         self._compare()
 

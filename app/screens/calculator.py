@@ -44,7 +44,6 @@ class Calculator(Dialog[str]):
 
     def on_mount(self) -> None:
         """The title, and what the texts of last time come to."""
-        super().on_mount()
         self._show()
 
     @on(Input.Changed)

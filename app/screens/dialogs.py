@@ -87,7 +87,6 @@ class Question(Dialog[str]):
 
     def on_mount(self) -> None:
         """The safe answer is chosen."""
-        super().on_mount()
         words = [answer.word for answer in self.answers]
         self.query_one(OptionList).highlighted = words.index(self.safe)
 
@@ -230,7 +229,6 @@ class NumberForm(Dialog[tuple[float, ...]]):
 
     def on_mount(self) -> None:
         """The title, and the keys."""
-        super().on_mount()
         self.query_one("#question").border_subtitle = "Enter: next   Esc: back"
 
     @on(Input.Submitted)
@@ -276,7 +274,6 @@ class ChooseLine(Dialog[str]):
 
     def on_mount(self) -> None:
         """The cursor on its row, else on the first."""
-        super().on_mount()
         ids = [option.id for option in self.options]
         self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0 if ids else None
 
@@ -305,7 +302,6 @@ class ChooseSeveral(Dialog["frozenset[str] | None"]):
 
     def on_mount(self) -> None:
         """The cursor on the first row."""
-        super().on_mount()
         self.query_one(OptionList).highlighted = 0 if self.rows else None
 
     def _words(self, row: int) -> Content:

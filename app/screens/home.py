@@ -93,12 +93,10 @@ class HomeScreen(BaseScreen):
         table = self.query_one("#programs", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width, key=label)
-        super().on_mount()
         self.show_folder(self.folder, at=self._at)
 
     def on_screen_resume(self) -> None:
         """Files may have changed while another screen was in front; the first time they have just been listed."""
-        super().on_screen_resume()
         if self._was_in_front:
             self.list_anew()
         self._was_in_front = True

@@ -186,7 +186,6 @@ class ImportScreen(BaseScreen):
 
     def on_mount(self) -> None:
         """Begin to read."""
-        super().on_mount()
         self._show_title()
         prepare_workers()
         self._read()

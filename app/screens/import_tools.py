@@ -49,7 +49,6 @@ class ImportToolsScreen(EntryScreen):
 
     def on_mount(self) -> None:
         """The unit."""
-        super().on_mount()
         self._show_unit()
 
     def _show_unit(self) -> None:

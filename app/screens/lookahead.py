@@ -58,7 +58,6 @@ class LookaheadScreen(BaseScreen):
         values = self.query_one("#values", DataTable)
         for label, width in COLUMNS:
             values.add_column(label, width=width)
-        super().on_mount()
 
     def show_session(self, session: Session) -> None:
         """A row a value; the cursor begins on the value that is advised, else on the one in force."""

@@ -58,7 +58,6 @@ class SettingsForm(FormScreen):
 
     def on_mount(self) -> None:
         """The cursor on the first field."""
-        super().on_mount()
         self.focus_field(self.FIELDS[0].name)
 
     def fields(self) -> tuple[Field, ...]:

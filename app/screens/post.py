@@ -87,7 +87,6 @@ class PostScreen(EntryScreen):
         controls.border_title = "CONTROL"
         controls.highlighted = controls.get_option_index(self.choice)
         self.query_one("#post-preview").border_title = "NC FILE"
-        super().on_mount()
 
     def show_session(self, session: Session) -> None:
         """Make the text anew where the program has changed; where only more of it is known, say what is."""

@@ -80,7 +80,6 @@ class ProgramScreen(BaseScreen):
         table = self.query_one("#blocks", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width)
-        super().on_mount()
 
     def show_session(self, session: Session) -> None:
         """One row a block."""

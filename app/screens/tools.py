@@ -108,7 +108,6 @@ class ToolsScreen(FormScreen):
 
     def on_mount(self) -> None:
         """The cursor on the first tool."""
-        super().on_mount()
         self._focus_row(0)
 
     # ---- the table as a form
