@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from textual import work
 
-from app.desk import Desk
+from app.derivation_actions import DerivationActions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.files import refuse_program, why, write_data, write_output
 from app.documents.folders import chosen, short_path, written_at
@@ -58,7 +58,7 @@ NO_ANSWER: Final = "The folder does not answer: still trying. You can go on; it 
 ANSWERS: Final = "The folder answers again: all work is on the disk."
 
 
-class FileActions(Desk):
+class FileActions(DerivationActions):
     """The App's side of files; `service` is None where nothing is to be kept, as in a test of one screen.
 
     All work on files is done by `disk`, one piece after the other.  The keys wait half a second for it; then they go

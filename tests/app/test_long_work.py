@@ -8,7 +8,7 @@ from time import monotonic, sleep
 
 import pytest
 
-import app.desk as app_module
+import app.derivation_actions as app_module
 import app.nc_proof.screen as proof_module
 import app.screens.post as post_module
 from app.documents.document import NcDocument

@@ -6,7 +6,7 @@ from dataclasses import replace
 from threading import Event
 
 import app.app as app_module
-from app.desk import QUIET
+from app.derivation_actions import QUIET
 from app.screens.contour import ContourScreen
 from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool
 from tests.app.widget_pilot import Operator, operator

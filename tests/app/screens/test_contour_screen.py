@@ -198,7 +198,7 @@ async def test_a_number_that_changes_nothing_is_no_longer_shown_once_it_is_not_t
     async with operator() as one:
         await one.press("pagedown", "tab")
         before = one.value("length")
-        monkeypatch.setattr("app.desk.derived", slow)
+        monkeypatch.setattr("app.derivation_actions.derived", slow)
         await one.pilot.press(*keys)
         ends.set()
         await one.settle()

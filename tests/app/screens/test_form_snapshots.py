@@ -80,7 +80,7 @@ WALKS: dict[str, tuple[str, list[Part]]] = {
 def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noon of one day; nobody looks for what would help, which takes its time."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
-    monkeypatch.setattr("app.desk.QUIET", 1000.0)
+    monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
 
 
 @pytest.fixture

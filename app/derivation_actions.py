@@ -1,4 +1,4 @@
-"""The desk: the session, the screens that show it, and what workers make of it."""
+"""The session, what workers derive from its program, and the screens that follow both."""
 
 from __future__ import annotations
 
@@ -28,10 +28,11 @@ QUIET = 0.2
 """Seconds without a key after which it is looked for what would help: a key never waits for that."""
 
 
-class Desk(WorkActions):
-    """`session` is the work as it has been accepted.
+class DerivationActions(WorkActions):
+    """The App's side of what follows from the program: paths and verdict, look-ahead table, advice.
 
-    `shown` is what verdict and drawings show: the same, or the session as a half-typed number would make it.
+    `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session
+    as a half-typed number would make it.
     """
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
