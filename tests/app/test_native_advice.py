@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from threading import Event
 
-import app.app as app_module
+import app.derivation_actions as app_module
 from app.derivation_actions import QUIET
 from app.screens.contour import ContourScreen
 from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool

@@ -328,7 +328,7 @@ async def test_the_dotted_path_follows_text_tool_and_choice(tmp_path):
         await dot(one, "linuxcnc")
         assert "already" in one.prompt
         await one.press("c")
-        one.app.screen.query_one("#controls", OptionList).highlighted = 0
+        one.app.screen.query_one("#answers", OptionList).highlighted = 0
         await one.press("enter")
         await one.settle()
         assert one.app._works == ()

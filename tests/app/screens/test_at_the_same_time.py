@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-import app.app as owner
+import app.derivation_actions as owner
 from app.session.derivation import derived
 from tests.app.widget_pilot import operator
 

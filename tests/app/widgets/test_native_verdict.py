@@ -52,12 +52,6 @@ def test_every_set_of_characters_has_a_cell_for_each_value(pocket):
     assert chips(pocket, MARKS["ascii"]).plain.isascii()
 
 
-def test_a_row_of_the_table_is_judged_in_place_of_the_value_in_force(pocket):
-    row = pocket.table.row(1)
-    assert title(replace(pocket, row=row)).startswith("LOOK-AHEAD 1 gouges")
-    assert strip(replace(pocket, row=row), MARKS["braille"]).plain.startswith(" 1  1 •")
-
-
 def test_while_it_is_calculated_the_title_says_how_far_it_is(pocket):
     assert title(replace(pocket, working=0.4)) == "LOOK-AHEAD CAL 8  working 40 %"
 
