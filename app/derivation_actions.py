@@ -189,6 +189,7 @@ class DerivationActions(WorkActions):
         """All screens draw with these characters."""
         for screen in self._screens():
             screen.draw_with(characters)
+            screen.show_signs()
 
     def _screens(self) -> list[BaseScreen]:
         return [screen for screen in self.screen_stack if isinstance(screen, BaseScreen)]

@@ -452,6 +452,10 @@ class ProofScreen(BaseScreen):
         at = self.query_one("#proof-findings", OptionList).highlighted
         return None if at is None or at >= len(self.result_findings) else self.result_findings[at]
 
+    def show_signs(self) -> None:
+        """Those of the findings."""
+        self._show_findings(self._finding_in_hand())
+
     def _show_findings(self, held: Finding | None) -> None:
         """List what was found; the finding `held` in hand stays so where it belongs to the line or was chosen."""
         findings, marks = self.query_one("#proof-findings", OptionList), MARKS[self.host.characters]

@@ -38,9 +38,12 @@ from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
+from app.widgets.findings_list import FindingsList
 from app.widgets.prompt import Prompt
+from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
 from app.widgets.status import Status, Surroundings
+from app.widgets.verdict import Verdict
 from core.program.edit import Edited, FormPlace
 from core.program.fields import Field
 from core.program.model import Program
@@ -243,9 +246,13 @@ class BaseScreen(Screen[None]):
         self.draw_with(self.host.characters)
 
     def draw_with(self, characters: str) -> None:
-        """Every drawing is made of these characters."""
-        for drawing in self.query(Drawing):
-            drawing.characters = characters
+        """Every widget with signs is made of these characters."""
+        for widget in self.query("*").results():
+            if isinstance(widget, Drawing | Verdict | FindingsList | SegmentList):
+                widget.characters = characters
+
+    def show_signs(self) -> None:
+        """Other characters were chosen: show anew what else has signs in it."""
 
     def on_screen_resume(self) -> None:
         """Catch up with what has changed while another screen was in front."""

@@ -264,19 +264,21 @@ class ContourScreen(FormScreen):
         self._followed = shown
         self._show_tried(shown)
         block, unit, verdict = shown.derived_block, shown.program.unit, self.query_one(Verdict)
-        characters = self.host.characters
         before = verdict.case
         if not block.known and before is not None and before.block.number == block.number and before.block.known:
             return
-        verdict.characters = characters
         verdict.case = Case(block, shown.lookahead_table, unit)
         self.entries = block_findings(block, shown.lookahead_table, unit)
-        findings = self.query_one(FindingsList)
-        findings.characters, findings.entries = characters, self.entries
+        self.query_one(FindingsList).entries = self.entries
         self._show_lists(shown)
         if block.known or before is not None:
             # not in the first paint, which does without the numeric libraries
             self._show_picture(shown)
+
+    def show_signs(self) -> None:
+        """Those of the segment list and of the loupe's title."""
+        self._show_lists(self.host.shown)
+        self._show_picture(self.host.shown)
 
     def show_work(self, work: Work | None) -> None:
         """How far it is also stands in the title of the verdict, which is the last one until it is done."""
@@ -298,7 +300,7 @@ class ContourScreen(FormScreen):
     def _show_lists(self, shown: Session) -> None:
         segments = self.query_one(SegmentList)
         if segments.display:
-            segments.show(shown, self.host.characters)
+            segments.show(shown)
 
     @on(events.Resize)
     def _fill_lists(self) -> None:

@@ -134,6 +134,10 @@ class DrawScreen(BaseScreen):
         if before is None and self.run is not None and self.run.code == "NOT_YET":
             self.action_pick()
 
+    def show_signs(self) -> None:
+        """Those of the chips and of the heading."""
+        self.show_session(self.current_session)
+
     def _draw(self, subject: Subject) -> None:
         self._subject = self.drawing.subject = subject
 

@@ -59,6 +59,10 @@ class LookaheadScreen(BaseScreen):
         for label, width in COLUMNS:
             values.add_column(label, width=width)
 
+    def show_signs(self) -> None:
+        """Those of the table."""
+        self.show_session(self.current_session)
+
     def show_session(self, session: Session) -> None:
         """A row a value; the cursor begins on the value that is advised, else on the one in force."""
         table, values = session.lookahead_table, self.query_one("#values", DataTable)

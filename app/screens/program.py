@@ -81,6 +81,10 @@ class ProgramScreen(BaseScreen):
         for label, width in COLUMNS:
             table.add_column(label, width=width)
 
+    def show_signs(self) -> None:
+        """Those of the table."""
+        self.show_session(self.current_session)
+
     def show_session(self, session: Session) -> None:
         """One row a block."""
         table, marks = self.query_one("#blocks", DataTable), MARKS[self.host.characters]

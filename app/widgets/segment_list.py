@@ -6,6 +6,7 @@ from typing import ClassVar, NamedTuple
 
 from rich.text import Text
 from textual.binding import Binding, BindingType
+from textual.reactive import reactive
 from textual.widgets import DataTable
 
 from app.session.session import Session
@@ -47,6 +48,8 @@ class SegmentList(DataTable[Text]):
         Binding("insert", "screen.softkey(2)", "Insert segment before", show=False),
     ]
 
+    characters: reactive[str] = reactive("braille", repaint=False)
+
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes, cursor_type="row", cell_padding=0)
         self.border_title = "SEGMENTS"
@@ -57,32 +60,36 @@ class SegmentList(DataTable[Text]):
         for key, label, width in COLUMNS:
             self.add_column(Text(label, justify="left" if key == "type" else "right"), width=width, key=key)
 
-    def show(self, session: Session, characters: str) -> None:
+    def watch_characters(self) -> None:
+        """The next time all rows are made anew, with other signs."""
+        self._rows = []
+
+    def show(self, session: Session) -> None:
         """Show the segments of the block with the cursor; only cells that differ are changed."""
         rows, before = segment_rows(session.derived_block, session.program.unit), self._rows
         if len(rows) != len(before):
             self.clear()
             for row in rows:
-                self.add_row(*(self._cell(row, key, characters) for key, _, _ in COLUMNS), key=row.number)
+                self.add_row(*(self._cell(row, key) for key, _, _ in COLUMNS), key=row.number)
         else:
             for old, row in zip(before, rows, strict=True):
                 for (key, _, _), text, old_text in zip(COLUMNS, row, old, strict=True):
                     if text != old_text or (row.fate != old.fate and key == "type"):
-                        self.update_cell(row.number, key, self._cell(row, key, characters))
+                        self.update_cell(row.number, key, self._cell(row, key))
         self._rows = rows
         if self.cursor_row != session.place.segment:
             self.move_cursor(row=session.place.segment)
 
-    def _cell(self, row: SegmentRow, key: str, characters: str) -> Text:
+    def _cell(self, row: SegmentRow, key: str) -> Text:
         text = str(getattr(row, key))
         if key == "fate":
-            return self._fate(text, characters)
+            return self._fate(text)
         if key == "type":
             return Text.assemble(" ", (text, "strike dim" if row.fate == "deleted" else ""))
         return Text(text, justify="right")
 
-    def _fate(self, word: str, characters: str) -> Text:
-        marks = MARKS[characters]
+    def _fate(self, word: str) -> Text:
+        marks = MARKS[self.characters]
         sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(word, "")
         color = self.app.theme_variables.get(FATES.get(word, "")[1:], "")
         return Text(f"  {sign} {word}".rstrip(), color.removeprefix("ansi_"))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from textual.geometry import Region
+from textual.widget import Widget
 
 from app.app import CutcompApp
 from app.documents.files import load
@@ -27,3 +29,24 @@ async def test_another_set_is_taken_up_at_once_where_it_is_chosen():
     async with operator() as one:
         await one.press("f7", "m")
         assert one.screen.query_one("#full-drawing", Drawing).characters == "block"
+
+
+@pytest.mark.parametrize("action", ["form", "draw", "lookahead", "program"])
+async def test_signs_change_with_the_characters_on_the_screen_in_front(action):
+    async with operator("pocket", size=(132, 43)) as one:
+        if action != "form":
+            await one.app.run_action(f"app.{action}")
+            await one.settle()
+        assert _signs(one) & set("✖▲×✓")
+        for _ in range(2):
+            await one.app.run_action("app.next_characters")
+            await one.settle()
+        assert one.app.characters == "ascii"
+        assert not _signs(one)
+
+
+def _signs(one: Operator) -> set[str]:
+    """The signs on the screen that only the first set of characters has."""
+    shown = [widget for widget in one.screen.walk_children(Widget) if widget.display and not widget.children]
+    rows = [row for widget in shown for row in widget.render_lines(Region(0, 0, *widget.size))]
+    return {sign for row in rows for sign in row.text} & set("✖▲×✓")
