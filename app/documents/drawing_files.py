@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 from threading import Thread
 from typing import Final, Generic, TypeVar, cast
 
+from app.documents.files import TooLargeError, read_file, why
 from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.contours import Progress as ReportProgress
 from core.importing.drawing import MAX_BYTES, Drawing, DrawingError
@@ -194,11 +195,8 @@ def _spare_fonts(cache: Path) -> None:
 def drawing_bytes(path: Path) -> bytes:
     """What a drawing file holds; StoreError where it cannot be read, DrawingError TOO_MUCH where it is too large."""
     try:
-        with path.open("rb") as file:
-            size = os.fstat(file.fileno()).st_size
-            data = file.read(MAX_BYTES + 1)
+        return read_file(path, MAX_BYTES)[0]
+    except TooLargeError as error:
+        raise DrawingError("TOO_MUCH", f"{path.name} is too large: at most {MAX_BYTES:,} bytes are read.") from error
     except (OSError, ValueError) as error:
-        raise StoreError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from error
-    if len(data) > MAX_BYTES:
-        raise DrawingError("TOO_MUCH", f"{path.name} has {size:,} bytes: at most {MAX_BYTES:,} are read.")
-    return data
+        raise StoreError(f"{path} cannot be read: {why(error)}") from error

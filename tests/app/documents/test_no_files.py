@@ -9,6 +9,7 @@ import pytest
 
 from app.cli.control_options import bytes_of
 from app.cli.shell import Unusable
+from app.documents.drawing_files import drawing_bytes
 from app.documents.files import load, write_output
 from app.documents.journal_file import journal_path
 from app.documents.programs import is_nc
@@ -100,3 +101,10 @@ def test_a_program_behind_a_link_to_itself_is_refused(tmp_path: Path) -> None:
     opened = service(tmp_path / "own").open(tmp_path / "a.toml")
     assert isinstance(opened, Trouble)
     assert "links lead round in a circle" in opened.text
+
+
+def test_a_pipe_that_is_named_like_a_drawing_is_not_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "part.dxf"
+    os.mkfifo(pipe)
+    with pytest.raises(StoreError, match="cannot be read: this is a pipe"):
+        drawing_bytes(pipe)

@@ -222,7 +222,7 @@ async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
         (DATA / "d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
         (DATA / "d17-empty.dxf", "in model space: 1 TEXT was skipped."),
         (dxf(*square(0, 0, 10))[:110], ": 0 entities could be read."),
-        (DATA / "gone.dxf", "gone.dxf cannot be read: No such file or directory."),
+        (DATA / "gone.dxf", "gone.dxf cannot be read: there is no such file or folder. Check the name."),
         (dxf(line((0, 0), (5, 5)), [(0, "LINE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]), "F2 LAYERS"),
     ],
 )
