@@ -53,11 +53,3 @@ def short_path(path: Path | str) -> str:
     """A path as a sentence names it: of a long one the end, so that what the sentence says has room behind it."""
     text = printable_path(path)
     return text if len(text) <= MAX_PATH_IN_SENTENCE else f"...{text[3 - MAX_PATH_IN_SENTENCE :]}"
-
-
-def folder_in_words(file: Path | None) -> str:
-    """The chosen folder in words, asked of no disk: a folder of a network may not answer."""
-    try:
-        return printable_path(Path.cwd() if file is None else Path.cwd() / file.parent)
-    except OSError:
-        return "the folder it was started in, which is gone"

@@ -21,9 +21,6 @@ from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from core.program.model import Program
 
-PAGES = (".html", ".htm")
-"""Endings of sheets that are pages with the drawing; any other is text."""
-
 
 class SheetScreen(EntryScreen):
     """The name of the sheet's file, and the sheet as text."""

@@ -154,10 +154,6 @@ class Session:
             return self
         return self._with_history(undone)
 
-    def saved_as(self, file: Path) -> Session:
-        """The session after its program was saved under a name."""
-        return replace(self, file=file, saved=self.program)
-
     def knowing(self, derived: Derived) -> Session:
         """The session with what follows from its program; a result for another program is dropped."""
         return replace(self, derived=derived) if derived.program is self.program else self

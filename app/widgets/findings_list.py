@@ -121,8 +121,3 @@ class FindingsList(OptionRows):
     def _selected(self, event: OptionList.OptionSelected) -> None:
         event.stop()
         self.post_message(self.Chosen(self.entries[event.option_index]))
-
-    def step(self, by: int) -> None:
-        """Take the next finding in hand, or the one before, round."""
-        if self.entries:
-            self.highlighted = ((self.highlighted or 0) + by) % len(self.entries)

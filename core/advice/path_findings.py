@@ -191,16 +191,6 @@ def nearest_place(work: BlockPaths | None) -> Approach | None:
     return None if work is None or work.verdict is None else work.verdict.closest
 
 
-def nearest_finding(work: BlockPaths | None, radius: float | None) -> Finding | None:
-    """The least distance from the center path to the surface against the tool's radius, and where; None for none."""
-    place = nearest_place(work)
-    if place is None or radius is None:
-        return None
-    text = f"{{value~0}} at X {{x}} Y {{y}} on segment {place.surface_number:g}; the tool's radius is {{0~value}}."
-    where = place.surface_number, None, place.surface_at, place.distance, (radius,)
-    return Finding("NEAREST", Severity.INFO, text, *where)
-
-
 def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
     """What the best path would cut that the control's does not, or that there is none."""
     if not best.loops:

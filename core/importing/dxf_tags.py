@@ -91,7 +91,6 @@ class Scan:
     blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
     units: int = 0
     """$INSUNITS, 0 where the file has none."""
-    sections: int = 0
     bad_line: int = 0
     """The first line that should be a group code and is none."""
     open_section: str = ""
@@ -200,8 +199,8 @@ class _Scanner:
         """A new marker: of a section, of a block, or of an entity."""
         name = tag.value
         if name == "SECTION":
-            self.scan.sections += 1
-        elif name == "ENDSEC":
+            return
+        if name == "ENDSEC":
             self.section, self.block = "", None
         elif name in ("BLOCK", "ENDBLK"):
             self.block = None

@@ -315,35 +315,22 @@ def _current(block: DerivedBlock, segment: int | None) -> Path | None:
     return None if piece is None else Path.from_pieces([piece])
 
 
-class CutterPlace(NamedTuple):
-    """Where the cutter is drawn; `by` are the two pieces that meet there where they have deleted the segment."""
-
-    at: Point
-    by: tuple[float, float] | None = None
-
-
-def cutter_at_segment(block: DerivedBlock, segment: int) -> CutterPlace | None:
-    """Where the cutter is drawn for a segment of the block's own path; None where no path belongs to the segment."""
-    work = block.paths
-    return None if work is None else _place(work.loops, _posted_control_path(work), segment)
-
-
 def _cutter(
     block: DerivedBlock, loops: Sequence[Loop], control: Compensated | None, segment: int | None
 ) -> tuple[Point, float] | None:
     place = None if segment is None else _place(loops, control, segment)
-    return None if place is None or block.radius is None else (place.at, block.radius)
+    return None if place is None or block.radius is None else (place, block.radius)
 
 
-def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> CutterPlace | None:
+def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> Point | None:
     """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
         if not segment and parts:
-            return CutterPlace(_point(parts[0].points[0]))
+            return _point(parts[0].points[0])
         for part in reversed(parts):
             if len(rows := (part.numbers == segment).nonzero()[0]):
-                return CutterPlace(_point(part.ends[rows[-1]]))
+                return _point(part.ends[rows[-1]])
     return None if control is None else _meeting(control, segment)
 
 
@@ -352,11 +339,11 @@ def _point(row: Floats) -> Point:
     return x, y
 
 
-def _meeting(control: Compensated, segment: float) -> CutterPlace | None:
+def _meeting(control: Compensated, segment: float) -> Point | None:
     """The meeting that deleted a segment; where a later one has deleted a piece of that pair too, the later one."""
     deleted = {deletion.segment: deletion for deletion in control.deleted}
     later = last = deleted.get(segment)
     while later is not None:
         last = later
         later = next((deleted[number] for number in later.by if number in deleted), None)
-    return None if last is None else CutterPlace(last.at, last.by)
+    return None if last is None else last.at

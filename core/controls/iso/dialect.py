@@ -120,8 +120,7 @@ class Dialect:
     `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
     where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
     nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
-    of one group the last counts, with a warning.  `reference_known`: the machine's zero is a point of the program,
-    otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
+    of one group the last counts, with a warning.  `repeat_letters`: how often a drilling cycle runs.
     `fanuc_cycles`: R and the depth of a cycle stay heights where G90 and G91 change, and 0 repeats only store them.
     `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
     is a program's number alone.  `program_names`: a name in angle brackets may stand for O and its number.
@@ -158,7 +157,6 @@ class Dialect:
     tells_unused: bool = True
     rule_names: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     last_code_counts: bool = False
-    reference_known: bool = True
     repeat_letters: str = "L"
     fanuc_cycles: bool = False
     homes_all: bool = False

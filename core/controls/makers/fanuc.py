@@ -90,7 +90,6 @@ DIALECT: Final = Dialect(
     d_anywhere=True,
     rule_names=RULE_NAMES,
     last_code_counts=True,
-    reference_known=False,
     feed_needed=True,
     repeat_letters="KL",
     fanuc_cycles=True,

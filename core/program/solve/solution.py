@@ -32,12 +32,6 @@ class Solution:
         """What the field shows for each answer."""
         return tuple(f"{index} of {len(self.answers)}" for index in range(1, len(self.answers) + 1))
 
-    def stepped(self, by: int) -> int:
-        """The index of the answer after (or before) the one that is taken; the first (or last) where none is."""
-        if self.taken is None:
-            return 0 if by > 0 else len(self.answers) - 1
-        return (self.taken + by) % len(self.answers)
-
 
 def solution_at(block: SolvedBlock, number: int) -> Solution | None:
     """What there is to choose at a segment; None where there is no choice."""

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.folders import folder_in_words
 from app.documents.naming import as_program, is_folder, program_named, typed, with_suffix
 
 LONG = "中" * 100
@@ -30,9 +29,3 @@ def test_a_suffix_where_there_is_none() -> None:
 @pytest.mark.parametrize("name", ["bracket 1.5", "part.nc", "part.", "part"])
 def test_a_program_ends_in_toml_or_no_list_would_show_it(name: str) -> None:
     assert as_program(Path(name)) == program_named(Path(name)) == Path(f"{name}.toml")
-
-
-def test_a_bare_name_leads_beside_the_file_that_is_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    for file, folder in ((Path("p.toml"), tmp_path), (Path("job/p.toml"), tmp_path / "job"), (Path("/x/p.toml"), "/x")):
-        assert folder_in_words(file) == str(folder)

@@ -14,7 +14,6 @@ from core.advice.path_findings import (
     better_path_findings,
     by_severity,
     move_names,
-    nearest_finding,
     open_finding,
     path_findings,
     size_warning,
@@ -209,15 +208,6 @@ def test_roughing_that_skips_segments_or_has_no_room_is_told() -> None:
     assert told(replace(found, rough=(beyond,)), "ROUGH_GOUGES")[0][2].endswith("on the wrong side of the contour.")
     unjudged = RoughPass(0.2, found.loops, found.compensated, replace(found.verdict, judged=False))
     assert told(replace(found, rough=(unjudged,)), "ROUGH_GOUGES")[0][2].endswith("cannot be judged.")
-
-
-def test_the_nearest_place_is_told_against_the_radius() -> None:
-    found = nearest_finding(work(NOTCH, lookahead=3), 0.25)
-    assert found is not None
-    assert (found.code, found.severity, found.segment) == ("NEAREST", Severity.INFO, 1.0)
-    assert sentence(found, Unit.MM) == "0.250 at X 0.000 Y 0.000 on segment 1; the tool's radius is 0.250."
-    assert nearest_finding(None, 0.25) is None
-    assert nearest_finding(work(NOTCH), None) is None
 
 
 def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> None:

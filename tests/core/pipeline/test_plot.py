@@ -11,7 +11,7 @@ from core.draw.characters import Mode
 from core.draw.scene import Style
 from core.draw.view import TALL, View
 from core.pipeline.derive import derive
-from core.pipeline.plot import LOUPE, Subject, block_scene, cutter_at_segment, svg_of
+from core.pipeline.plot import LOUPE, Subject, block_scene, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -21,15 +21,18 @@ def derived(part):
     return derive(part).blocks[0]
 
 
+def cutter_at(found, segment):
+    """Where the cutter is drawn for a segment, None where none is."""
+    circles = block_scene(found, segment, Unit.IN).circles
+    return circles[0].center if circles else None
+
+
 @pytest.mark.parametrize("lookahead", [None, Number(5.0)])
 def test_on_a_deleted_segment_the_cutter_stands_where_the_path_passes_it(lookahead):
     pocket = load(example("pocket"))
     part = replace(pocket, blocks=(replace(pocket.blocks[0], lookahead=lookahead),))
     found = derived(part)
     (circle,) = block_scene(found, 9, Unit.IN).circles
-    place = cutter_at_segment(found, 9)
-    assert circle.center == place.at
-    assert place.by == (8.0, 10.0)
     (meeting,) = [one.at for one in found.paths.compensated.deleted if one.segment == 9]
     assert circle.center == pytest.approx(meeting)
 
@@ -40,9 +43,7 @@ def test_a_deletion_within_a_later_one_leads_to_where_the_path_passes():
         for value in range(1, 21):
             found = derived(program(block(points, comp, lookahead=Number(float(value)))))
             for segment in range(1, len(points)):
-                place = cutter_at_segment(found, segment)
-                assert place is not None
-                apart = found.paths.loops[0].whole.points - place.at
+                apart = found.paths.loops[0].whole.points - cutter_at(found, segment)
                 assert min(np.hypot(*apart.T)) < 1e-9
 
 
@@ -52,8 +53,7 @@ def test_where_nothing_is_determined_no_cutter_is_drawn():
     found = derived(part)
     assert len(block_scene(found, 3, Unit.IN).circles) == 1
     for segment in (4, 5, 6):
-        assert cutter_at_segment(found, segment) is None
-        assert block_scene(found, segment, Unit.IN).circles == ()
+        assert cutter_at(found, segment) is None
 
 
 def test_segments_that_are_not_determined_are_drawn_each_by_itself():
@@ -72,12 +72,12 @@ def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_r
     found = derived(part)
     numbers = {number for loop in found.paths.loops for number in loop.whole.numbers.tolist()}
     for segment in range(1, 12):
-        assert (cutter_at_segment(found, segment) is not None) is (segment in numbers)
+        assert (cutter_at(found, segment) is not None) is (segment in numbers)
 
 
 def test_start_has_the_cutter_where_it_goes_down():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
-    assert cutter_at_segment(found, 0).at == tuple(found.paths.center.points[0].tolist())
+    assert cutter_at(found, 0) == tuple(found.paths.center.points[0].tolist())
 
 
 def test_the_whole_part_is_drawn_with_the_numbers_of_its_segments():
