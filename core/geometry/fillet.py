@@ -73,7 +73,7 @@ class _Fit(NamedTuple):
 
 def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
     fits, left = [], turn * radius
-    for center in _meetings(_shifted(before, left), _shifted(after, left)):
+    for center in meeting_places(_shifted(before, left), _shifted(after, left)):
         first, last = _foot(before, center, left), _foot(after, center, left)
         if first is None or last is None or abs(first - last) <= JOINED:
             continue
@@ -84,7 +84,7 @@ def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_F
     return fits
 
 
-class _Carrier(NamedTuple):
+class Carrier(NamedTuple):
     """A point of an endless line and its direction, or the center of a whole circle, direction 0, and its radius."""
 
     at: complex
@@ -92,12 +92,12 @@ class _Carrier(NamedTuple):
     radius: float
 
 
-def _shifted(piece: Piece, left: float) -> _Carrier:
+def _shifted(piece: Piece, left: float) -> Carrier:
     """The carrier of a piece moved by `left` to its left."""
     if isinstance(piece, Arc):
-        return _Carrier(complex(*piece.center), 0j, abs(piece.radius - piece.turn * left))
+        return Carrier(complex(*piece.center), 0j, abs(piece.radius - piece.turn * left))
     along = complex(*piece.direction_at(piece.start))
-    return _Carrier(complex(*piece.start) + 1j * along * left, along, 0.0)
+    return Carrier(complex(*piece.start) + 1j * along * left, along, 0.0)
 
 
 def _foot(piece: Piece, center: complex, left: float) -> complex | None:
@@ -118,7 +118,7 @@ def _travel(piece: Piece, at: complex) -> float:
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
 
 
-def _meetings(first: _Carrier, second: _Carrier) -> list[complex]:
+def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
     """Where two carriers meet: none, one or two points."""
     if first.along and second.along:
         cross = (first.along.conjugate() * second.along).imag
@@ -129,7 +129,12 @@ def _meetings(first: _Carrier, second: _Carrier) -> list[complex]:
     return _line_meets_circle(first, second) if first.along else _circles_meet(first, second)
 
 
-def _line_meets_circle(line: _Carrier, circle: _Carrier) -> list[complex]:
+def carriers_meet(first: Piece, second: Piece) -> list[Point]:
+    """The meetings of the endless lines or whole circles of two pieces."""
+    return [_point(place) for place in meeting_places(_shifted(first, 0.0), _shifted(second, 0.0))]
+
+
+def _line_meets_circle(line: Carrier, circle: Carrier) -> list[complex]:
     seen = (circle.at - line.at) * line.along.conjugate()
     height = abs(seen.imag)
     if height > circle.radius:
@@ -138,7 +143,7 @@ def _line_meets_circle(line: _Carrier, circle: _Carrier) -> list[complex]:
     return [line.at + line.along * (seen.real + way) for way in (-half, half)]
 
 
-def _circles_meet(first: _Carrier, second: _Carrier) -> list[complex]:
+def _circles_meet(first: Carrier, second: Carrier) -> list[complex]:
     apart = abs(second.at - first.at)
     if apart <= JOINED or apart > first.radius + second.radius or apart < abs(first.radius - second.radius):
         return []

@@ -14,9 +14,10 @@ from typing import Final
 from core.comp.compensate import compensate
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.controls.compared_contours import Parting, apart
+from core.geometry.fillet import carriers_meet
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side
-from core.importing.joints import carriers_meet, joined_chain
+from core.importing.joints import joined_chain
 from core.importing.nc_contour import Cut, NcError
 from core.tolerance import CLOSED, JOINED
 

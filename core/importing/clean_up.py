@@ -17,7 +17,7 @@ import numpy as np
 import shapely
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.nodes import Nodes, PointGrid, exact_nodes, nodes_of
+from core.importing.nodes import Nodes, exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
 """Millimeters within which pieces may be equal or lie on one line, whatever TOLERANCE is above it."""
@@ -139,14 +139,15 @@ def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
 
 def _without_duplicates(items: list[LayeredPiece], slack: float) -> list[LayeredPiece]:
     """Without the pieces that another one equals, forward or backward."""
-    grid, kept = PointGrid(max(slack, 1e-7)), list[LayeredPiece]()
-    for item in items:
-        middle = item.piece.point_at(0.5) if not is_circle(item.piece) else item.piece.start
-        near = max(min(slack, item.piece.length / 4.0), 1e-7)
-        if not any(_equal(item.piece, kept[other].piece, near) for other in grid.near(middle)):
-            grid.add(middle, len(kept))
-            kept.append(item)
-    return kept
+    middles = [item.piece.start if is_circle(item.piece) else item.piece.point_at(0.5) for item in items]
+    points = shapely.points(np.array(middles).reshape(-1, 2))
+    first, second = shapely.STRtree(points).query(points, predicate="dwithin", distance=max(slack, 1e-7))
+    dropped = set[int]()
+    for earlier, row in sorted((i, j) for j, i in zip(first.tolist(), second.tolist(), strict=True) if i < j):
+        near = max(min(slack, items[row].piece.length / 4.0), 1e-7)
+        if earlier not in dropped and _equal(items[row].piece, items[earlier].piece, near):
+            dropped.add(row)
+    return [item for row, item in enumerate(items) if row not in dropped]
 
 
 def _equal(first: Piece, second: Piece, slack: float) -> bool:

@@ -8,10 +8,11 @@ the arc, or the middle between the two ends, is.  An arc keeps its center where 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, dist, hypot, radians, sqrt
+from math import atan2, dist, radians
 from typing import Final, NamedTuple
 
 from core.geometry.construct import OnePoint, center_by_sweep, even_arc
+from core.geometry.fillet import carriers_meet
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
 from core.tolerance import JOINED, ON_PATH
@@ -76,48 +77,6 @@ def _angle_between(first: Piece, second: Piece) -> float:
         return 0.0
     (ux, uy), (vx, vy) = first.direction_at(first.end), second.direction_at(second.start)
     return atan2(abs(ux * vy - uy * vx), abs(ux * vx + uy * vy))
-
-
-def carriers_meet(first: Piece, second: Piece) -> list[Point]:
-    """The meetings of the carriers of two pieces."""
-    if isinstance(first, Line):
-        return _line_with_line(first, second) if isinstance(second, Line) else _line_with_circle(first, second)
-    return _line_with_circle(second, first) if isinstance(second, Line) else _circle_with_circle(first, second)
-
-
-def _line_with_line(first: Line, second: Line) -> list[Point]:
-    (x, y), (dx, dy) = first.start, first.direction_at(first.start)
-    (sx, sy), (ex, ey) = second.start, second.direction_at(second.start)
-    across = dx * ey - dy * ex
-    if across == 0.0:
-        return []
-    along = ((sx - x) * ey - (sy - y) * ex) / across
-    return [(x + along * dx, y + along * dy)]
-
-
-def _line_with_circle(line: Line, arc: Arc) -> list[Point]:
-    (x, y), (dx, dy), (cx, cy) = line.start, line.direction_at(line.start), arc.center
-    along = (cx - x) * dx + (cy - y) * dy
-    off = (cx - x) * dy - (cy - y) * dx
-    inside = arc.radius**2 - off**2
-    if inside < 0.0:
-        return []
-    half = sqrt(inside)
-    return [(x + (along + side) * dx, y + (along + side) * dy) for side in (-half, half)]
-
-
-def _circle_with_circle(first: Arc, second: Arc) -> list[Point]:
-    (x, y), (sx, sy) = first.center, second.center
-    apart = hypot(sx - x, sy - y)
-    if apart <= JOINED:
-        return []
-    ux, uy = (sx - x) / apart, (sy - y) / apart
-    along = (apart**2 + first.radius**2 - second.radius**2) / (2.0 * apart)
-    inside = first.radius**2 - along**2
-    if inside < 0.0:
-        return []
-    half = sqrt(inside)
-    return [(x + along * ux - side * uy, y + along * uy + side * ux) for side in (-half, half)]
 
 
 def _between(piece: Piece, start: Point, end: Point) -> Piece:

@@ -7,20 +7,18 @@ more than `CHORD_ERROR`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import acos, ceil
 from typing import Final
 
 import numpy as np
 import shapely
 
-from core.geometry.path import Pieces, boxes
+from core.geometry.chords import chords_of
+from core.geometry.path import Floats, Path, Pieces, boxes
 from core.geometry.piece import Arc, Piece, Point
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top."""
 CHORD_ERROR: Final = 0.005
-MAX_CHORDS: Final = 720
-"""Chords of a full circle at most."""
 
 
 def signed_area(pieces: Sequence[Piece]) -> float:
@@ -66,27 +64,11 @@ def _ends(piece: Piece) -> tuple[Point, Point]:
     return piece.start, piece.end
 
 
-def chords(pieces: Sequence[Piece]) -> list[Point]:
-    """The points of a chain's polygon."""
-    points = [pieces[0].start]
-    for piece in pieces:
-        if isinstance(piece, Arc):
-            radius = max(piece.radius, 1e-9)
-            step = max(2.0 * acos(max(1.0 - CHORD_ERROR / radius, -1.0)), 2.0 * np.pi / MAX_CHORDS)
-            sweep = piece.sweep
-            count = max(ceil(abs(sweep) / min(step, np.pi / 4.0)), 1)
-            (x, y), (cx, cy) = piece.start, piece.center
-            spokes = complex(x - cx, y - cy) * np.exp(1j * sweep / count * np.arange(1, count))
-            points += zip((cx + spokes.real).tolist(), (cy + spokes.imag).tolist(), strict=True)
-        points.append(piece.end)
-    return points
-
-
 def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
     """Of each closed chain the numbers of the chains that it lies inside of."""
     if not chains:
         return []
-    polygons = [_polygon(chords(chain)) for chain in chains]
+    polygons = [_polygon(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]
     sizes = [abs(signed_area(chain)) for chain in chains]
     tree = shapely.STRtree(polygons)
     points = [shapely.Point(chain[0].point_at(0.5)) for chain in chains]
@@ -98,11 +80,11 @@ def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
     return inside
 
 
-def _polygon(points: list[Point]) -> shapely.Geometry:
+def _polygon(points: Floats) -> shapely.Geometry:
     """A polygon of points; one that crosses itself is what it encloses by even and odd."""
     if len(points) < 4:
         return shapely.Polygon()
-    polygon: shapely.Geometry = shapely.polygons(np.array(points))
+    polygon: shapely.Geometry = shapely.polygons(points)
     return polygon if polygon.is_valid else shapely.make_valid(polygon)
 
 
@@ -110,7 +92,7 @@ def crossings(chains: Sequence[Sequence[Piece]], most: int) -> dict[int, int]:
     """Of each chain that touches or crosses another one the first such; nothing where there are more chains."""
     if not chains or len(chains) > most:
         return {}
-    lines = [shapely.LineString(chords(chain)) for chain in chains]
+    lines = [shapely.LineString(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]
     pairs = shapely.STRtree(lines).query(lines, predicate="intersects").T.tolist()
     met: dict[int, int] = {}
     for first, second in sorted(pairs):

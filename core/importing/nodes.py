@@ -7,8 +7,7 @@ pieces shorter than TOLERANCE stays a curve.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import dist
 from typing import Final
@@ -54,29 +53,6 @@ class _Groups:
         first, second = self.root(first), self.root(second)
         if first != second:
             self.parent[max(first, second)] = min(first, second)
-
-
-class PointGrid:
-    """Points by square cells, so that those within a cell's width are found among nine cells."""
-
-    def __init__(self, width: float) -> None:
-        self.width = max(width, 1e-9)
-        self.cells: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
-
-    def _cell(self, point: Point) -> tuple[int, int]:
-        return int(point[0] // self.width), int(point[1] // self.width)
-
-    def add(self, point: Point, number: int) -> None:
-        """Keep a number at a point."""
-        self.cells[self._cell(point)].append(number)
-
-    def near(self, point: Point) -> Iterator[int]:
-        """The numbers in the cells around a point."""
-        column, row = self._cell(point)
-        for x in (column - 1, column, column + 1):
-            for y in (row - 1, row, row + 1):
-                if (x, y) in self.cells:
-                    yield from self.cells[x, y]
 
 
 def nodes_of(pieces: Sequence[Piece], tolerance: float) -> Nodes:
@@ -128,16 +104,16 @@ def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, toleranc
     loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
     if not loose:
         return
-    grid = PointGrid(tolerance)
-    for node, place in enumerate(nodes.places):
-        grid.add(place, node)
+    places = shapely.points(nodes.places)
+    near: dict[int, list[int]] = {node: [] for node in loose}
+    for at, other in shapely.STRtree(places).query(places[loose], predicate="dwithin", distance=tolerance).T.tolist():
+        if other != loose[at]:
+            near[loose[at]].append(other)
     pairs = []
-    for node in loose:
+    for node, others in near.items():
+        along = _near_by_path(pieces, nodes, node, NEAR_BY_PATH * tolerance) if others else set[int]()
         place = nodes.places[node]
-        near = [(dist(place, nodes.places[other]), other) for other in grid.near(place) if other != node]
-        near = [(gap, other) for gap, other in near if gap <= tolerance]
-        along = _near_by_path(pieces, nodes, node, NEAR_BY_PATH * tolerance) if near else set[int]()
-        pairs += [(gap, node, other) for gap, other in near if other not in along]
+        pairs += [(dist(place, nodes.places[other]), node, other) for other in others if other not in along]
     end_of = {nodes.of_piece[end // 2][end % 2]: end for end in reversed(range(2 * len(pieces)))}
     still_loose = set(loose)
     for _, node, other in sorted(pairs, key=lambda pair: (pair[0], nodes.places[pair[1]], nodes.places[pair[2]])):

@@ -6,9 +6,10 @@ the end of the first element, E2 that at the start of the second, both at right 
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi, sqrt, tan, tau
+from math import atan2, hypot, pi, tan, tau
 from typing import Final, NamedTuple
 
+from core.geometry.fillet import Carrier, meeting_places
 from core.geometry.piece import Point
 
 SAME_DIRECTION: Final = 1e-9
@@ -133,51 +134,19 @@ def meetings(
     """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
     if not beyond_center and not (fits(first, offset) and fits(second, other)):
         return ()
-    at = offset_end(first, offset)
-    if not first.turn and not second.turn:
-        return _line_line(at, first.end_direction, offset_start(second, other), second.start_direction)
-    if not first.turn:
-        return _line_circle(at, first.end_direction, second.center, offset_radius(second, other))
-    if not second.turn:
-        at = offset_start(second, other)
-        return _line_circle(at, second.start_direction, first.center, offset_radius(first, offset))
-    return _circle_circle(first.center, offset_radius(first, offset), second.center, offset_radius(second, other))
+    return tuple((place.real, place.imag) for place in meeting_places(_carrier(first, offset), _carrier(second, other)))
+
+
+def _carrier(element: Element, offset: float) -> Carrier:
+    """The endless line or whole circle of an element's offset."""
+    if element.turn:
+        return Carrier(complex(*element.center), 0j, abs(offset_radius(element, offset)))
+    return Carrier(complex(*offset_end(element, offset)), complex(*element.end_direction), 0.0)
 
 
 def fits(element: Element, offset: float) -> bool:
     """Whether the tool can run along an element at all: not inside an arc that is no larger than it."""
     return not element.turn or offset_radius(element, offset) > 0.0
-
-
-def _line_line(at: Point, way: Point, other: Point, heading: Point) -> tuple[Point, ...]:
-    cross = way[0] * heading[1] - way[1] * heading[0]
-    if abs(cross) < SAME_DIRECTION:
-        return ()
-    reach = ((other[0] - at[0]) * heading[1] - (other[1] - at[1]) * heading[0]) / cross
-    return (point_along(at, way, reach),)
-
-
-def _line_circle(at: Point, way: Point, center: Point, radius: float) -> tuple[Point, ...]:
-    dx, dy = center[0] - at[0], center[1] - at[1]
-    along, aside = dx * way[0] + dy * way[1], dy * way[0] - dx * way[1]
-    half = radius * radius - aside * aside
-    if half < 0.0:
-        return ()
-    return point_along(at, way, along - sqrt(half)), point_along(at, way, along + sqrt(half))
-
-
-def _circle_circle(first: Point, radius: float, second: Point, other: float) -> tuple[Point, ...]:
-    dx, dy = second[0] - first[0], second[1] - first[1]
-    apart = hypot(dx, dy)
-    if apart < SAME_DIRECTION:
-        return ()
-    way = (dx / apart, dy / apart)
-    along = (apart * apart + radius * radius - other * other) / (2 * apart)
-    half = radius * radius - along * along
-    if half < 0.0:
-        return ()
-    foot = point_along(first, way, along)
-    return offset_point(foot, way, sqrt(half)), offset_point(foot, way, -sqrt(half))
 
 
 def sweep(start: Point, end: Point, center: Point, turn: int) -> float:

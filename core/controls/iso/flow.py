@@ -25,7 +25,7 @@ from core.controls.iso.macro import (
     ParameterStore,
     tell_unset,
 )
-from core.controls.iso.reader import Block, has_words, is_plain, read_line, whole
+from core.controls.iso.reader import Block, has_words, is_plain, read_line, whole, without_comments
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
@@ -41,8 +41,6 @@ MAX_ARGUMENTS: Final = 30
 
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
-_COMMENT: Final = re.compile(r"\([^)]*+(?:\)|$)|;.*")
-"""An unclosed one matches too, so that no line is searched again from each of its brackets."""
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
@@ -112,19 +110,12 @@ def o_words_of(lines: Sequence[str], first: int = 0) -> dict[int, OWord]:
 def _read(index: int, line: str) -> OWord | None:
     if not line.isascii():
         return None
-    bare = _COMMENT.sub(_blank, line.upper())
-    squeezed = CompactText.of(bare)
+    squeezed = CompactText.of(without_comments(line.upper()))
     match = _LINE.match(squeezed.text)
     if match is None:
         return None
     label = match[1].lstrip("0") or "0" if match[1] else match[2] or ""
     return OWord(index, label, match[4], squeezed, match.start(4), match.end())
-
-
-def _blank(comment: re.Match[str]) -> str:
-    """Blanks for a comment; one that is not closed is left for the words' reader to report."""
-    text = comment[0]
-    return " " * len(text) if text.endswith(")") or text.startswith(";") else text
 
 
 class OWords:
