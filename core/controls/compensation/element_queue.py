@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import hypot, tau
+from math import dist, hypot, tau
 from types import MappingProxyType
 from typing import Final
 
@@ -242,7 +242,9 @@ class OneMoveQueue(ElementQueue):
         return ex + way[0] * half / lean, ey + way[1] * half / lean
 
     def _check_radius(self, element: Element) -> None:
-        if not fits(element, self.offset):
+        # the interpreter looks at the arc's end, whose radius may be another one
+        at_end = dist(element.end, element.center) - element.turn * self.offset
+        if element.turn and (at_end <= 0.0 or not fits(element, self.offset)):
             self._too_small(element)
 
     def _too_small(self, element: Element) -> None:

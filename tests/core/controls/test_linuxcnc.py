@@ -216,6 +216,18 @@ def test_m_codes_of_one_group_are_refused_as_by_the_interpreter_itself(tmp_path:
     assert 10 < refused < len(blocks) - 10
 
 
+@needs_witness
+@pytest.mark.parametrize("start", [0.49998, 0.50002, 0.5004])
+@pytest.mark.parametrize("end", [0.49998, 0.499998, 0.5004])
+def test_the_radius_at_an_arcs_end_must_be_larger_than_the_tools(start: float, end: float, tmp_path: Path) -> None:
+    text = f"G20 F9\nT1 M6\nG0 X0 Y0\nG1 G42 D1 X1\nX2\nG2 X{2 + end:.6f} Y{-start:.6f} I0 J{-start:.6f}\n"
+    fared = outcome(f"{text}G1 Y-3\nG40 X5 Y-5\nM2\n", tmp_path, {1: 1.0}, Unit.IN)[0]
+    if fared.startswith(("same moves", "both refuse")):
+        return
+    # only an arc that would run from inside the tool's radius is refused here alone
+    assert start < 0.5 < end
+
+
 def test_entry_corner_and_exit_by_hand() -> None:
     done = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
     wanted = [("line", 1, 0.25), ("line", 1.75, 0.25), ("line", 1.75, 1), ("line", 5, 5)]
