@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
-from math import atan2, ceil, hypot, pi, tau
+from math import atan2, ceil, floor, hypot, pi, tau
 from typing import Final, Protocol, TypeVar
 
 import numpy as np
@@ -25,7 +25,7 @@ Points = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 
 SHARES: Final = np.linspace(0.0, 1.0, 25)
-"""Places of a biarc at which its distance from the curve is measured, as shares of its parameters."""
+"""Places of a biarc at which its distance from the curve is measured, as shares of its parameters in each span."""
 
 MARGIN: Final = 0.98
 """Share of FIT that the sampled distance may reach: between two samples it is a little larger."""
@@ -73,6 +73,9 @@ class Curve(Protocol):
     def at(self, parameters: Floats) -> tuple[Points, Points]:
         """(n,) points at these parameters, and (n,) derivatives there, which are no unit vectors."""
 
+    def samples(self, first: float, last: float) -> Floats:
+        """Parameters from one to another at which a biarc's distance from the curve is measured."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _EllipseCurve:
@@ -82,6 +85,10 @@ class _EllipseCurve:
         ahead, across = np.cos(parameters), np.sin(parameters)
         first, second = self.shape.first, self.shape.second
         return self.shape.center + ahead * first + across * second, ahead * second - across * first
+
+    def samples(self, first: float, last: float) -> Floats:
+        """Evenly spread."""
+        return first + (last - first) * SHARES
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -104,6 +111,12 @@ class _SplineCurve:
         weight, change = _interpolated(self.weights[:, span], share)
         # the derivative of a quotient
         return point / weight, (tangent * weight - point * change) / (weight * weight)
+
+    def samples(self, first: float, last: float) -> Floats:
+        """As many in each span: a long one may stand beside very short ones."""
+        stops = np.array([first, *range(floor(first) + 1, ceil(last)), last])
+        begins, sizes = stops[:-1, None], np.diff(stops)[:, None]
+        return np.append((begins + sizes * SHARES[:-1]).ravel(), last)
 
     def part(self, first: int, last: int) -> _SplineCurve:
         """Spans first ... last - 1: at its end it has the direction in which it arrives, whatever comes next."""
@@ -380,7 +393,7 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
 
 def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
     """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
-    points, tangents = curve.at(first + (last - first) * SHARES)
+    points, tangents = curve.at(curve.samples(first, last))
     start, end = complex(points[0]), complex(points[-1])
     turned = tangents[1:] * tangents[:-1].conj()
     if not turned.all():

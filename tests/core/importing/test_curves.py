@@ -83,11 +83,12 @@ def spline(points: list[complex], degree: int = 3, weights: list[float] | None =
 
 
 def de_boor(shape: BSpline, count: int) -> np.ndarray:
-    """Points of a B-spline by the textbook's recursion, as a judge of the Bezier spans."""
+    """Points of a B-spline by the textbook's recursion, as a judge of the Bezier spans: so many in each span."""
     p, knots = shape.degree, shape.knots
+    spans = itertools.pairwise(np.unique(knots))
     rows = np.column_stack((shape.points * shape.weights, shape.weights.astype(complex)))
     result = []
-    for t in np.linspace(knots[p], knots[-p - 1], count):
+    for t in np.concatenate([np.linspace(begin, end, count) for begin, end in spans]):
         k = min(max(int(np.searchsorted(knots, t, side="right")) - 1, p), len(rows) - 1)
         d = [rows[j + k - p] for j in range(p + 1)]
         for r in range(1, p + 1):
@@ -106,7 +107,25 @@ def test_a_spline_is_within_fit_both_ways(degree: int, fit: float) -> None:
     shape = spline(points, degree)
     pieces = pieces_of_spline(shape, fit)
     assert turns_at_joints(pieces) < 1e-3
-    assert apart(pieces, de_boor(shape, 5001), fit) <= fit * 1.001
+    assert apart(pieces, de_boor(shape, 1001), fit) <= fit * 1.001
+
+
+@pytest.mark.parametrize("gap", [1e-9, 1e-7, 1e-6, 1e-4, 1e-2])
+def test_a_spline_with_nearly_equal_knots_is_within_fit(gap: float) -> None:
+    points = [0j, 9.5 - 3j, 21.5 - 19j, 41.5 - 20.4j, 71.3 + 6.2j, 108.3 + 21.4j, 117.7 + 24.8j]
+    knots = [0.0, 0, 0, 0, 1, 1 + gap, 1 + 2 * gap, 2, 2, 2, 2]
+    shape = BSpline(3, np.array(points), np.ones(7), np.array(knots))
+    assert apart(pieces_of_spline(shape, 0.005), de_boor(shape, 1001), 0.005) <= 0.005 * 1.02
+
+
+def test_random_splines_with_spans_of_very_different_lengths_are_within_fit() -> None:
+    rng = np.random.default_rng(11)
+    for _ in range(40):
+        corners = np.cumsum(rng.uniform(1.0, 30.0, 8) * np.exp(1j * np.cumsum(rng.uniform(-0.7, 0.7, 8))))
+        inner = np.cumsum(10.0 ** rng.uniform(-5.0, 0.0, 4))
+        knots = np.concatenate((np.zeros(4), inner, np.full(4, inner[-1] + 10.0 ** rng.uniform(-5.0, 0.0))))
+        shape = BSpline(3, corners, np.ones(8), knots)
+        assert apart(pieces_of_spline(shape, 0.005), de_boor(shape, 301), 0.005) <= 0.005 * 1.02
 
 
 def test_a_weighted_spline_that_is_a_circle_is_one_arc() -> None:
