@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
-from math import atan2, dist, pi, tau
+from math import atan2, dist, floor, pi, tau
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -167,6 +167,15 @@ def _without_overlaps(items: list[LayeredPiece], tolerance: float, slack: float)
 
     Where no end is loose, each belongs to a contour of its own that runs along the other one, and stays.
     """
+    before, joined = 0, items
+    while len(joined) != before:
+        # an end at which a piece went on that is joined now may be loose
+        before, joined = len(joined), _joined_once(joined, tolerance, slack)
+    return joined
+
+
+def _joined_once(items: list[LayeredPiece], tolerance: float, slack: float) -> list[LayeredPiece]:
+    items = items.copy()
     open_rows = [row for row, item in enumerate(items) if not is_circle(item.piece)]
     nodes = nodes_of([items[row].piece for row in open_rows], tolerance)
     loose = {row: _loose(nodes, at) for at, row in enumerate(open_rows)}
@@ -193,7 +202,7 @@ def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[i
         for half in (0, 1):
             if isinstance(piece, Arc):
                 numbers = (*piece.center, piece.radius)
-                circles[(half, *(int(value // cell + half / 2.0) for value in numbers))].append(row)
+                circles[(half, *(floor(value / cell + half / 2.0) for value in numbers))].append(row)
             else:
                 directions[2 * (int(_direction(piece) / ANGLE_CELL + half / 2.0) % count) + half].append(row)
     for rows in circles.values():
@@ -240,7 +249,10 @@ class _Joiner:
     into: dict[int, int] = field(default_factory=dict)
 
     def join(self, first: int, second: int) -> None:
-        """Put what two pieces cover together into the first of them, if they overlap and an end is loose."""
+        """Put what two pieces cover together into the first of them, if they overlap and an end is loose.
+
+        No end at which another piece goes on may be lost inside the joined one: a stray line opens no contour.
+        """
         first, second = self._row(first), self._row(second)
         if first == second or not (any(self.loose.get(first, ())) or any(self.loose.get(second, ()))):
             return
@@ -249,6 +261,11 @@ class _Joiner:
             return
         piece, ends = union
         both = (self.loose.get(first, (True, True)), self.loose.get(second, (True, True)))
+        pieces = self.items[first].piece, self.items[second].piece
+        for row, end in {(0, 0), (0, 1), (1, 0), (1, 1)}.difference(ends):
+            at, other = (pieces[row].start, pieces[row].end)[end], pieces[1 - row]
+            if not both[row][end] and min(dist(at, other.start), dist(at, other.end)) > self.slack:
+                return
         self.into[second] = first
         self.items[first] = self.items[first]._replace(piece=piece)
         self.loose[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
@@ -295,10 +312,9 @@ def _line_union(first: Line, second: Line, slack: float) -> tuple[Piece, _EndsOf
 def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] | None:
     if dist(first.center, second.center) > slack or abs(first.radius - second.radius) > slack:
         return None
-    whole: _EndsOf = ((0, 0), (0, 1))
-    for arc in (first, second):
+    for number, arc in enumerate((first, second)):
         if arc.start == arc.end:
-            return arc, whole
+            return arc, ((number, 0), (number, 1))
     base, after = (arc if arc.turn > 0 else reversed_piece(arc) for arc in (first, second))
     assert isinstance(base, Arc)
     assert isinstance(after, Arc)
@@ -306,9 +322,8 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] |
     # angles from the start of the first, counterclockwise
     begin = _angle(first.center, base.start, after.start)
     end = begin + after.sweep
-    wrapped = begin - tau if tau - begin <= after.sweep - reach else begin
-    if wrapped < 0.0:
-        begin, end = wrapped, end - tau
+    if tau - begin <= after.sweep - reach:
+        begin, end = begin - tau, end - tau
     if min(base.sweep, end) - max(0.0, begin) <= reach:
         return None
     ends = [
@@ -318,7 +333,7 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] |
     start_at, start_of = (after.start, ends[1][0]) if begin < -reach else (base.start, ends[0][0])
     end_at, end_of = (after.end, ends[1][1]) if end > base.sweep + reach else (base.end, ends[0][1])
     if max(base.sweep, end) - min(0.0, begin) >= tau - reach:
-        return Arc(base.start, base.start, base.center, Turn.CCW), whole
+        return Arc(base.start, base.start, base.center, Turn.CCW), ((0, 0), (0, 1))
     return Arc(start_at, end_at, base.center, Turn.CCW), (start_of, end_of)
 
 

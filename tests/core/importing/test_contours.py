@@ -161,6 +161,35 @@ def test_duplicates_and_overlaps_of_arcs() -> None:
     assert made.contours[0].circle == pytest.approx(10.0)
 
 
+@pytest.mark.parametrize("center", [(0.0, 0.0), (40.0, 0.0), (6.3, 7.1)])
+@pytest.mark.parametrize("arcs", [((0, 200), (180, 380)), ((0, 200), (0, 90), (190, 360)), ((10, 370), (30, 90))])
+def test_overlapping_arcs_of_one_circle_are_the_circle(
+    center: tuple[float, float], arcs: tuple[tuple[float, float], ...]
+) -> None:
+    made = listed(dxf(*(arc(center, 10, begin, end) for begin, end in arcs)))
+    (contour,) = made.contours
+    assert contour.circle == pytest.approx(10.0)
+
+
+def test_overlapping_arcs_on_random_circles_are_joined_wherever_they_begin() -> None:
+    rng = random.Random(5)
+    for _ in range(200):
+        center = (round(rng.uniform(-80, 80), 1), round(rng.uniform(-80, 80), 1))
+        begin, middle, end = rng.uniform(0, 360), rng.uniform(20, 100), rng.uniform(110, 300)
+        radius = rng.choice([4.0, 10.0, 12.0, 0.28])
+        both = arc(center, radius, begin, begin + middle + 10), arc(center, radius, begin + middle, begin + end)
+        made = listed(dxf(*both))
+        assert (len(made.contours), made.overlaps) == (1, 1)
+        assert made.contours[0].length == pytest.approx(math.radians(end) * radius, abs=1e-4)
+
+
+@pytest.mark.parametrize("stray", [line((10, 8), (10, 15)), line((-5, 0), (15, 0)), line((4, 0), (4, 0.5))])
+def test_a_stray_line_on_an_edge_opens_no_contour(stray: list[tuple[int, object]]) -> None:
+    made = listed(dxf(*square(0, 0, 10), stray))
+    (outside,) = [contour for contour in made.contours if contour.closed]
+    assert outside.size == pytest.approx((10.0, 10.0))
+
+
 @pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])
 def test_a_line_that_lies_on_a_longer_one_to_within_the_tolerance_leaves_its_ends(begin: float, end: float) -> None:
     made = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
