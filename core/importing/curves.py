@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
-from math import atan2, ceil, floor, hypot, pi, tau
+from math import atan2, ceil, cos, floor, hypot, pi, tau
 from typing import Final, Protocol, TypeVar
 
 import numpy as np
@@ -136,11 +136,13 @@ def _interpolated(rows: Row, share: Floats) -> tuple[Row, Row]:
 
 
 def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
-    """An ellipse, or a part of one, as arcs; a circle is one arc."""
+    """An ellipse, or a part of one, as arcs; a circle is one arc, or a line where it is as flat as FIT."""
     a, b = abs(shape.first), abs(shape.second)
     across = abs((shape.first.conjugate() * shape.second).real)
     if abs(a - b) <= ROUND * max(a, b) and across <= ROUND * a * b:
-        return [_circle(shape)]
+        arc, sweep = _circle(shape), shape.end - shape.begin
+        nearly_straight = a > MAX_RADIUS and a * (1.0 - cos(sweep / 2.0)) <= fit
+        return [Line(arc.start, arc.end) if nearly_straight else arc]
     flat = abs((shape.first.conjugate() * shape.second).imag)
     if flat <= STRAIGHT * max(a, b):
         return _flattened(shape)

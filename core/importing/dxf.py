@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from math import isfinite, radians, tau
+from math import dist, isfinite, radians, tau
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final, cast
 
@@ -46,6 +46,9 @@ if TYPE_CHECKING:
 
 FLAT: Final = 1e-4
 """How far the Z of one entity's points may differ, in the drawing's unit: more than rounding is a slope."""
+
+LARGEST_SAGITTA: Final = 0.005
+"""How high an arc may be, in the drawing's unit, that is a line because its center lies out of reach."""
 
 ROUND: Final = 1e-9
 """Relative difference of two half diameters, and of their angle from a right one, that rounding explains."""
@@ -377,7 +380,7 @@ class _Reader:
             self.skipped[entity.dxftype()] += 1
             return
         for (x, y, bulge), (x_end, y_end, _) in zip(vertices, ends, strict=False):
-            if bulge and (x, y) != (x_end, y_end):
+            if not _is_straight(dist((x, y), (x_end, y_end)), bulge):
                 center, begin, end, radius = bulge_to_arc((x, y), (x_end, y_end), bulge)
                 middle = Vec3(center.x, center.y, height)
                 yield self._round(ocs, middle, radius, _turned(begin, end), matrix)
@@ -432,6 +435,12 @@ def _is_clipped(insert: Insert) -> bool:
 
 def _moved(point: Vec3, matrix: Matrix44 | None) -> Vec3:
     return point if matrix is None else matrix.transform(point)
+
+
+def _is_straight(chord: float, bulge: float) -> bool:
+    """Whether a bulge comes of rounding, or its arc is so flat that no coordinate could tell its center."""
+    sagitta, out_of_reach = abs(bulge) * chord / 2.0, chord * chord / (4.0 * LARGEST)
+    return sagitta <= max(FLAT, min(out_of_reach, LARGEST_SAGITTA))
 
 
 def _turned(begin: float, end: float) -> tuple[float, float]:

@@ -95,6 +95,11 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
         worst = max((value for point in points for value in point), key=abs)
         if abs(worst) > FARTHEST:
             most = from_mm(FARTHEST, unit)
+            if isinstance(piece, Arc) and max(map(abs, (*piece.start, *piece.end))) <= FARTHEST:
+                raise NotTaken(
+                    f"Chain {contour.number} has an arc of radius {from_mm(piece.radius, unit):.3f} {unit}, whose "
+                    f"center lies farther away than the form takes, {most:g}. Draw it as lines."
+                )
             raise NotTaken(
                 f"Chain {contour.number} reaches {from_mm(worst, unit):.3f} {unit}: "
                 f"the form takes at most {most:g}. Move the drawing to its origin."

@@ -14,6 +14,8 @@ from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question
+from core.importing.segments import NotTaken, block_of
+from core.program.model import Program
 from core.tolerance import JOINED
 from core.units import Unit
 from tests.core.importing.drawings import MADE, arc, block, circle, dxf, line, listed, made, square
@@ -326,3 +328,30 @@ def test_a_polyline_runs_through_its_vertices_and_back_where_it_is_closed(closed
     assert contour.closed == bool(closed)
     assert contour.drawn == count
     assert set(corners) <= {piece.start for piece in contour.pieces} | {piece.end for piece in contour.pieces}
+
+
+FLAT_BULGES = [(bulge, 50.0) for bulge in (0.0, 1e-17, -1e-12, 1e-7, 1e-6, -1e-5, 4e-5, 1e-4, 0.01)]
+
+
+@pytest.mark.parametrize(("bulge", "size"), [*FLAT_BULGES, (1e-9, 400.0), (-1e-5, 400.0), (0.01, 400.0)])
+def test_a_bulge_is_a_line_or_an_arc_within_fit(bulge: float, size: float) -> None:
+    corners = [(0.0, 0.0, bulge), (size, 0.0, 0.0), (size, 30.0, 0.0), (0.0, 30.0, 0.0)]
+    vertices = [
+        tag for x, y, turn in corners for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, y), (30, 0), (42, turn))
+    ]
+    polyline = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, 1), (10, 0), (20, 0), (30, 0), *vertices, (0, "SEQEND")]
+    (contour,) = listed(dxf(polyline)).contours
+    for piece in contour.pieces:
+        if max(piece.start[1], piece.end[1]) < size * 0.001:
+            x, y = piece.point_at(0.5)
+            assert y == pytest.approx(-2.0 * bulge * x * (size - x) / size, abs=0.005)
+    assert block_of(contour, Program(unit=Unit.MM)).block.segments
+
+
+def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
+    vertices = [
+        tag for x, turn in ((0, 1e-4), (400, 0)) for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, 0), (42, turn))
+    ]
+    (contour,) = listed(dxf([(0, "POLYLINE"), (8, "0"), (66, 1), (70, 0), *vertices, (0, "SEQEND")])).contours
+    with pytest.raises(NotTaken, match="Chain 1 has an arc of radius 1000000"):
+        block_of(contour, Program(unit=Unit.MM))
