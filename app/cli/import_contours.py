@@ -15,6 +15,7 @@ from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
+from app.session.words import counted
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import ContourList
@@ -207,7 +208,8 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
     for block, contour in zip(made, contours, strict=True):
         x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in contour.start)
         way = f", {contour.turn.name}" if contour.closed else ""
-        say(f"chain {contour.number}: {len(block.block.segments)} segments from X {x} Y {y}{way}.")
+        segments = counted(len(block.block.segments), "segment")
+        say(f"chain {contour.number}: {segments} from X {x} Y {y}{way}.")
         for note in block.notes:
             say(note)
 

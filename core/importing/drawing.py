@@ -49,6 +49,28 @@ UNIT_CODES: Final = MappingProxyType(
 )
 """$INSUNITS of the units that are read; every other value is asked about."""
 
+OTHER_UNITS: Final = MappingProxyType(
+    {
+        3: "miles",
+        7: "kilometers",
+        8: "microinches",
+        9: "mils",
+        10: "yards",
+        11: "angstroms",
+        12: "nanometers",
+        13: "microns",
+        14: "decimeters",
+        15: "decameters",
+        16: "hectometers",
+        17: "gigameters",
+        18: "astronomical units",
+        19: "light years",
+        20: "parsecs",
+        21: "US survey feet",
+    }
+)
+"""$INSUNITS of units that are not read, by their names."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EllipseArc:
@@ -97,8 +119,9 @@ class NotFlat:
 class Drawing:
     """What a drawing file holds.
 
-    `unit` is None where the file names none that is read.  `skipped` counts entities without a contour by kind,
-    `hidden` entities of layers that are frozen or off by layer.  `notes` are sentences for the operator.
+    `unit` is None where the file names none that is read, `other_unit` what it names then.  `skipped` counts entities
+    without a contour by kind, `hidden` entities that are frozen, off or invisible by layer.  `notes` are sentences for
+    the operator.
     """
 
     unit: DrawingUnit | None
@@ -109,6 +132,7 @@ class Drawing:
     notes: tuple[str, ...] = ()
     entities: int = 0
     """Entities that the shapes are of, those of a block as often as it is inserted."""
+    other_unit: str = ""
 
     @property
     def layers(self) -> tuple[str, ...]:

@@ -20,10 +20,12 @@ from core.importing.drawing import (
     MAX_ENTITIES,
     MAX_INSERT_DEPTH,
     MAX_SHAPES,
+    OTHER_UNITS,
     UNIT_CODES,
     BSpline,
     Drawing,
     DrawingError,
+    DrawingUnit,
     Drawn,
     EllipseArc,
     NotFlat,
@@ -49,6 +51,8 @@ FLAT: Final = 1e-4
 
 LARGEST_SAGITTA: Final = 0.005
 """How high an arc may be, in the drawing's unit, that is a line because its center lies out of reach."""
+
+_OF_INCHES: Final = (DrawingUnit.IN, DrawingUnit.FT)
 
 ROUND: Final = 1e-9
 """Relative difference of two half diameters, and of their angle from a right one, that rounding explains."""
@@ -102,8 +106,8 @@ def _no_geometry(drawing: Drawing) -> str:
     if skipped:
         text += f": {counted(skipped)} {'was' if sum(skipped.values()) == 1 else 'were'} skipped"
     if hidden:
-        text += f"{'; ' if skipped else ': '}layers that are frozen or off hold {sum(hidden.values())} entities"
-    return f"{text}."
+        text += f"{'; ' if skipped else ': '}{sum(hidden.values())} are frozen, off or invisible"
+    return " ".join((f"{text}.", *drawing.notes))
 
 
 _SKIPPED_ALWAYS: Final = frozenset({"ATTDEF", "VIEWPORT"})
@@ -184,10 +188,14 @@ class _Reader:
         if self.heights and max(self.heights) - min(self.heights) > FLAT:
             low, high = min(self.heights), max(self.heights)
             notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
-        code = scan.units
+        code, other = scan.units, ""
         if code not in UNIT_CODES and code:
-            notes.append(f"$INSUNITS is {code}: that unit is not read.")
+            other = f"{OTHER_UNITS.get(code, 'unknown')} ($INSUNITS {code})"
+            notes.append(f"The drawing is in {other}, which are not read.")
         unit = UNIT_CODES.get(code)
+        if scan.measurement is not None and unit is not None and (unit in _OF_INCHES) is bool(scan.measurement):
+            system = "millimeters" if scan.measurement else "inches"
+            notes.append(f"$INSUNITS says {unit.name}, but $MEASUREMENT says {system}. Check the size.")
         return Drawing(
             unit,
             tuple(self.shapes),
@@ -196,6 +204,7 @@ class _Reader:
             tuple(self.not_flat),
             tuple(notes),
             self.taken,
+            other,
         )
 
     def _entity(self, entity: DXFGraphic, matrix: Matrix44 | None, outer_layer: str | None, depth: int) -> None:
@@ -303,7 +312,8 @@ class _Reader:
         dxf = entity.dxf
         radius = float(dxf.radius)
         if radius <= 0.0:
-            self.notes[f"A {entity.dxftype()} has the radius {radius:g} and is skipped."] += 1
+            article = "An" if entity.dxftype() == "ARC" else "A"
+            self.notes[f"{article} {entity.dxftype()} has the radius {radius:g} and is skipped."] += 1
             self.skipped[entity.dxftype()] += 1
             return
         arc = entity.dxftype() == "ARC"
@@ -352,7 +362,7 @@ class _Reader:
         mode = entity.get_mode()
         if mode != "AcDb2dPolyline":
             kind = "3D polyline" if mode == "AcDb3dPolyline" else "mesh"
-            raise _NotFlatError(f"is a {kind} and does not lie in the XY plane")
+            raise _NotFlatError(f"is a {kind}, which may leave the XY plane")
         frame = 16
         rows = [vertex.dxf for vertex in entity.vertices if not vertex.dxf.flags & frame]
         if any(row.get("start_width", 0.0) or row.get("end_width", 0.0) for row in rows):
@@ -392,6 +402,10 @@ class _Reader:
         """A SPLINE by its control points, or through its fit points where it has no others."""
         tool = entity.construction_tool()
         if not entity.control_point_count():
+            if entity.closed and not np.allclose(entity.fit_points[0], entity.fit_points[-1]):
+                self.notes["A closed SPLINE of fit points alone is skipped. Export it with control points."] += 1
+                self.skipped["SPLINE"] += 1
+                return
             self.notes["A SPLINE has fit points alone: the curve through them is calculated."] += 1
         points = [_moved(point, matrix) for point in tool.control_points]
         heights = [point.z for point in points]

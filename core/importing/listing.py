@@ -110,7 +110,7 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
         yield f"skipped: {counted(drawing.skipped)}."
     if drawing.hidden:
         layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
-        yield f"frozen or off, not taken: {layers}."
+        yield f"frozen, off or invisible, not taken: {layers}."
     tolerance = show(from_mm(options.tolerance, unit), Kind.LENGTH, unit)
     for count, single, several in (
         (
@@ -145,7 +145,8 @@ def unit_question(drawing: Drawing) -> str:
     inch, mm = (
         " x ".join(show(size, Kind.LENGTH, unit) for size in (width, height)) for unit in (Unit.IN, Unit.MM)
     )  # fmt: skip
-    return f"The drawing names no unit. {width:.6g} x {height:.6g}: as IN {inch}, as MM {mm}"
+    names = f"is in {drawing.other_unit}, which are not read" if drawing.other_unit else "names no unit"
+    return f"The drawing {names}. {width:.6g} x {height:.6g}: as IN {inch}, as MM {mm}"
 
 
 def extent(drawing: Drawing) -> tuple[float, float]:

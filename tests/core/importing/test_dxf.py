@@ -112,6 +112,18 @@ def test_the_question_for_the_unit_has_the_size_both_ways() -> None:
     assert text == "The drawing names no unit. 40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000"
 
 
+def test_a_unit_that_is_not_read_is_named() -> None:
+    text = unit_question(read(dxf(*square(0, 0, 40), units=9)))
+    assert text.startswith("The drawing is in mils ($INSUNITS 9), which are not read. 40 x 40: ")
+
+
+@pytest.mark.parametrize(("unit", "measurement", "told"), [(1, 1, True), (4, 0, True), (1, 0, False), (4, 1, False)])
+def test_a_unit_that_contradicts_the_measurement_is_told(unit: int, measurement: int, told: bool) -> None:
+    data = dxf(*square(0, 0, 1), units=unit).replace(b"  70\n", b"70\n")
+    data = data.replace(f"70\n{unit}\n".encode(), f"70\n{unit}\n9\n$MEASUREMENT\n70\n{measurement}\n".encode(), 1)
+    assert any("$MEASUREMENT" in note for note in read(data).notes) is told
+
+
 def test_a_drawing_in_feet_is_read_in_millimeters() -> None:
     assert listed(dxf(*square(0, 0, 1), units=2)).contours[0].length == pytest.approx(4 * 304.8)
 
@@ -264,12 +276,12 @@ def test_what_clean_up_did_is_told() -> None:
     assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(made("d09-branch.dxf")))
 
 
-def spline(*points: tuple[float, float], fit: bool = False) -> bytes:
+def spline(*points: tuple[float, float], fit: bool = False, closed: bool = False) -> bytes:
     """A drawing of R2000 with one SPLINE and a LINE, by control points or by fit points."""
     document = ezdxf_new("R2000", units=4)
     space = document.modelspace()
     if fit:
-        space.add_spline(points)
+        space.add_spline(points).dxf.flags |= closed
     else:
         space.add_open_spline(points)
     space.add_line((0, 50), (10, 50))
@@ -284,6 +296,12 @@ def test_a_spline_of_fit_points_alone_is_calculated_and_told() -> None:
     curve = max(listed(data).contours, key=lambda contour: contour.length)
     ends = {tuple(round(value, 6) for value in point) for point in (curve.start, curve.pieces[-1].end)}
     assert ends == {(0.0, 0.0), (30.0, 5.0)}
+
+
+def test_a_closed_spline_of_fit_points_alone_is_skipped_and_told() -> None:
+    drawing = read(spline((0, 0), (10, 5), (20, 0), (10, -5), fit=True, closed=True))
+    assert drawing.notes == ("A closed SPLINE of fit points alone is skipped. Export it with control points.",)
+    assert drawing.skipped == {"SPLINE": 1}
 
 
 def test_a_spline_without_length_is_counted_as_too_short() -> None:
