@@ -12,7 +12,7 @@ from math import cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING, TypeVar
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
-from core.tolerance import ARC_RADII, JOINED, ON_PATH
+from core.tolerance import ARC_RADII, GRAZE, JOINED, ON_PATH
 
 if TYPE_CHECKING:
     from core.geometry.path import Points
@@ -74,15 +74,16 @@ def ray_to_coordinate(
 def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint | TwoPoints | OutOfReach:
     """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
 
-    A coordinate outside the circle by no more than `ARC_RADII` gives the nearest point of the circle.
+    A coordinate outside the circle by no more than `ARC_RADII`, or inside by no more than `GRAZE`, gives the nearest
+    point of the circle.
     """
     distance = abs(value - center[axis])
     if distance > radius + ARC_RADII:
         return OutOfReach(distance)
     middle = center[1 - axis]
-    half = sqrt(max(0.0, (radius - distance) * (radius + distance)))
-    if half <= ON_PATH:
+    if radius - distance <= GRAZE:
         return OnePoint(_placed(axis, value, middle))
+    half = sqrt((radius - distance) * (radius + distance))
     return TwoPoints(_placed(axis, value, middle + half), _placed(axis, value, middle - half))
 
 
@@ -93,16 +94,17 @@ def _placed(axis: int, value: float, other: float) -> Point:
 def centers(start: Point, end: Point, radius: float, turn: Turn) -> OnePoint | TwoPoints | OutOfReach | NotDetermined:
     """The centers of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
 
-    A radius too small by no more than `ARC_RADII` gives the half circle; equal ends give `NotDetermined`.
+    A radius too small by no more than `ARC_RADII`, or too large by no more than `GRAZE`, gives the half circle; equal
+    ends give `NotDetermined`.
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     if chord <= ON_PATH:
         return NotDetermined()
     if chord / 2 > radius + ARC_RADII:
         return OutOfReach(chord / 2)
-    height = sqrt(max(0.0, (radius - chord / 2) * (radius + chord / 2)))
-    if height <= ON_PATH:
+    if radius - chord / 2 <= GRAZE:
         return OnePoint(_above(start, end, 0.0))
+    height = sqrt((radius - chord / 2) * (radius + chord / 2))
     return TwoPoints(_above(start, end, turn * height), _above(start, end, -turn * height))
 
 

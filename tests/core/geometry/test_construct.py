@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, dist, inf, pi, sin, sqrt, tau
+from random import Random
 
 import pytest
 from hypothesis import assume, given, settings
@@ -68,6 +69,17 @@ def test_centers_of_the_shorter_arc_first(turn, first, second):
     assert isinstance(found, TwoPoints)
     assert near(found.first, first)
     assert near(found.second, second)
+
+
+def test_a_chord_of_typed_numbers_is_the_diameter_to_the_last_bit():
+    rng = Random(2)
+    for _ in range(300):
+        radius, x = round(rng.uniform(1, 20), 3), round(rng.uniform(-50, 100), 3)
+        end = round(x - 2 * radius, 3)
+        assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius, Turn.CCW), OnePoint)
+        assert isinstance(construct.on_circle((x, 10.0), radius, 0, round(x + radius, 3)), OnePoint)
+        # a digit more is an arc of its own, on either side
+        assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius + 0.0001, Turn.CCW), TwoPoints)
 
 
 def test_centers_of_half_circles_and_of_none():
