@@ -57,7 +57,7 @@ def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) 
         return (_unjudged(verdict.uneven_arc),)
     return (
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
-        *_wrong_side(verdict),
+        *_wrong_side(verdict, surface),
         *_crossing(verdict),
         *_uncut_findings(verdict, surface),
     )
@@ -123,11 +123,14 @@ def _number(number: float) -> str:
     return f"{number:g}"
 
 
-def _wrong_side(verdict: Verdict) -> tuple[Finding, ...]:
+def _wrong_side(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
     if not verdict.wrong_side:
         return ()
     moves = len(verdict.wrong_side)
-    text = f"The cutter is on the wrong side for {moves} {'move' if moves == 1 else 'moves'}. Check CUTTER COMP."
+    mostly = 2 * moves >= len(surface) or 2.0 * verdict.uncut_length >= verdict.surface_length
+    # a path that only crosses a wall would be wrong everywhere on the other side
+    what = "Check CUTTER COMP." if mostly else "It crosses the contour there."
+    text = f"The cutter is on the wrong side for {moves} {'move' if moves == 1 else 'moves'}. {what}"
     return (Finding("WRONG_SIDE", Severity.ERROR, text),)
 
 
