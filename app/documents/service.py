@@ -100,9 +100,9 @@ class Saved(Generic[AnyDocument]):
 class _Kept:
     """What is kept of one opening: the document as it was kept last, its journal, its lock.
 
-    `moved` says that the next line must tell who works on which file now; `whole` that the journal must be begun anew;
-    `failing` that the last edit is not on the disk; `warned` that somebody has taken the document over; `away` that the
-    operator knows of a journal that is not beside its file.  `copy` is the name under which a question would save.
+    `whole` says that the journal must be begun anew; `failing` that the last edit is not on the disk; `warned` that
+    somebody has taken the document over; `away` that the operator knows of a journal that is not beside its file.
+    `copy` is the name under which a question would save.
     """
 
     known: Document

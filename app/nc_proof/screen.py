@@ -63,8 +63,6 @@ READING: Final = (
 EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
 STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
 """How much < and > change a diameter."""
-ZOOM: Final = 1.25
-"""One press enlarges by this factor."""
 ORDER: Final = tuple(Severity)
 """The gravest first."""
 _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
@@ -547,23 +545,22 @@ class ProofScreen(BaseScreen):
             scene = replace(scene, layers=(*dotted.path, *scene.layers))
             other = dotted.result
             second = self.query_one("#proof-dotted", Drawing)
-            second.characters = self.host.characters
             second.heading = f"{shown_control(other.question.control)}: {other.answer.outcome}"
             second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
-        drawing.characters, drawing.heading = self.host.characters, f"LINE {line}"
+        drawing.heading = f"LINE {line}"
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink on the cutter."""
         from core.pipeline.nc_proof import cutter_at_line
 
-        drawn = self.query_one("#proof-drawing", Drawing).drawn
-        if drawn is None or self.result is None:
+        drawing = self.query_one("#proof-drawing", Drawing)
+        if drawing.drawn is None or self.result is None:
             return
         at, _ = cutter_at_line(self.result.proof, self.document.row + 1)
-        self.view_of = drawn.view.zoom(ZOOM**steps, at)
+        self.view_of = drawing.zoomed(steps, at)
         self._draw()
 
     def action_fit(self) -> None:

@@ -18,7 +18,7 @@ from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
 from app.session.words import place
-from app.widgets.drawing import Drawing
+from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.findings_list import FindingsList, heading
 from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
@@ -33,12 +33,6 @@ if TYPE_CHECKING:
     from core.geometry.piece import Point
     from core.pipeline.plot import Subject
 
-ZOOM: Final = 1.25
-"""One press enlarges by this factor."""
-PAN: Final = 0.125
-"""One arrow moves the window by this part of it."""
-FARTHEST: Final = 2.0
-"""The window may move so many times the whole drawing away from it."""
 NO_PICK: Final = "Only segments that cannot be calculated without a pick take one."
 PROMPT: Final = (
     "N and P go from finding to finding, Enter to its field. + and - zoom, arrows move, "
@@ -50,15 +44,10 @@ class FullDrawing(Drawing, can_focus=True):
     """The drawing with the keys of DRAW."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
+        *LOOK_KEYS,
         Binding("n,N", "screen.finding(1)", "Next finding", show=False),
         Binding("p,P", "screen.finding(-1)", "Finding before", show=False),
-        Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
-        Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
         Binding("0,home", "screen.fit", "Whole part", show=False),
-        Binding("left", "screen.pan(-1, 0)", "Move left", show=False),
-        Binding("right", "screen.pan(1, 0)", "Move right", show=False),
-        Binding("up", "screen.pan(0, 1)", "Move up", show=False),
-        Binding("down", "screen.pan(0, -1)", "Move down", show=False),
         Binding("pageup", "screen.walk(-1)", "Segment before", show=False),
         Binding("pagedown", "screen.walk(1)", "Next segment", show=False),
         Binding("enter", "screen.enter", "Go to the field", show=False),
@@ -67,7 +56,6 @@ class FullDrawing(Drawing, can_focus=True):
         Binding("shift+up", "screen.move_cross(0, 8)", "Cross up", show=False),
         Binding("shift+down", "screen.move_cross(0, -8)", "Cross down", show=False),
         Binding("x,X", "screen.type_cross", "Type X and Y of the pick", show=False),
-        Binding("m,M", "app.next_characters", "Characters", show=False),
     ]
 
 
@@ -181,23 +169,17 @@ class DrawScreen(BaseScreen):
 
     def action_zoom(self, steps: int) -> None:
         """Enlarge or shrink about the middle of the window."""
-        if self.drawing.drawn is not None:
-            self._look(self.drawing.drawn.view.zoom(ZOOM**steps, about=self.cross))
+        self._look(self.drawing.zoomed(steps, self.cross))
 
     def action_pan(self, right: int, up: int) -> None:
         """Move the window over the part, but never far away from it; while a joint is picked the cross."""
-        drawn, size = self.drawing.drawn, self.drawing.size
         if self.cross is not None:
             self.action_move_cross(right, up)
-            return
-        if drawn is None:
-            return
-        view = drawn.view.pan(PAN * right, PAN * up, size.width, size.height)
-        if view.touches(drawn.bounds, FARTHEST):
-            self._look(view)
+        else:
+            self._look(self.drawing.panned(right, up))
 
-    def _look(self, view: View) -> None:
-        if self._subject is not None:
+    def _look(self, view: View | None) -> None:
+        if self._subject is not None and view is not None:
             self._draw(replace(self._subject, view=view))
 
     def action_fit(self) -> None:

@@ -229,6 +229,13 @@ class FormScreen(BaseScreen):
         """Take the field and go on."""
         self.action_step(1)
 
+    def action_leave(self) -> None:
+        """The old value back; at rest the screen before."""
+        if self.half_typed:
+            self.action_restore()
+        else:
+            self.app.call_later(self.app.run_action, "app.back")
+
     def action_restore(self) -> None:
         """The old value back; where there is none to bring back, the next digit is a softkey."""
         self.quiet()

@@ -34,7 +34,7 @@ from app.screens.dialogs import ChooseSeveral, NumberEntry, NumberForm, Question
 from app.session.messages import Sentence, Tone
 from app.session.words import length, place
 from app.widgets.contour_table import ContourTable
-from app.widgets.drawing import Drawing
+from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.controls.program_text import quoted
@@ -120,18 +120,12 @@ class ContoursDrawing(Drawing, can_focus=True):
     """The drawing with keys to enlarge and move it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
-        Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
+        *LOOK_KEYS,
         Binding("0,home", "screen.zoom(0)", "Whole drawing", show=False),
-        Binding("left", "screen.pan(-1, 0)", "Move left", show=False),
-        Binding("right", "screen.pan(1, 0)", "Move right", show=False),
-        Binding("up", "screen.pan(0, 1)", "Move up", show=False),
-        Binding("down", "screen.pan(0, -1)", "Move down", show=False),
         Binding("n,N,pagedown", "screen.next_row(1)", "Next chain", show=False),
         Binding("p,P,pageup", "screen.next_row(-1)", "Chain before", show=False),
         Binding("space", "screen.mark", "Mark", show=False),
         Binding("enter", "screen.take", "Take", show=False),
-        Binding("m,M", "app.next_characters", "Characters", show=False),
     ]
 
 
@@ -608,15 +602,14 @@ class ImportScreen(BaseScreen):
         """Enlarge or shrink about the middle of the window; 0 shows the whole drawing."""
         drawing, subject = self.picture, self.picture.subject
         if isinstance(subject, Picked) and drawing.drawn is not None:
-            drawing.subject = replace(subject, view=drawing.drawn.view.zoom(ZOOM**steps) if steps else None)
+            drawing.subject = replace(subject, view=drawing.zoomed(steps) if steps else None)
 
     def action_pan(self, right: int, up: int) -> None:
         """Move the window over the drawing, but never far away from it."""
         drawing, subject = self.picture, self.picture.subject
-        if isinstance(subject, Picked) and drawing.drawn is not None:
-            view = drawing.drawn.view.pan(PAN * right, PAN * up, drawing.size.width, drawing.size.height)
-            if view.touches(drawing.drawn.bounds, FARTHEST):
-                drawing.subject = replace(subject, view=view)
+        view = drawing.panned(right, up)
+        if isinstance(subject, Picked) and view is not None:
+            drawing.subject = replace(subject, view=view)
 
     def action_leave(self) -> None:
         """Stop what is being worked out, else out of the large drawing, out of the filter, out of the screen."""
@@ -729,13 +722,6 @@ class ImportScreen(BaseScreen):
         told = () if self.listed is None else tuple(sentences(self.listed, self.unit))
         return (*HELP_LINES, *told)
 
-
-ZOOM: Final = 1.25
-"""One press enlarges by this factor."""
-PAN: Final = 0.125
-"""One arrow moves the window by this part of it."""
-FARTHEST: Final = 2.0
-"""The window may move so many times the whole drawing away from it."""
 
 START_ANSWERS: Final = (
     Answer("NEXT CORNER"),

@@ -94,13 +94,6 @@ class SettingsForm(FormScreen):
             return sentence
         return Sentence(f"{sentence.text} Blank: {show(usual, field.kind, unit)}.")
 
-    def action_leave(self) -> None:
-        """The old value back; at rest the screen before."""
-        if self.half_typed:
-            self.action_restore()
-        else:
-            self.app.call_later(self.app.run_action, "app.back")
-
 
 class ParametersScreen(SettingsForm):
     """The parameters of the program; another unit is asked about first."""

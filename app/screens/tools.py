@@ -230,13 +230,6 @@ class ToolsScreen(FormScreen):
         ):
             self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
 
-    def action_leave(self) -> None:
-        """The old value back; at rest the screen before."""
-        if self.half_typed:
-            self.action_restore()
-        else:
-            self.app.call_later(self.app.run_action, "app.back")
-
     def prompt_text(self) -> Sentence:
         """What the field takes; of an empty table how to begin."""
         return super().prompt_text() if self.current_session.program.tools else Sentence(EMPTY, Tone.WARNING)

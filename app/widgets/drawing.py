@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from rich.segment import Segment
 from textual import events, work
+from textual.binding import Binding, BindingType
 from textual.content import Content
 from textual.geometry import Region, Size
 from textual.message import Message
@@ -20,8 +21,27 @@ from textual.widget import Widget
 
 if TYPE_CHECKING:
     from core.draw.characters import Mode
+    from core.draw.view import View
     from core.geometry.piece import Point
     from core.pipeline.plot import Drawn
+
+
+ZOOM: Final = 1.25
+"""One press enlarges by this factor."""
+PAN: Final = 0.125
+"""One arrow moves the window by this part of it."""
+FARTHEST: Final = 2.0
+"""The window may move so many times the whole drawing away from it."""
+LOOK_KEYS: Final[tuple[BindingType, ...]] = (
+    Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
+    Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
+    Binding("left", "screen.pan(-1, 0)", "Move left", show=False),
+    Binding("right", "screen.pan(1, 0)", "Move right", show=False),
+    Binding("up", "screen.pan(0, 1)", "Move up", show=False),
+    Binding("down", "screen.pan(0, -1)", "Move down", show=False),
+    Binding("m,M", "app.next_characters", "Characters", show=False),
+)
+"""The keys of a drawing that is looked at by itself; its screen has the actions."""
 
 
 class Drawable(Protocol):
@@ -71,28 +91,29 @@ class Drawing(Widget):
             super().__init__()
             self.drawing, self.at = drawing, at
 
-        @property
-        def control(self) -> Drawing:
-            """The drawing."""
-            return self.drawing
-
     class Wheel(Message):
         """The wheel was turned: `steps` is 1 to enlarge, -1 to shrink."""
 
-        def __init__(self, drawing: Drawing, steps: int) -> None:
+        def __init__(self, steps: int) -> None:
             super().__init__()
-            self.drawing, self.steps = drawing, steps
-
-        @property
-        def control(self) -> Drawing:
-            """The drawing."""
-            return self.drawing
+            self.steps = steps
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
         self.drawn: Drawn | None = None
         self._strips: list[Strip] = []
         self._made: tuple[object, ...] = ()
+
+    def zoomed(self, steps: int, about: Point | None = None) -> View | None:
+        """The window enlarged or shrunk about a point in millimeters, else its middle; None where nothing is drawn."""
+        return None if self.drawn is None else self.drawn.view.zoom(ZOOM**steps, about)
+
+    def panned(self, right: int, up: int) -> View | None:
+        """The window moved by steps; None where nothing is drawn, or where that is far away from all."""
+        if self.drawn is None:
+            return None
+        view = self.drawn.view.pan(PAN * right, PAN * up, *self.size)
+        return view if view.touches(self.drawn.bounds, FARTHEST) else None
 
     def watch_subject(self) -> None:
         """Another block, segment or window."""
@@ -198,8 +219,8 @@ class Drawing(Widget):
 
     def on_mouse_scroll_up(self) -> None:
         """Enlarge."""
-        self.post_message(self.Wheel(self, 1))
+        self.post_message(self.Wheel(1))
 
     def on_mouse_scroll_down(self) -> None:
         """Shrink."""
-        self.post_message(self.Wheel(self, -1))
+        self.post_message(self.Wheel(-1))
