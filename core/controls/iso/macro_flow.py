@@ -29,6 +29,9 @@ MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
 MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
 """Rows after which a program is taken to run for ever; a row that runs for the first time is not counted."""
 
+BUILDER_PROGRAMS: Final = range(9000, 10_000)
+"""The numbers of programs that are usually the machine's: for its probe, or for its tool changer."""
+
 MAX_CALLS: Final = 4
 """Subprograms, and macros, that may run inside each other."""
 
@@ -627,6 +630,9 @@ class MacroFlow(Flow):
     def _from_library(self, number: int, block: Block, row: int) -> int:
         """A program that is not in the file; its lines are numbered on from the file's."""
         program = self.library(number)
+        if program is None and number in BUILDER_PROGRAMS:
+            text = f"O{number} may be a macro of the machine, such as for a probe. Add it to the file or its folder."
+            self.log.stop("BEYOND", text, block.line, block.column("P"))
         if program is None:
             text = f"There is no program O{number} in this file or its folder. Add it."
             self.log.stop("PS0076", text, block.line, block.column("P"))

@@ -687,6 +687,11 @@ def test_calls_that_wait_for_a_signal_or_lie_elsewhere_are_not_followed() -> Non
     assert told(ran(f"{HEAD}M97 P10\nM30\nN10 G1 X5.\nM99"), "UNUSED")
 
 
+def test_a_macro_of_the_machine_is_not_followed_and_another_program_is_missing() -> None:
+    assert alarms(ran(f"{HEAD}G65 P9810 Z-5.\nM30")) == [("BEYOND", 2)]
+    assert alarms(ran(f"{HEAD}M98 P810\nM30")) == [("PS0076", 2)]
+
+
 def test_a_comment_in_a_comment_is_called_so() -> None:
     (finding,) = told(ran(f"{HEAD}(A (B) C)\nM30"), "PS0114")
     assert (finding.text, finding.column) == ("A ) has no ( before it: a comment cannot hold another one.", 9)
