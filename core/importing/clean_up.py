@@ -139,15 +139,18 @@ def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
 
 def _without_duplicates(items: list[LayeredPiece], slack: float) -> list[LayeredPiece]:
     """Without the pieces that another one equals, forward or backward."""
-    middles = [item.piece.start if is_circle(item.piece) else item.piece.point_at(0.5) for item in items]
-    points = shapely.points(np.array(middles).reshape(-1, 2))
-    first, second = shapely.STRtree(points).query(points, predicate="dwithin", distance=max(slack, 1e-7))
-    dropped = set[int]()
-    for earlier, row in sorted((i, j) for j, i in zip(first.tolist(), second.tolist(), strict=True) if i < j):
-        near = max(min(slack, items[row].piece.length / 4.0), 1e-7)
-        if earlier not in dropped and _equal(items[row].piece, items[earlier].piece, near):
-            dropped.add(row)
-    return [item for row, item in enumerate(items) if row not in dropped]
+    # of a piece that is there a thousand times each copy is compared with the one that stays
+    width, kept = max(slack, 1e-7), list[LayeredPiece]()
+    cells: defaultdict[tuple[int, int], list[Piece]] = defaultdict(list)
+    for item in items:
+        middle = item.piece.start if is_circle(item.piece) else item.piece.point_at(0.5)
+        column, row = floor(middle[0] / width), floor(middle[1] / width)
+        around = [cells.get((column + x, row + y), ()) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+        near = max(min(slack, item.piece.length / 4.0), 1e-7)
+        if not any(_equal(item.piece, other, near) for cell in around for other in cell):
+            cells[column, row].append(item.piece)
+            kept.append(item)
+    return kept
 
 
 def _equal(first: Piece, second: Piece, slack: float) -> bool:

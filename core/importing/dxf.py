@@ -25,7 +25,6 @@ from core.importing.drawing import (
     BSpline,
     Drawing,
     DrawingError,
-    DrawingUnit,
     Drawn,
     EllipseArc,
     NotFlat,
@@ -51,8 +50,6 @@ FLAT: Final = 1e-4
 
 LARGEST_SAGITTA: Final = 0.005
 """How high an arc may be, in the drawing's unit, that is a line because its center lies out of reach."""
-
-_OF_INCHES: Final = (DrawingUnit.IN, DrawingUnit.FT)
 
 ROUND: Final = 1e-9
 """Relative difference of two half diameters, and of their angle from a right one, that rounding explains."""
@@ -106,7 +103,9 @@ def _no_geometry(drawing: Drawing) -> str:
     if skipped:
         text += f": {counted(skipped)} {'was' if sum(skipped.values()) == 1 else 'were'} skipped"
     if hidden:
-        text += f"{'; ' if skipped else ': '}{sum(hidden.values())} are frozen, off or invisible"
+        count = sum(hidden.values())
+        entities = "1 entity is" if count == 1 else f"{count} entities are"
+        text += f"{'; ' if skipped else ': '}{entities} frozen, off or invisible"
     return " ".join((f"{text}.", *drawing.notes))
 
 
@@ -190,12 +189,9 @@ class _Reader:
             notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
         code, other = scan.units, ""
         if code not in UNIT_CODES and code:
-            other = f"{OTHER_UNITS.get(code, 'unknown')} ($INSUNITS {code})"
-            notes.append(f"The drawing is in {other}, which are not read.")
+            other = f"{OTHER_UNITS.get(code, 'unknown')}, $INSUNITS {code}"
+            notes.append(f"The drawing has a unit that is not read: {other}.")
         unit = UNIT_CODES.get(code)
-        if scan.measurement is not None and unit is not None and (unit in _OF_INCHES) is bool(scan.measurement):
-            system = "millimeters" if scan.measurement else "inches"
-            notes.append(f"$INSUNITS says {unit.name}, but $MEASUREMENT says {system}. Check the size.")
         return Drawing(
             unit,
             tuple(self.shapes),
@@ -452,9 +448,8 @@ def _moved(point: Vec3, matrix: Matrix44 | None) -> Vec3:
 
 
 def _is_straight(chord: float, bulge: float) -> bool:
-    """Whether a bulge comes of rounding, or its arc is so flat that no coordinate could tell its center."""
-    sagitta, out_of_reach = abs(bulge) * chord / 2.0, chord * chord / (4.0 * LARGEST)
-    return sagitta <= max(FLAT, min(out_of_reach, LARGEST_SAGITTA))
+    """Whether an arc has no length, or is so flat that its center lies beyond what any coordinate may be."""
+    return abs(bulge) * chord / 2.0 <= min(chord * chord / (4.0 * LARGEST), LARGEST_SAGITTA)
 
 
 def _turned(begin: float, end: float) -> tuple[float, float]:

@@ -91,8 +91,6 @@ class Scan:
     blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
     units: int = 0
     """$INSUNITS, 0 where the file has none."""
-    measurement: int | None = None
-    """$MEASUREMENT, 0 for inches and 1 for millimeters."""
     bad_line: int = 0
     """The first line that should be a group code and is none."""
     open_section: str = ""
@@ -244,11 +242,8 @@ class _Scanner:
 
     def _header(self, body: list[Tag]) -> None:
         for variable, value in pairwise(body):
-            if value.code == 70 and value.value.lstrip("-").isdecimal():
-                if variable[:2] == (9, "$INSUNITS"):
-                    self.scan.units = int(value.value)
-                elif variable[:2] == (9, "$MEASUREMENT"):
-                    self.scan.measurement = int(value.value)
+            if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
+                self.scan.units = int(value.value)
 
     def _check(self, kind: str, body: list[Tag]) -> None:
         assert self.entity is not None

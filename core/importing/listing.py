@@ -145,7 +145,7 @@ def unit_question(drawing: Drawing) -> str:
     inch, mm = (
         " x ".join(show(size, Kind.LENGTH, unit) for size in (width, height)) for unit in (Unit.IN, Unit.MM)
     )  # fmt: skip
-    names = f"is in {drawing.other_unit}, which are not read" if drawing.other_unit else "names no unit"
+    names = f"has a unit that is not read ({drawing.other_unit})" if drawing.other_unit else "names no unit"
     return f"The drawing {names}. {width:.6g} x {height:.6g}: as IN {inch}, as MM {mm}"
 
 

@@ -128,9 +128,11 @@ def _wrong_side(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
         return ()
     moves = len(verdict.wrong_side)
     mostly = 2 * moves >= len(surface) or 2.0 * verdict.uncut_length >= verdict.surface_length
-    # a path that only crosses a wall would be wrong everywhere on the other side
-    what = "Check CUTTER COMP." if mostly else "It crosses the contour there."
-    text = f"The cutter is on the wrong side for {moves} {'move' if moves == 1 else 'moves'}. {what}"
+    count = f"{moves} {'move' if moves == 1 else 'moves'}"
+    text = f"The cutter is on the wrong side for {count}. Check CUTTER COMP."
+    if not mostly:
+        # the rest of the path would be wrong on the other side
+        text = f"The path crosses the contour: {count} on the wrong side."
     return (Finding("WRONG_SIDE", Severity.ERROR, text),)
 
 

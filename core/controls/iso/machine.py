@@ -107,7 +107,7 @@ class Machine(ModalState):
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, tools, log)
-        self.control = control
+        self.control, self.side_on = control, False
         control.machine, control.unit = self, self.unit
 
     def step(self, block: Block) -> None:
@@ -231,8 +231,10 @@ class Machine(ModalState):
         """A code that does more than set a value."""
         match code.action:
             case CodeAction.SIDE if code.value == 400:
+                self.side_on = False
                 self.control.finish(block)
             case CodeAction.SIDE:
+                self.side_on = True
                 self.control.begin(Side.LEFT if code.value // 10 == 41 else Side.RIGHT, block)
             case CodeAction.SYSTEM:
                 self._select_system(code.value, block)
@@ -259,8 +261,8 @@ class Machine(ModalState):
         if _TOOL_CHANGE in block.m:
             self.tool = self.next_tool
             self.control.tool_changed()
-        if self.control.active and self.tool != before:
-            text = f"Tool {self.tool} is put in, and compensation goes on with the radius in force. Write G40 first."
+        if self.control.active and self.side_on and 400 not in block.g and self.tool != before:
+            text = f"Tool {self.tool} is loaded, and compensation goes on with the radius in force. Write G40 first."
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("TM"))
 
     def _warn_of_axes(self, block: Block) -> None:

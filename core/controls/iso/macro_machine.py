@@ -1,7 +1,7 @@
 """Macro machine: the machine of Fanuc and Haas mills, with offset memories, system variables and coordinate transforms.
 
-Programmed points are turned into those of the work coordinates before compensation: polar coordinates first, then the
-mirror image, scaling and rotation.  An axis that went to a machine point is nowhere known until an absolute word.
+Programmed points are turned into those of the work coordinates before compensation: polar coordinates first, then
+rotation, scaling and the mirror image.  An axis that went to a machine point is nowhere known until an absolute word.
 """
 
 from __future__ import annotations
@@ -365,6 +365,9 @@ class MacroMachine(Machine):
         words, state = block.words, self.transform
         if code in (510, 511):
             self._stop_out_of_order(code, block)
+        if code in (500, 501) and state.angle and (state.mirror or state.factor != 1.0):
+            text = f"G{code / 10:g} stands before G69; cutcomp assumes that the rotation goes on as programmed."
+            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, block.column("G", code))
         match code:
             case 150:
                 self.polar = None

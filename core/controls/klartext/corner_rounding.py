@@ -13,9 +13,7 @@ from core.geometry.piece import Point
 from core.tolerance import JOINED
 
 NOT_BETWEEN: Final = "RND and CHF must stand directly between two contour elements of one side. Move the block."
-NO_LEAD: Final = (
-    "cutcomp follows RND only directly between two contour elements of one side, not as a lead. Write APPR or DEP."
-)
+NO_LEAD: Final = "cutcomp follows RND only directly between two contour elements of one side, and not as a lead."
 
 
 @dataclass(frozen=True, slots=True)

@@ -169,8 +169,9 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
     state.waiting.flush()
     state.last = None
     severity, said = Severity.WARNING, NOT_JUDGED
-    if number in _DRILLING or number in _TAPPING:
+    if number in _DRILLING or number in _TAPPING or number in state.told_cycles:
         severity, said = Severity.INFO, SKIPPED
+    state.told_cycles.add(number)
     if number in _RETURNING:
         state.tell(severity, "CYCLE", said.format(number, "it ends where it began"), block)
         return

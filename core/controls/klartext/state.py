@@ -84,6 +84,7 @@ class State:
     applied: int = 0
     offset: float = 0.0
     ahead: int = 0
+    told_cycles: set[int] = field(default_factory=set)
     last: Element | None = None
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
@@ -146,7 +147,7 @@ class State:
     def value(self, formula: str, block: Block, name: str = "") -> float:
         """The value of a formula."""
         if "%" in formula:
-            text = "cutcomp does not follow % in a formula, since its sign differs. Write what is left over."
+            text = "cutcomp does not work out % in a formula: the sign of a remainder may differ. Write the result."
             self.stop("BEYOND", text, block, name)
         value = evaluate(formula, self.parameters)
         if isinstance(value, str):

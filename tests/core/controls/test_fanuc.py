@@ -645,7 +645,8 @@ def test_a_tool_that_is_changed_under_compensation_is_told(control: str) -> None
     program = f"T1 M6\n{HEAD}G54 G0 X-20. Y-20.\nG1 Z-5.\nG41 D1 X0 Y-10.\nY50.\n{{0}}\nX50.\nG40 X60.\nM30"
     changed = ran(program.format("T2 M6"), control, {1: 3.0, 2: 5.0})
     assert [finding.line for finding in changed.findings if finding.code == "OFFSET"] == [7]
-    assert not told(ran(program.format("T1 M6"), control, {1: 3.0, 2: 5.0}), "OFFSET")
+    for block in ("T1 M6", "G40 T2 M6", "G0 G40 Z50.\nT2 M6", "G40\nT2 M6"):
+        assert not told(ran(program.format(block), control, {1: 3.0, 2: 5.0}), "OFFSET"), block
 
 
 @pytest.mark.parametrize(

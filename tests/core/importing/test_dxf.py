@@ -114,14 +114,7 @@ def test_the_question_for_the_unit_has_the_size_both_ways() -> None:
 
 def test_a_unit_that_is_not_read_is_named() -> None:
     text = unit_question(read(dxf(*square(0, 0, 40), units=9)))
-    assert text.startswith("The drawing is in mils ($INSUNITS 9), which are not read. 40 x 40: ")
-
-
-@pytest.mark.parametrize(("unit", "measurement", "told"), [(1, 1, True), (4, 0, True), (1, 0, False), (4, 1, False)])
-def test_a_unit_that_contradicts_the_measurement_is_told(unit: int, measurement: int, told: bool) -> None:
-    data = dxf(*square(0, 0, 1), units=unit).replace(b"  70\n", b"70\n")
-    data = data.replace(f"70\n{unit}\n".encode(), f"70\n{unit}\n9\n$MEASUREMENT\n70\n{measurement}\n".encode(), 1)
-    assert any("$MEASUREMENT" in note for note in read(data).notes) is told
+    assert text.startswith("The drawing has a unit that is not read (mils, $INSUNITS 9). 40 x 40: ")
 
 
 def test_a_drawing_in_feet_is_read_in_millimeters() -> None:

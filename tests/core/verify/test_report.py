@@ -177,7 +177,7 @@ def test_the_wrong_side_is_an_error() -> None:
     along = lines((-0.1, -0.1), (2.1, -0.1), (2.1, 1.5), (1.5, 2.1), (-0.1, 2.1), (-0.1, -0.1))
     crossing = verdict_findings(judge(square(), Side.RIGHT, 0.1, along), square())
     texts = [finding.text for finding in crossing if finding.code == "WRONG_SIDE"]
-    assert texts == ["The cutter is on the wrong side for 1 move. It crosses the contour there."]
+    assert texts == ["The path crosses the contour: 1 move on the wrong side."]
 
 
 def test_no_path_leaves_everything() -> None:
