@@ -41,7 +41,16 @@ ARGUMENTS: Final = 26
 
 
 class Vacant(float):
-    """The value of a variable that nothing has set: 0 in sums."""
+    """The value of a variable that nothing has set: 0 in sums.  `number` is that of a common one, else 0."""
+
+    number = 0
+
+    @classmethod
+    def of(cls, number: int) -> Vacant:
+        """The value of a common variable in which the control may keep another one."""
+        value = cls(0.0)
+        value.number = number
+        return value
 
 
 VACANT: Final = Vacant(0.0)
@@ -85,7 +94,7 @@ class Variables(MacroParameters):
                 self.vacant_arguments = True
             return VACANT if value is None else value
         if is_common(index):
-            return self.common.get(index, VACANT)
+            return self.common[index] if index in self.common else Vacant.of(index)
         system = self.machine_value(index)
         if isinstance(system, str):
             raise FaultError("PS0115", system, at)
@@ -245,15 +254,19 @@ class MacroReader(ExpressionReader):
             raise FaultError("PS0118", "Too many signs # stand in a row. Use variables.", self.at)
         value = self._bare()
         self._depth -= 1
+        if negative:
+            self.note_use(value)
         return -value if negative else value
+
+    def note_use(self, *values: float | None) -> None:
+        """Remember common variables that nothing has set and whose values count here."""
+        self.variables.unset += [value.number for value in values if isinstance(value, Vacant) and value.number]
 
     def _parameter(self) -> float:
         begin, key = self.at, self.key()
         if isinstance(key, str):
             return self.values.named(key, begin)
         value = self.values.number(key, begin)
-        if isinstance(value, Vacant) and is_common(key):
-            self.unset.append((key, begin))
         return VACANT if value is None else value
 
     def brackets(self) -> float:
@@ -285,9 +298,9 @@ class MacroReader(ExpressionReader):
     def _operated(
         self, at: int, name: str, work: Callable[[float, float], float], left: float, right: float
     ) -> float:  # fmt: skip
-        vacant = isinstance(left, Vacant), isinstance(right, Vacant)
-        if any(vacant) and not (name in _RELATIONS and all(vacant)):
-            self.variables.unset += [number for number, _ in self.unset]
+        # to compare with #0 is to ask whether a variable is set
+        if name not in ("EQ", "NE") or not any(isinstance(one, Vacant) and not one.number for one in (left, right)):
+            self.note_use(left, right)
         if name in _RELATIONS:
             self.differences.append(abs(left - right))
         if name in "/MOD" and right == 0.0:
@@ -303,6 +316,7 @@ class MacroReader(ExpressionReader):
             raise FaultError("PS0114", f"This control has no function {function[1]}.", begin)
         self.at = function.end(1)
         first, second = self._arguments()
+        self.note_use(first, second)
         if name == "ATAN" and second is None and self.text.startswith("/[", self.at):
             self.at += 1
             second = self.brackets()
@@ -398,14 +412,15 @@ def words_of(line: CompactText, values: Variables, increment: float, start: int 
         elif sign == "," and text[reader.at : reader.at + 1] in ("R", "C"):
             reader.at += 1
             corner = text[begin + 1], reader.value()
+            reader.note_use(corner[1])
         elif "A" <= sign <= "Z":
             value = _word_value(reader, sign, begin)
+            reader.note_use(value)
             if not isinstance(value, Vacant):
                 words.append(f"{sign}{plain(value)}")
                 columns.append(line.columns[begin] + 1)
         else:
             raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
-    values.unset += [key for key, _ in reader.unset]
     return BlockWords(" ".join(words), tuple(columns), corner, skip)
 
 

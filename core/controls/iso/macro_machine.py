@@ -363,11 +363,7 @@ class MacroMachine(Machine):
 
     def _set_transform(self, code: int, block: Block) -> None:
         words, state = block.words, self.transform
-        if code in (510, 511):
-            self._stop_out_of_order(code, block)
-        if code in (500, 501) and state.angle and (state.mirror or state.factor != 1.0):
-            text = f"G{code / 10:g} stands before G69; cutcomp assumes that the rotation goes on as programmed."
-            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, block.column("G", code))
+        self._check_order(code, block)
         match code:
             case 150:
                 self.polar = None
@@ -396,12 +392,16 @@ class MacroMachine(Machine):
             return words[letter] * self.scale + self.shift[axis]
         return replace(self.transform, angle=0.0).undone(self.position)[axis]
 
-    def _stop_out_of_order(self, code: int, block: Block) -> None:
-        """Mirror image, scaling and rotation are programmed in this order; what another one does is not known."""
-        before = "G68" if self.transform.angle else "G51" if code == 511 and self.transform.factor != 1.0 else ""
-        if before:
-            text = f"cutcomp does not follow G{code / 10:g} while {before} is in force. Write it before {before}."
-            self.log.stop("BEYOND", text, block.line, block.column("G", code))
+    def _check_order(self, code: int, block: Block) -> None:
+        """Mirror image, scaling and rotation begin in this order and end in the other; what else does is not known."""
+        state, name, column = self.transform, f"G{code / 10:g}", block.column("G", code)
+        before = "G68" if state.angle else "G51" if code == 511 and state.factor != 1.0 else ""
+        if before and code in (510, 511):
+            text = f"cutcomp does not follow {name} while {before} is in force. Write it before {before}."
+            self.log.stop("BEYOND", text, block.line, column)
+        if code in (500, 501) and state.angle and (state.mirror or state.factor != 1.0):
+            text = f"{name} stands before G69; cutcomp assumes that the rotation goes on as programmed."
+            self.log.tell(Severity.WARNING, "FN-ROTATION", text, block.line, column)
 
     def _scale(self, block: Block) -> None:
         words = block.words

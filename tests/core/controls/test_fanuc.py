@@ -665,9 +665,10 @@ def test_lengths_without_a_point_are_told_and_counts_are_not(blocks: str, column
 
 
 def test_common_variables_that_nothing_has_set_are_told_wherever_they_are_read() -> None:
-    for block in ("X#500", "IF[#501EQ1]GOTO9", "#1=#502+1", "G#503 X1."):
+    used = ("X#500", "X-#500", "IF[#501EQ1]GOTO9", "#1=#502+1", "G#503 X1.", "#1=#502\nX#1", "IF[ABS[#500]LT1]GOTO9")
+    for block in (*used, "IF[[#500EQ#0]OR[#510EQ1]]GOTO9", "IF[#501GE#502]GOTO9", "IF[#501EQ#502]GOTO9"):
         assert told(ran(f"{HEAD}{block}\nN9 M30"), "PARAMETER"), block
-    for block in ("IF[#501EQ#0]GOTO9", "#1=#502", "#504=1\nX#504"):
+    for block in ("IF[#501EQ#0]GOTO9", "#1=#502", "#504=1\nX#504", "IF[[#500EQ#0]AND[#24GT0]]GOTO9", "#505=#0\nX#505"):
         assert not told(ran(f"{HEAD}{block}\nN9 M30"), "PARAMETER"), block
 
 
