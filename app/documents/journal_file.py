@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import os
 import stat
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
@@ -67,7 +67,7 @@ class JournalFile:
                 self.aside = set_aside(self.path, "kept")
             else:
                 self.path.unlink()
-        handle, data = self._beside_first(self.unwritten), self.unwritten
+        handle, data = self._beside_first(self.unwritten, _named), self.unwritten
         self.handle, self.length, self.unwritten = handle, len(data), b""
 
     def replace(self, records: Iterable[Record]) -> None:
@@ -83,8 +83,8 @@ class JournalFile:
         self.close()
         self.unwritten, self.total, self.length, self.handle = b"", total, len(data), handle
 
-    def _beside_first(self, data: bytes) -> int:
-        """The open file, written beside its place and renamed into it: half of it would be offered as older work."""
+    def _beside_first(self, data: bytes, put: Callable[[Path, Path], object] = Path.replace) -> int:
+        """The open file, written beside its place and put into it: half of it would be offered as older work."""
         new = new_path(self.path)
         new.unlink(missing_ok=True)
         handle = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
@@ -93,7 +93,7 @@ class JournalFile:
                 _share(handle, self.program)
             write_all(handle, data)
             os.fsync(handle)
-            new.replace(self.path)
+            put(new, self.path)
         except OSError:
             os.close(handle)
             with suppress(OSError):
@@ -198,6 +198,19 @@ def set_aside(path: Path, why: str) -> Path:
     path.rename(aside)
     sync_folder(aside.parent)
     return aside
+
+
+def _named(new: Path, path: Path) -> None:
+    """Give a file its name; FileExistsError where another journal has it by now."""
+    try:
+        os.link(new, path)
+    except FileExistsError:
+        raise
+    except OSError:
+        # a file system without links
+        new.replace(path)
+    else:
+        new.unlink()
 
 
 def _share(handle: int, program: Path) -> None:

@@ -304,3 +304,25 @@ def test_a_journal_that_was_set_aside_by_a_colleague_is_not_gone(tmp_path: Path)
     file = begun(tmp_path / "j")
     set_aside(tmp_path / "j", "theirs")
     assert not file.lost()
+
+
+def test_a_journal_that_another_program_has_begun_meanwhile_is_not_written_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "j"
+
+    def begun_by_another(handle: int, data: bytes) -> None:
+        os.write(handle, data)
+        if not path.exists():
+            path.write_text("another's")
+
+    file = JournalFile(path)
+    with monkeypatch.context() as patch:
+        patch.setattr("app.documents.journal_file.write_all", begun_by_another)
+        with pytest.raises(FileExistsError):
+            file.add(first())
+    assert path.read_text() == "another's"
+    file.add([])
+    assert file.aside is not None
+    assert file.aside.read_text() == "another's"
+    assert read(path.read_bytes()).work == History(PART)
