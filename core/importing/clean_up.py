@@ -17,7 +17,7 @@ import numpy as np
 import shapely
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.nodes import Nodes, exact_nodes, nodes_of
+from core.importing.nodes import exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
 """Millimeters within which pieces may be equal or lie on one line, whatever TOLERANCE is above it."""
@@ -47,6 +47,10 @@ class Cleaned:
     tiny: int = 0
     duplicates: int = 0
     overlaps: int = 0
+
+
+_Beyond = tuple[tuple[int, ...], tuple[int, ...]]
+"""The rows of the pieces that go on at a piece's start and at its end."""
 
 
 def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
@@ -181,16 +185,16 @@ def _joined_once(items: list[LayeredPiece], tolerance: float, slack: float) -> l
     items = items.copy()
     open_rows = [row for row, item in enumerate(items) if not is_circle(item.piece)]
     nodes = nodes_of([items[row].piece for row in open_rows], tolerance)
-    loose = {row: _loose(nodes, at) for at, row in enumerate(open_rows)}
-    joiner = _Joiner(items, loose, slack)
+    beyond: dict[int, _Beyond] = {}
+    for at, row in enumerate(open_rows):
+        start, end = (
+            tuple(open_rows[other] for other in nodes.pieces[node] if other != at) for node in nodes.of_piece[at]
+        )
+        beyond[row] = start, end
+    joiner = _Joiner(items, beyond, slack)
     for first, second in _candidates(items, slack):
         joiner.join(first, second)
     return [item for row, item in enumerate(items) if row not in joiner.into]
-
-
-def _loose(nodes: Nodes, at: int) -> tuple[bool, bool]:
-    first, last = nodes.of_piece[at]
-    return nodes.degree(first) == 1, nodes.degree(last) == 1
 
 
 def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[int, int]]:
@@ -244,34 +248,42 @@ def _ends(items: Sequence[LayeredPiece], rows: Sequence[int]) -> list[tuple[Poin
 
 @dataclass(slots=True)
 class _Joiner:
-    """Joins overlapping pieces two at a time; `into` holds the row that a joined one went into."""
+    """Joins overlapping pieces two at a time; `into` holds the row that a joined one went into.
+
+    `beyond` are the rows that go on at the start and at the end of each piece; an end with none is loose.
+    """
 
     items: list[LayeredPiece]
-    loose: dict[int, tuple[bool, bool]]
+    beyond: dict[int, _Beyond]
     slack: float
     into: dict[int, int] = field(default_factory=dict)
 
     def join(self, first: int, second: int) -> None:
         """Put what two pieces cover together into the first of them, if they overlap and an end is loose.
 
-        No end at which another piece goes on may be lost inside the joined one: a stray line opens no contour.
+        No end at which another piece goes on may be lost inside the joined one: a stray line opens no contour.  A piece
+        that the other one overlaps too is joined with them next.
         """
         first, second = self._row(first), self._row(second)
-        if first == second or not (any(self.loose.get(first, ())) or any(self.loose.get(second, ()))):
+        both = self.beyond.get(first, ((), ())), self.beyond.get(second, ((), ()))
+        circles = first not in self.beyond, second not in self.beyond
+        if first == second or all(is_circle or all(ends) for is_circle, ends in zip(circles, both, strict=True)):
             return
         union = _union(self.items[first].piece, self.items[second].piece, self.slack)
         if union is None:
             return
         piece, ends = union
-        both = (self.loose.get(first, (True, True)), self.loose.get(second, (True, True)))
         pieces = self.items[first].piece, self.items[second].piece
         for row, end in {(0, 0), (0, 1), (1, 0), (1, 1)}.difference(ends):
             at, other = (pieces[row].start, pieces[row].end)[end], pieces[1 - row]
-            if not both[row][end] and min(dist(at, other.start), dist(at, other.end)) > self.slack:
+            going_on = {self._row(each) for each in both[row][end]} - {first, second}
+            if min(dist(at, other.start), dist(at, other.end)) > self.slack and any(
+                _union(self.items[each].piece, other, self.slack) is None for each in going_on
+            ):
                 return
         self.into[second] = first
         self.items[first] = self.items[first]._replace(piece=piece)
-        self.loose[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
+        self.beyond[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
 
     def _row(self, row: int) -> int:
         while row in self.into:

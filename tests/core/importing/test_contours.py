@@ -190,6 +190,19 @@ def test_a_stray_line_on_an_edge_opens_no_contour(stray: list[tuple[int, object]
     assert outside.size == pytest.approx((10.0, 10.0))
 
 
+@pytest.mark.parametrize("stray", [line((2, 0), (7, 0)), line((0, 0), (7, 0)), line((2, 0), (10, 0))])
+def test_a_line_over_the_joint_of_two_that_go_straight_on_is_joined_with_both(stray: list[tuple[int, object]]) -> None:
+    _, *sides = square(0, 0, 10)
+    made = listed(dxf(line((0, 0), (5, 0)), line((5, 0), (10, 0)), *sides, stray))
+    assert [(contour.closed, contour.drawn) for contour in made.contours] == [(True, 4)]
+    assert made.overlaps == 2
+
+
+def test_copies_of_a_piece_take_no_longer_than_others() -> None:
+    made = listed(dxf(*([line((0, 0), (10, 0))] * 20_000)))
+    assert (len(made.contours), made.duplicates) == (1, 19_999)
+
+
 @pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])
 def test_a_line_that_lies_on_a_longer_one_to_within_the_tolerance_leaves_its_ends(begin: float, end: float) -> None:
     made = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
