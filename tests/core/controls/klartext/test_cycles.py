@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import ControlRun
+from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import codes, flat, points, runs
 
 DRILLING = ("CYCL DEF 200 DRILLING ~", "  Q200=+2 ;SET-UP ~", " Q201=-20 ~", "Q203=+5 ;SURFACE ~", "Q204=+50")
@@ -85,3 +86,12 @@ def test_a_value_that_is_not_known_leaves_the_height_open() -> None:
     made = runs("L X+1 Y+2 Z+9 R0 FMAX", "CYCL DEF 203 DRILLING ~", "Q200=2 ~", "Q203=+Q7 ~", "Q204=20", "CYCL CALL")
     assert points(made, 1) == [(1, 2, 9)]
     assert "from the next absolute words" in made.findings[-1].text
+
+
+def test_what_a_milling_cycle_cuts_is_not_judged_and_that_is_a_warning_once() -> None:
+    milled = "CYCL DEF 251 RECTANGULAR POCKET ~", "Q218=+60"
+    made = runs(*milled, *(f"L X+{x} Y+0 R0 FMAX M99" for x in (0, 40, 80)))
+    told = [finding.severity for finding in made.findings if finding.code == "CYCLE"]
+    assert told == [Severity.WARNING, Severity.INFO, Severity.INFO]
+    drilled = runs("L Z+9 R0 FMAX", *DRILLING, "L X+3 Y+4 FMAX M99")
+    assert [finding.severity for finding in drilled.findings if finding.code == "CYCLE"] == [Severity.INFO]
