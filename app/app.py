@@ -172,7 +172,7 @@ class CutcompApp(TransformActions):
         if not self._deriving:
             self._derive(Request(self.session.program))
 
-    # ---- the session
+    # ---- keys and actions of all screens
 
     def on_key(self, event: Key) -> None:
         """Keys that nobody took: of what a slow link has split, and of what was pasted in part, say so."""
@@ -185,8 +185,6 @@ class CutcompApp(TransformActions):
             return self.guided and isinstance(self.screen, BaseScreen) and self.screen.at_rest
         dialog = isinstance(self.screen, ModalScreen) and not isinstance(self.screen, CommandPalette)
         return not (dialog and action in NOT_UNDER_DIALOGS) and super().check_action(action, parameters)
-
-    # ---- what follows from the program
 
     def action_leave_guide(self) -> None:
         """The prompt is the screens' own again; what was typed stays."""

@@ -275,7 +275,8 @@ class ChooseLine(Dialog[str]):
     def on_mount(self) -> None:
         """The cursor on its row, else on the first."""
         ids = [option.id for option in self.options]
-        self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0 if ids else None
+        if ids:
+            self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
