@@ -31,6 +31,19 @@ def free_port() -> int:
         return port
 
 
+def printed_address(process: subprocess.Popen[bytes], printed: Path) -> str:
+    """The address the server prints once it listens; AssertionError when it stops or prints none within a minute."""
+    for _ in range(1200):
+        # a line that is not whole yet may hold half an address
+        for line in printed.read_text().splitlines(keepends=True):
+            for word in line.split():
+                if line.endswith("\n") and word.startswith("http://"):
+                    return word
+        assert process.poll() is None, f"the server stopped: {printed.read_text()}"
+        time.sleep(0.05)
+    raise AssertionError(f"the server printed no address: {printed.read_text()}")
+
+
 @contextmanager
 def serving(folder: Path, port: int) -> Iterator[str]:
     """`cutcomp serve` in a folder, with settings of its own; the address it printed."""
@@ -46,12 +59,7 @@ def serving(folder: Path, port: int) -> Iterator[str]:
             stderr=subprocess.DEVNULL,
         )
     try:
-        for _ in range(1200):
-            with socket.socket() as one:
-                if one.connect_ex(("127.0.0.1", port)) == 0:
-                    break
-            time.sleep(0.05)
-        yield next(word for word in printed.read_text().split() if word.startswith("http://"))
+        yield printed_address(process, printed)
     finally:
         process.terminate()
         process.wait(10)
