@@ -14,7 +14,7 @@ from typing import Final
 from core.comp.compensate import compensate
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.controls.compared_contours import Parting, apart
-from core.geometry.fillet import carriers_meet
+from core.geometry.carrier import carriers_meet
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side
 from core.importing.joints import joined_chain

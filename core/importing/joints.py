@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from math import atan2, dist, radians
 from typing import Final, NamedTuple
 
+from core.geometry.carrier import carriers_meet
 from core.geometry.construct import OnePoint, center_by_sweep, even_arc
-from core.geometry.fillet import carriers_meet
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
 from core.tolerance import JOINED, ON_PATH

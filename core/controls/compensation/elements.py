@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, hypot, pi, tan, tau
 from typing import Final, NamedTuple
 
-from core.geometry.fillet import Carrier, meeting_places
+from core.geometry.carrier import Carrier, meeting_places
 from core.geometry.piece import Point
 
 SAME_DIRECTION: Final = 1e-9

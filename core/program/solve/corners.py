@@ -10,11 +10,10 @@ from dataclasses import dataclass, field
 from typing import assert_never
 
 from core.finding import Finding, Severity
-from core.geometry.chamfer import Chamfer, ChamferReason, NoChamfer, chamfer
-from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
+from core.geometry.corner import NoCorner, Reason, chamfer, fillet
 from core.geometry.piece import Piece
 from core.program.fields import TABLES, form_of
-from core.program.model import BlendSegment, ChamferSegment, CornerSegment, Segment
+from core.program.model import BlendSegment, CornerSegment, Segment
 
 
 @dataclass(slots=True)
@@ -78,30 +77,18 @@ def _put_in(
     before, after = pieces[index - 1], pieces[index + 1]
     if before is None or after is None:
         return _no_neighbor(pieces, index, segment, determined)
-    match segment:
-        case BlendSegment():
-            corner: Fillet | NoFillet | Chamfer | NoChamfer = fillet(before, after, size)
-        case ChamferSegment():
-            corner = chamfer(before, after, size)
-        case _:
-            assert_never(segment)
-    match corner:
-        case Fillet(first, middle, last) | Chamfer(first, middle, last):
-            pieces[index - 1 : index + 2] = first, middle, last
-            return None
-        case NoFillet():
-            return _no_fillet(corner, segment, index + 1, size)
-        case NoChamfer():
-            return _no_chamfer(corner, segment, index + 1, size)
-        case _:
-            assert_never(corner)
+    corner = (fillet if isinstance(segment, BlendSegment) else chamfer)(before, after, size)
+    if isinstance(corner, NoCorner):
+        return _refused(corner, segment, index + 1, size)
+    pieces[index - 1 : index + 2] = corner.before, corner.between, corner.after
+    return None
 
 
 def _no_neighbor(
     pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
 ) -> Finding | None:
     """What is wrong where a determined neighbor has no length, or none any more."""
-    verb, what = ("blend", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "LENGTH")
+    verb, what = _words(segment)
     for neighbor in (index - 1, index + 1):
         if pieces[neighbor] is None and neighbor in determined:
             text = f"Segment {neighbor + 1} has no length left to {verb}: correct it or delete this {form_of(segment)}."
@@ -109,36 +96,27 @@ def _no_neighbor(
     return None
 
 
-def _no_fillet(refused: NoFillet, segment: CornerSegment, number: int, radius: float) -> Finding:
+def _words(segment: CornerSegment) -> tuple[str, str]:
+    """What is done to the corner, and the field of its size."""
+    return ("blend", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "LENGTH")
+
+
+def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float) -> Finding:
+    verb, what = _words(segment)
+    noun = "arc" if isinstance(segment, BlendSegment) else "chamfer"
     pair = f"segments {number - 1} and {number + 1}"
     match refused.reason:
         case Reason.TANGENT:
-            text = f"There is no corner to blend: {pair} already run smoothly into each other."
+            text = f"There is no corner to {verb}: {pair} already run smoothly into each other."
             return _fault(segment, "TANGENT", text)
         case Reason.REVERSAL:
-            text = f"No arc fits: segment {number + 1} goes straight back along segment {number - 1}."
-            return _fault(segment, "RADIUS", text)
+            text = f"No {noun} fits: segment {number + 1} goes straight back along segment {number - 1}."
+            return _fault(segment, what, text)
         case Reason.TOO_LARGE if refused.largest is not None:
-            text = f"RADIUS {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
-            return _fault(segment, "RADIUS", text, radius, refused.largest)
+            text = f"{what} {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
+            return _fault(segment, what, text, size, refused.largest)
         case Reason.TOO_LARGE:
-            text = f"RADIUS {{value}} does not fit between {pair}: enter a smaller one."
-            return _fault(segment, "RADIUS", text, radius)
-        case _:
-            assert_never(refused.reason)
-
-
-def _no_chamfer(refused: NoChamfer, segment: CornerSegment, number: int, length: float) -> Finding:
-    pair = f"segments {number - 1} and {number + 1}"
-    match refused.reason:
-        case ChamferReason.TANGENT:
-            text = f"There is no corner to chamfer: {pair} already run smoothly into each other."
-            return _fault(segment, "TANGENT", text)
-        case ChamferReason.REVERSAL:
-            text = f"No chamfer fits: segment {number + 1} goes straight back along segment {number - 1}."
-            return _fault(segment, "LENGTH", text)
-        case ChamferReason.TOO_LARGE:
-            text = f"LENGTH {{value~0}} does not fit between {pair}: the largest that fits is {{0~value}}."
-            return _fault(segment, "LENGTH", text, length, refused.largest)
+            text = f"{what} {{value}} does not fit between {pair}: enter a smaller one."
+            return _fault(segment, what, text, size)
         case _:
             assert_never(refused.reason)

@@ -243,7 +243,7 @@ def test_no_numpy_is_loaded():
     """The first screen is painted before the heavy packages are there."""
     names = ("edit", "fields", "history", "model", "tools", "solve.block", "file.read", "file.write")
     imports = ", ".join(f"core.program.{name}" for name in names)
-    script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
+    script = f"import {imports}, core.units, core.geometry.corner, sys; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

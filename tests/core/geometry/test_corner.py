@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
+from core.geometry.corner import Corner, NoCorner, Reason, fillet
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from tests.properties import exercised, must_exercise
 
@@ -17,15 +17,15 @@ def near(one: Point, other: Point, tolerance: float = 1e-9) -> bool:
     return dist(one, other) <= tolerance
 
 
-def blended(before: Piece, after: Piece, radius: float) -> Fillet:
+def blended(before: Piece, after: Piece, radius: float) -> Corner:
     found = fillet(before, after, radius)
-    assert isinstance(found, Fillet)
+    assert isinstance(found, Corner)
     return found
 
 
 def largest_of(before: Piece, after: Piece) -> float | None:
     refused = fillet(before, after, 1e4)
-    assert isinstance(refused, NoFillet)
+    assert isinstance(refused, NoCorner)
     assert refused.reason is Reason.TOO_LARGE
     return refused.largest
 
@@ -33,21 +33,21 @@ def largest_of(before: Piece, after: Piece) -> float | None:
 def test_a_square_corner():
     found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0)), 2.0)
     assert found.before == Line((0.0, 0.0), (8.0, 0.0))
-    assert near(found.arc.center, (8.0, 2.0))
-    assert found.arc.turn is Turn.CCW
+    assert near(found.between.center, (8.0, 2.0))
+    assert found.between.turn is Turn.CCW
     assert found.after == Line((10.0, 2.0), (10.0, 10.0))
 
 
 def test_a_corner_to_the_right():
     found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, -10.0)), 2.0)
-    assert near(found.arc.center, (8.0, -2.0))
-    assert found.arc.turn is Turn.CW
+    assert near(found.between.center, (8.0, -2.0))
+    assert found.between.turn is Turn.CW
 
 
 def test_a_blend_may_use_a_whole_line():
     found = blended(Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0)), 2.0)
     assert found.before is None
-    assert near(found.arc.start, (0.0, 0.0))
+    assert near(found.between.start, (0.0, 0.0))
 
 
 def test_a_radius_that_does_not_fit_says_the_largest_that_does():
@@ -56,15 +56,15 @@ def test_a_radius_that_does_not_fit_says_the_largest_that_does():
     sharp = Line((2.0, 0.0), (0.0, 2.0))
     largest = sqrt(2) - 1
     assert largest_of(short, sharp) == pytest.approx(2.0 * largest)
-    assert isinstance(fillet(short, long, 2.1), NoFillet)
-    assert isinstance(fillet(short, sharp, 2.0 * largest - 1e-6), Fillet)
+    assert isinstance(fillet(short, long, 2.1), NoCorner)
+    assert isinstance(fillet(short, sharp, 2.0 * largest - 1e-6), Corner)
 
 
 def test_no_corner_no_blend():
     line = Line((0.0, 0.0), (2.0, 0.0))
-    assert fillet(line, Line((2.0, 0.0), (5.0, 0.0)), 1.0) == NoFillet(Reason.TANGENT)
-    assert fillet(line, Arc((2.0, 0.0), (3.0, 1.0), (2.0, 1.0), Turn.CCW), 1.0) == NoFillet(Reason.TANGENT)
-    assert fillet(line, Line((2.0, 0.0), (0.0, 0.0)), 1.0) == NoFillet(Reason.REVERSAL)
+    assert fillet(line, Line((2.0, 0.0), (5.0, 0.0)), 1.0) == NoCorner(Reason.TANGENT)
+    assert fillet(line, Arc((2.0, 0.0), (3.0, 1.0), (2.0, 1.0), Turn.CCW), 1.0) == NoCorner(Reason.TANGENT)
+    assert fillet(line, Line((2.0, 0.0), (0.0, 0.0)), 1.0) == NoCorner(Reason.REVERSAL)
 
 
 def test_line_and_arc_by_hand():
@@ -72,10 +72,10 @@ def test_line_and_arc_by_hand():
     before = Line((-10.0, 0.0), (0.0, 0.0))
     after = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
     found = blended(before, after, 1.0)
-    assert found.arc.turn is Turn.CCW
-    assert near(found.arc.center, (5.0 - sqrt(35.0), 1.0))
-    assert near(found.arc.start, (5.0 - sqrt(35.0), 0.0))
-    assert dist(found.arc.end, (5.0, 0.0)) == pytest.approx(5.0)
+    assert found.between.turn is Turn.CCW
+    assert near(found.between.center, (5.0 - sqrt(35.0), 1.0))
+    assert near(found.between.start, (5.0 - sqrt(35.0), 0.0))
+    assert dist(found.between.end, (5.0, 0.0)) == pytest.approx(5.0)
 
 
 def test_two_arcs_by_hand():
@@ -83,15 +83,15 @@ def test_two_arcs_by_hand():
     before = Arc((-6.0, 0.0), (0.0, 0.0), (-3.0, 0.0), Turn.CW)
     after = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
     found = blended(before, after, 1.0)
-    assert near(found.arc.center, (0.0, sqrt(7.0)))
-    assert found.arc.turn is Turn.CCW
-    assert near(found.arc.start, (-0.75, sqrt(7.0) * 0.75))
+    assert near(found.between.center, (0.0, sqrt(7.0)))
+    assert found.between.turn is Turn.CCW
+    assert near(found.between.start, (-0.75, sqrt(7.0) * 0.75))
 
 
 def test_an_arc_too_short_for_the_radius():
     before = Line((-10.0, 0.0), (0.0, 0.0))
     after = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
-    assert fillet(before, after, 3.0) == NoFillet(Reason.TOO_LARGE)
+    assert fillet(before, after, 3.0) == NoCorner(Reason.TOO_LARGE)
 
 
 def piece_from(corner: Point, heading: float, length: float, bend: float) -> Piece:
@@ -118,9 +118,9 @@ pieces = st.tuples(st.floats(0, tau), st.floats(2, 30), st.floats(-3.0, 3.0))
 def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
     before, after = back(piece_from((1.0, 2.0), *first)), piece_from((1.0, 2.0), *second)
     found = fillet(before, after, radius)
-    assume(isinstance(found, Fillet))
-    assert isinstance(found, Fillet)
-    arc = found.arc
+    assume(isinstance(found, Corner))
+    assert isinstance(found, Corner)
+    arc = found.between
     assert arc.radius == pytest.approx(radius, abs=1e-7)
     assert dist(arc.end, arc.center) == pytest.approx(radius, abs=1e-7)
     for piece, point, left in ((before, arc.start, found.before), (after, arc.end, found.after)):
@@ -139,10 +139,10 @@ def test_a_blend_is_the_same_traveled_back(first, second, radius):
     before, after = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
     one, other = fillet(before, after, radius), fillet(back(after), back(before), radius)
     assert type(one) is type(other)
-    if isinstance(one, Fillet) and isinstance(other, Fillet):
+    if isinstance(one, Corner) and isinstance(other, Corner):
         exercised()
-        assert near(one.arc.center, other.arc.center, 1e-6)
-        assert one.arc.turn == -other.arc.turn
+        assert near(one.between.center, other.between.center, 1e-6)
+        assert one.between.turn == -other.between.turn
 
 
 @settings(derandomize=True, max_examples=100)
@@ -151,5 +151,5 @@ def test_the_largest_radius_of_a_corner_fits(corner, one, other):
     before, after = Line((-one, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, other, 0.0)
     largest = largest_of(before, after)
     assert largest is not None
-    assert isinstance(fillet(before, after, largest * (1 - 1e-9)), Fillet)
-    assert isinstance(fillet(before, after, largest * (1 + 1e-6)), NoFillet)
+    assert isinstance(fillet(before, after, largest * (1 - 1e-9)), Corner)
+    assert isinstance(fillet(before, after, largest * (1 + 1e-6)), NoCorner)

@@ -1,0 +1,62 @@
+"""The endless line or the whole circle that a piece lies on, and where two of them meet."""
+
+from __future__ import annotations
+
+from cmath import phase, rect
+from math import acos, inf, sqrt
+from typing import NamedTuple
+
+from core.geometry.piece import SLIVER, Arc, Piece, Point
+from core.tolerance import JOINED
+
+
+class Carrier(NamedTuple):
+    """A point of an endless line and its direction, or the center of a whole circle, direction 0, and its radius."""
+
+    at: complex
+    along: complex
+    radius: float
+
+
+def carrier(piece: Piece, left: float = 0.0) -> Carrier:
+    """The carrier of a piece moved by `left` to its left."""
+    if isinstance(piece, Arc):
+        return Carrier(complex(*piece.center), 0j, abs(piece.radius - piece.turn * left))
+    along = complex(*piece.direction_at(piece.start))
+    return Carrier(complex(*piece.start) + 1j * along * left, along, 0.0)
+
+
+def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
+    """Where two carriers meet: none, one or two points."""
+    if first.along and second.along:
+        cross = (first.along.conjugate() * second.along).imag
+        reach = ((second.at - first.at).conjugate() * second.along).imag
+        return [] if abs(cross) < SLIVER else [first.at + first.along * reach / cross]
+    if second.along:
+        return _line_meets_circle(second, first)
+    return _line_meets_circle(first, second) if first.along else _circles_meet(first, second)
+
+
+def carriers_meet(first: Piece, second: Piece) -> list[Point]:
+    """The meetings of the endless lines or whole circles of two pieces."""
+    return [(place.real, place.imag) for place in meeting_places(carrier(first), carrier(second))]
+
+
+def _line_meets_circle(line: Carrier, circle: Carrier) -> list[complex]:
+    seen = (circle.at - line.at) * line.along.conjugate()
+    height = abs(seen.imag)
+    if height > circle.radius:
+        return []
+    half = sqrt((circle.radius - height) * (circle.radius + height))
+    return [line.at + line.along * (seen.real + way) for way in (-half, half)]
+
+
+def _circles_meet(first: Carrier, second: Carrier) -> list[complex]:
+    apart = abs(second.at - first.at)
+    if apart <= JOINED or apart > first.radius + second.radius or apart < abs(first.radius - second.radius):
+        return []
+    ratio = (apart * apart + first.radius * first.radius - second.radius * second.radius) / (
+        2 * apart * (first.radius or inf)
+    )
+    base, angle = phase(second.at - first.at), acos(max(-1.0, min(1.0, ratio)))
+    return [first.at + rect(first.radius, base + way) for way in (angle, -angle)]

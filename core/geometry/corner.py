@@ -1,0 +1,159 @@
+"""A corner of two pieces blended by an arc tangent to both, or cut off by a line.
+
+The center of an arc that runs the way both pieces run lies one radius to the same side of both: on the left
+for an arc traveled counterclockwise, on the right for a clockwise one.  A chamfer takes the same length off both
+pieces: measured along a line, and of an arc along its tangent at the corner, as a drawing dimensions it square
+to the other edge.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from dataclasses import dataclass, replace
+from enum import Enum, auto
+from math import asin, pi, sin, tan, tau
+from typing import NamedTuple
+
+from core.geometry.carrier import carrier, meeting_places
+from core.geometry.construct import rotated
+from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn
+from core.tolerance import JOINED, ON_PATH
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """Two pieces shortened (None where nothing of one is left) and the arc or line between them."""
+
+    before: Piece | None
+    between: Piece
+    after: Piece | None
+
+
+class Reason(Enum):
+    """Why a corner can be neither blended nor cut off."""
+
+    TANGENT = auto()
+    """The pieces already run smoothly into each other."""
+    REVERSAL = auto()
+    """The second goes straight back."""
+    TOO_LARGE = auto()
+    """The radius or the length does not fit between them."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoCorner:
+    """Neither blend nor chamfer; `largest` is the largest size that fits, None where that takes more than a formula."""
+
+    reason: Reason
+    largest: float | None = None
+
+
+def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
+    """The blend (radius in mm) nearest to the corner where `before` ends and `after` starts, which must have length.
+
+    Nearest is the one that takes the least off both pieces together.
+    """
+    turned = _turned(before, after)
+    if abs(turned) * radius <= JOINED:
+        return NoCorner(Reason.TANGENT)
+    lines = isinstance(before, Line) and isinstance(after, Line)
+    if lines and abs(turned) > tau / 2 - SLIVER:
+        return NoCorner(Reason.REVERSAL)
+    turns = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
+    fits = [fit for turn in turns for fit in _touching(before, after, radius, turn)]
+    if fits:
+        return _cut(before, after, min(fits, key=lambda fit: fit.removed).arc)
+    largest = min(before.length, after.length) / tan(abs(turned) / 2) if lines else None
+    return NoCorner(Reason.TOO_LARGE, largest)
+
+
+class _Fit(NamedTuple):
+    """A blend arc that touches within both pieces, and the length it takes off them together."""
+
+    arc: Arc
+    removed: float
+
+
+def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
+    fits, left = [], turn * radius
+    for center in meeting_places(carrier(before, left), carrier(after, left)):
+        first, last = _foot(before, center, left), _foot(after, center, left)
+        if first is None or last is None or abs(first - last) <= JOINED:
+            continue
+        kept, removed = _travel(before, first), _travel(after, last)
+        if -ON_PATH <= kept <= before.length + ON_PATH and -ON_PATH <= removed <= after.length + ON_PATH:
+            arc = Arc(_point(first), _point(last), _point(center), turn)
+            fits.append(_Fit(arc, before.length - kept + removed))
+    return fits
+
+
+def _foot(piece: Piece, center: complex, left: float) -> complex | None:
+    """Where a circle about `center`, `left` to the left of a piece's carrier, touches it; None about its own center."""
+    if isinstance(piece, Line):
+        return center - 1j * complex(*piece.direction_at(piece.start)) * left
+    shifted, middle = piece.radius - piece.turn * left, complex(*piece.center)
+    return None if abs(shifted) <= JOINED else middle + (center - middle) * (piece.radius / shifted)
+
+
+def _travel(piece: Piece, at: complex) -> float:
+    """Length traveled from a piece's start to a point of its carrier; of an arc's two ways to it, the one on it."""
+    start = complex(*piece.start)
+    if isinstance(piece, Line):
+        return ((at - start) * complex(*piece.direction_at(piece.start)).conjugate()).real
+    center = complex(*piece.center)
+    angle = piece.turn * phase((at - center) * (start - center).conjugate()) % tau
+    return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
+
+
+def _cut(before: Piece, after: Piece, arc: Arc) -> Corner:
+    kept, removed = _travel(before, complex(*arc.start)), _travel(after, complex(*arc.end))
+    return Corner(
+        replace(before, end=arc.start) if kept > JOINED else None,
+        arc,
+        replace(after, start=arc.end) if after.length - removed > JOINED else None,
+    )
+
+
+def _point(place: complex) -> Point:
+    return place.real, place.imag
+
+
+def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:
+    """The corner where `before` ends and `after` starts, which must have length, cut off by `length` (mm) on both."""
+    if abs(_turned(before, after)) * length <= JOINED:
+        return NoCorner(Reason.TANGENT)
+    largest = min(_reach(before), _reach(after))
+    if length > largest + JOINED:
+        return NoCorner(Reason.TOO_LARGE, largest)
+    first, last = _back(before, length, at_end=True), _back(after, length, at_end=False)
+    if abs(complex(*first) - complex(*last)) <= JOINED:
+        return NoCorner(Reason.REVERSAL)
+    return Corner(
+        replace(before, end=first) if abs(complex(*first) - complex(*before.start)) > JOINED else None,
+        Line(first, last),
+        replace(after, start=last) if abs(complex(*last) - complex(*after.end)) > JOINED else None,
+    )
+
+
+def _turned(before: Piece, after: Piece) -> float:
+    """The angle from the direction in which `before` ends to that in which `after` starts, left positive."""
+    arriving, leaving = complex(*before.direction_at(before.end)), complex(*after.direction_at(after.start))
+    return phase(leaving * arriving.conjugate())
+
+
+def _reach(piece: Piece) -> float:
+    """The largest length along the tangent at the corner that a piece has: of an arc at most its radius."""
+    if isinstance(piece, Line):
+        return piece.length
+    return piece.radius * sin(min(abs(piece.sweep), pi / 2))
+
+
+def _back(piece: Piece, length: float, *, at_end: bool) -> Point:
+    """The point of a piece at this length along its tangent at its end, or at its start."""
+    if isinstance(piece, Line):
+        part = min(length / piece.length, 1.0)
+        return piece.point_at(1.0 - part if at_end else part)
+    angle = asin(min(length / piece.radius, 1.0))
+    if angle >= abs(piece.sweep):
+        return piece.start if at_end else piece.end
+    return rotated(piece.end if at_end else piece.start, piece.center, piece.turn * (-angle if at_end else angle))
