@@ -1,4 +1,6 @@
-"""Findings: how every stage reports trouble, as values and never as exceptions.
+"""Findings: what the operator is told about a program, as values.
+
+Readers of files and runs of controls raise errors of their own.
 
 A finding's text is a sentence for the operator.  Lengths in it stand as `{value}`, `{x}`, `{y}` or
 `{0}`, `{1}` ... (the rest of `lengths`), an area as `{area}`, filled in program units by `core.units.sentence`.

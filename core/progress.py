@@ -9,11 +9,11 @@ Progress = Callable[[float], None]
 
 
 class Stopped(Exception):
-    """Nobody waits for the work any more."""
+    """The work was canceled: nobody waits for it any more."""
 
 
 def silent(_: float) -> None:
-    """Nobody asks how far it is."""
+    """The default: progress is told to nobody."""
 
 
 def part(progress: Progress, first: float, last: float) -> Progress:

@@ -1,4 +1,6 @@
-"""The only tolerances of the core, each named by the question it answers, in millimeters."""
+"""Tolerances that several packages share, each named by the question it answers; in millimeters unless said.
+
+A tolerance that one module alone needs stands at its head."""
 
 from __future__ import annotations
 

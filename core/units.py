@@ -1,4 +1,4 @@
-"""Between the operator's text and millimeters and radians: the only place that knows inches and degrees.
+"""Units: the text of a form's field to millimeters or radians and back, and how the screens print it.
 
 A field takes the sums of `core.arithmetic`; a suffix (`12.7mm`, `.5in`, `.5"`, `22.5deg`) converts into program units.
 """

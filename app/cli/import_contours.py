@@ -21,8 +21,8 @@ from core.importing.contour import Contour, fitted_contour, reversed_contour, st
 from core.importing.contours import ContourList
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
-from core.importing.nc_contour import CenterPath, NcContour, NcError, NcProgram, nc_blocks
-from core.importing.segments import NotTaken, comment, taken
+from core.importing.nc_contour import CenterPathTool, NcContour, NcError, NcProgram, nc_blocks
+from core.importing.segments import DoesNotFitError, comment, with_contours
 from core.pipeline.checking import with_tool_option
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
@@ -51,7 +51,7 @@ def import_contours(arguments: list[str]) -> int:
         more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
         say(f"{with_tool_option(str(error))}{more}")
         return UNUSABLE
-    except (Unusable, StoreError, NotTaken) as error:
+    except (Unusable, StoreError, DoesNotFitError) as error:
         say(str(error))
         return UNUSABLE
     except DrawingError as error:
@@ -201,7 +201,7 @@ def _point(text: str, unit: Unit) -> tuple[float, float]:
 
 def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Contour, ...]) -> None:
     unit = listed.unit
-    program, made = taken(empty_program(unit), contours)
+    program, made = with_contours(empty_program(unit), contours)
     _write_program(options, program, comment(options.file.name, contours))
     for sentence in sentences(listed, unit):
         say(sentence)
@@ -255,14 +255,14 @@ def _given(value: object) -> bool:
     return value is not None and value is not False and value != []
 
 
-def _center(options: argparse.Namespace) -> CenterPath | None:
+def _center(options: argparse.Namespace) -> CenterPathTool | None:
     """What --side and --diameter say of a program of the tool's center."""
     if options.side is None:
         return None
     if options.side != "on" and not options.diameter:
         raise Unusable("--side: add --diameter, the tool's in the program's unit.")
     side = {"left": Side.LEFT, "right": Side.RIGHT, "on": None}[options.side]
-    return CenterPath(side, options.diameter or 0.0)
+    return CenterPathTool(side, options.diameter or 0.0)
 
 
 def _chosen_nc(read: NcProgram, options: argparse.Namespace) -> NcProgram | None:

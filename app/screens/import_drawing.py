@@ -57,7 +57,7 @@ from core.importing.drawing import Drawing as ReadDrawing
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import Row, matching, rows_of, sentences, unit_question
 from core.importing.scene import MAX_PIECES, background, contours_scene
-from core.importing.segments import MAX_SEGMENTS, ImportedBlock, NotTaken, taken
+from core.importing.segments import MAX_SEGMENTS, DoesNotFitError, ImportedBlock, with_contours
 from core.pipeline.plot import Drawn, SceneSubject
 from core.program.edit import FormPlace
 from core.program.file.read import StoreError
@@ -668,8 +668,8 @@ class ImportScreen(BaseScreen):
             program = empty_program(self.unit)
         self.say("Writing the segments.")
         try:
-            made, blocks = await self._in_thread(taken, program, contours, side)
-        except NotTaken as error:
+            made, blocks = await self._in_thread(with_contours, program, contours, side)
+        except DoesNotFitError as error:
             self.say(str(error), Tone.ERROR)
             return
         if self.host.apply(made, f"IMPORT {self.path.name}"):

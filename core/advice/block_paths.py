@@ -1,4 +1,4 @@
-"""Block paths: what the cutter runs in one block, in millimeters, and the verdict on it.  Needs no numpy."""
+"""Result of cutting one block: its surface, rough and finish paths in millimeters, and the verdict.  Needs no numpy."""
 
 from __future__ import annotations
 

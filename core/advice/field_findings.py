@@ -29,7 +29,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
 
 
 def typed_lookahead_warning(value: int, calculated: int) -> Finding:
-    """That a typed look-ahead is in force instead of the calculated one."""
+    """Says that a typed look-ahead is in force instead of the calculated one."""
     text = f"USR {value} in force, CAL is {calculated}. F3 goes back to CAL."
     return Finding("USR_LOOKAHEAD", Severity.WARNING, text, field="lookahead")
 

@@ -19,8 +19,8 @@ VALUES = range(LOWEST, HIGHEST + 1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Trial:
-    """A contour and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
+class CuttingSetup:
+    """A contour, and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
 
     `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
     Another tool is looked for in steps of `diameter_step`, the last digit that a screen shows.
@@ -91,27 +91,27 @@ class Table:
         return self.rows[value - LOWEST]
 
 
-def table_of(trial: Trial, progress: Progress = silent) -> Table:
+def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:
     """The table of a contour: a value is judged by its finish path and by the roughing passes before it."""
-    count = 1 + len(trial.stocks)
+    count = 1 + len(setup.stocks)
     shares = [part(progress, at / count, (at + 1) / count) for at in range(count)]
-    finish = trial.paths(trial.radius)
-    verdicts = _verdicts(trial, trial.radius, finish, shares[0])
-    rougher = trial.radius if trial.rougher is None else trial.rougher
+    finish = setup.paths(setup.radius)
+    verdicts = _verdicts(setup, setup.radius, finish, shares[0])
+    rougher = setup.radius if setup.rougher is None else setup.rougher
     passes = [
-        _verdicts(trial, rougher, trial.paths(rougher + stock), share)
-        for stock, share in zip(trial.stocks, shares[1:], strict=True)
+        _verdicts(setup, rougher, setup.paths(rougher + stock), share)
+        for stock, share in zip(setup.stocks, shares[1:], strict=True)
     ]
     rough = list(zip(*passes, strict=True)) or [()] * len(VALUES)
     rows = tuple(Row(*row) for row in zip(VALUES, finish, verdicts, rough, strict=True))
     return Table(rows, recommended(rows))
 
 
-def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...], progress: Progress) -> list[Verdict]:
+def _verdicts(setup: CuttingSetup, cutter: float, paths: tuple[Compensated, ...], progress: Progress) -> list[Verdict]:
     """What a cutter of this radius does on each path; one that several values share is judged once."""
     distinct = {path.tested: path for path in paths}
     verdicts = {}
     for done, (key, path) in enumerate(distinct.items()):
         progress(done / len(distinct))
-        verdicts[key] = judge(trial.surface, trial.side, cutter, path.whole)
+        verdicts[key] = judge(setup.surface, setup.side, cutter, path.whole)
     return [verdicts[path.tested] for path in paths]

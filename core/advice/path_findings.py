@@ -17,7 +17,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point, Side
 from core.tolerance import GOUGE, JOINED, SHOWN
-from core.verify.contact import AirCut, air_cuts
+from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
 from core.verify.report import verdict_findings as verdict_findings
 from core.verify.verdict import Approach, Gouge, Verdict
@@ -214,7 +214,7 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
 
 
 def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tuple[Finding, ...]:
-    """That a tool stays out of inside arcs smaller than it is; the smallest of those that it leaves uncut is named."""
+    """Says that a tool stays out of inside arcs smaller than it is; names the smallest that it leaves uncut."""
     first, last = verdict.uncut.columns[:2]
     inside = np.flatnonzero((surface.turns * side.sign > 0) & (surface.radii < radius - JOINED))
     for row in inside[surface.radii[inside].argsort()][:MAX_TIGHT_ARCS].tolist():
@@ -228,7 +228,7 @@ def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tu
 
 
 def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Finding, ...]:
-    """That a contour is open: a warning where START and the end are no farther apart than the tool is wide.
+    """Says that a contour is open: a warning where START and the end are no farther apart than the tool is wide.
 
     Such a gap is seldom meant, and no look at the path shows it; nor one so small that the contour counts as closed,
     where the path gouges as deep.  Fewer than three segments enclose nothing.

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from core.advice.lookahead_table import Trial, table_of
+from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import CLOSED
@@ -51,119 +51,125 @@ class StartMoved:
 
 
 class SearchCanceled(Exception):
-    """Nobody waits for the remedies any more."""
+    """The search was canceled: nobody waits for the remedies any more."""
 
 
 def never_canceled() -> bool:
-    """Somebody waits to the end."""
+    """The default of `wanted`: the search is never canceled."""
     return True
 
 
-def _recommended(trial: Trial, wanted: Callable[[], bool]) -> int | None:
-    """The look-ahead the table recommends for a trial; asks before whether the answer is still wanted."""
+def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> int | None:
+    """The look-ahead that the table recommends; asks before whether the answer is still wanted."""
     if not wanted():
         raise SearchCanceled
-    return table_of(trial).recommended
+    return judge_lookaheads(setup).recommended
 
 
-def without_blends(trial: Trial) -> Trial:
+def without_blends(setup: CuttingSetup) -> CuttingSetup:
     """The same with BLEND OFFSET 0; what runs past the start stays."""
-    return replace(trial, blend=0.0)
+    return replace(setup, blend=0.0)
 
 
-def lookahead_without_blends(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> int | None:
+def lookahead_without_blends(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> int | None:
     """The value that is clean when the blend moves are left out."""
-    return _recommended(without_blends(trial), wanted) if trial.blend > 0.0 else None
+    return _recommended(without_blends(setup), wanted) if setup.blend > 0.0 else None
 
 
 def larger_tool_without_blends(
-    trial: Trial, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = never_canceled
+    setup: CuttingSetup, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = never_canceled
 ) -> ToolFits | None:
-    """The largest tool without blend moves, if there are any to leave out and it is worth offering too."""
-    if trial.blend <= 0.0:
+    """The largest clean tool with BLEND OFFSET 0, or None.
+
+    `than` is the tool that fits with blends: one that is less than `LARGER_BY` times as large is not offered.  `hint`
+    is a radius (mm) to try first.
+    """
+    if setup.blend <= 0.0:
         return None
-    given = 0 if than is None else _steps(trial, than.diameter)
+    given = 0 if than is None else _steps(setup, than.diameter)
     least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
-    return largest_tool(without_blends(trial), hint, wanted, least=least)
+    return largest_tool(without_blends(setup), hint, wanted, least=least)
 
 
 def largest_tool(
-    trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
+    setup: CuttingSetup, hint: float | None = None, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
 ) -> ToolFits | None:
     """The largest clean diameter below the cutter's, in whole steps, rounded down; by halving what is left.
 
     `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.  There is none
     where one of `least` steps is not clean.
     """
-    clean, fails = least, _steps(trial, 2.0 * trial.radius)
-    if clean >= fails or (clean and not _clean(trial, clean, wanted)):
+    clean, fails = least, _steps(setup, 2.0 * setup.radius)
+    if clean >= fails or (clean and not _clean(setup, clean, wanted)):
         return None
-    tries = [] if hint is None else [_steps(trial, 2.0 * hint), _steps(trial, 2.0 * hint) + 1]
+    tries = [] if hint is None else [_steps(setup, 2.0 * hint), _steps(setup, 2.0 * hint) + 1]
     while fails - clean > 1:
         size = tries.pop(0) if tries else (clean + fails) // 2
         if not clean < size < fails:
             continue
-        if _clean(trial, size, wanted):
+        if _clean(setup, size, wanted):
             clean = size
         else:
             fails = size
-    value = _recommended(_with_tool(trial, clean), wanted) if clean else None
-    return None if value is None else ToolFits(clean * trial.diameter_step, value)
+    value = _recommended(_with_tool(setup, clean), wanted) if clean else None
+    return None if value is None else ToolFits(clean * setup.diameter_step, value)
 
 
-def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
+def _clean(setup: CuttingSetup, size: int, wanted: Callable[[], bool]) -> bool:
     """Whether the finish path of one of the usual look-aheads is clean with a diameter of `size` steps."""
     if not wanted():
         raise SearchCanceled
-    trial = _with_tool(trial, size)
+    setup = _with_tool(setup, size)
     distinct = {
-        id(control.path): control.whole for control in trial.paths(trial.radius, USUAL_LOOKAHEADS) if len(control.path)
+        id(control.path): control.whole for control in setup.paths(setup.radius, USUAL_LOOKAHEADS) if len(control.path)
     }
-    return any(judge(trial.surface, trial.side, trial.radius, path).clean for path in distinct.values())
+    return any(judge(setup.surface, setup.side, setup.radius, path).clean for path in distinct.values())
 
 
-def _with_tool(trial: Trial, size: int) -> Trial:
-    return replace(trial, radius=size * trial.diameter_step / 2.0)
+def _with_tool(setup: CuttingSetup, size: int) -> CuttingSetup:
+    return replace(setup, radius=size * setup.diameter_step / 2.0)
 
 
-def _steps(trial: Trial, diameter: float) -> int:
+def _steps(setup: CuttingSetup, diameter: float) -> int:
     """Whole steps in a diameter, rounding forgiven."""
-    return int(diameter / trial.diameter_step + 1e-6)
+    return int(diameter / setup.diameter_step + 1e-6)
 
 
 def start_mid_side(
-    trial: Trial, wanted: Callable[[], bool] = never_canceled, max_starts: int = MAX_STARTS
+    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, max_starts: int = MAX_STARTS
 ) -> StartMoved | None:
     """The longest side of a closed contour whose middle is a clean start; `max_starts` of them are tried."""
-    if not trial.closed:
+    if not setup.closed:
         return None
-    for row in longest_segments(trial.surface)[:max_starts]:
-        value = _recommended(replace(trial, surface=started(trial.surface, row)), wanted)
+    for row in longest_segments(setup.surface)[:max_starts]:
+        value = _recommended(replace(setup, surface=restarted(setup.surface, row)), wanted)
         if value is not None:
-            return StartMoved(float(trial.surface.numbers[row]), trial.surface[row].point_at(0.5), value)
+            return StartMoved(float(setup.surface.numbers[row]), setup.surface[row].point_at(0.5), value)
     return None
 
 
-def start_mid_side_without_blends(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
+def start_mid_side_without_blends(
+    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled
+) -> StartMoved | None:
     """The same without blend moves, if there are any to leave out."""
-    if trial.blend <= 0.0:
+    if setup.blend <= 0.0:
         return None
-    return start_mid_side(without_blends(trial), wanted, MAX_STARTS_WITHOUT_BLENDS)
+    return start_mid_side(without_blends(setup), wanted, MAX_STARTS_WITHOUT_BLENDS)
 
 
-def start_at_end(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
+def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
     """The end of an open contour, if the contour is clean and closed when START is typed there.
 
     Only where one number of START is that of the end and the first segment is a line, which is then another one: both
     may be meant as they are, but one mistyped number is what it takes.
     """
-    surface = trial.surface
+    surface = setup.surface
     gap = np.abs(surface.points[0] - surface.points[-1])
-    if trial.closed or len(surface) < FEWEST_CLOSED or surface.turns[0] or float(gap.min()) > CLOSED:
+    if setup.closed or len(surface) < FEWEST_CLOSED or surface.turns[0] or float(gap.min()) > CLOSED:
         return None
     points = np.concatenate((surface.points[-1:], surface.points[1:]))
     centers = np.concatenate((points[:1], surface.centers[1:]))
-    closed = replace(trial, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
+    closed = replace(setup, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
     value = _recommended(closed, wanted)
     x, y = points[0].tolist()
     return None if value is None else StartMoved(float(surface.numbers[0]), (x, y), value)
@@ -175,7 +181,7 @@ def longest_segments(contour: Path) -> list[int]:
     return rows
 
 
-def started(contour: Path, row: int) -> Path:
+def restarted(contour: Path, row: int) -> Path:
     """A closed contour of n segments started in the middle of segment `row`, from 0: n + 1 segments, numbered anew."""
     at = np.array([contour[row].point_at(0.5)])
     points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
-from core.advice.lookahead_table import Row, Table, Trial
+from core.advice.lookahead_table import CuttingSetup, Row, Table
 from core.advice.remedies import (
     SearchCanceled,
     StartMoved,
@@ -16,10 +16,10 @@ from core.advice.remedies import (
     longest_segments,
     lookahead_without_blends,
     never_canceled,
+    restarted,
     start_at_end,
     start_mid_side,
     start_mid_side_without_blends,
-    started,
 )
 from core.finding import Finding, Severity
 
@@ -52,7 +52,7 @@ class Advice:
 
 
 def advice_for(
-    trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
+    setup: CuttingSetup, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
 ) -> Advice | None:
     """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
 
@@ -64,27 +64,27 @@ def advice_for(
     if table.recommended is not None:
         return Advice(why, sentences=why)
     try:
-        return _with_remedies(why, trial, table, wanted)
+        return _with_remedies(why, setup, table, wanted)
     except SearchCanceled:
         return None
 
 
-def _with_remedies(why: tuple[Finding, ...], trial: Trial, table: Table, wanted: Callable[[], bool]) -> Advice:
+def _with_remedies(why: tuple[Finding, ...], setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> Advice:
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
-    too_small = _too_small(nearest, trial.radius)
-    value, start = lookahead_without_blends(trial, wanted), start_mid_side(trial, wanted)
-    both = start_mid_side_without_blends(trial, wanted) if start is None and value is None else None
+    too_small = _too_small(nearest, setup.radius)
+    value, start = lookahead_without_blends(setup, wanted), start_mid_side(setup, wanted)
+    both = start_mid_side_without_blends(setup, wanted) if start is None and value is None else None
     helpless = start is None and value is None and both is None
-    tools = _tools(trial, nearest, too_small, wanted) if helpless else _Tools(None, None, "")
+    tools = _tools(setup, nearest, too_small, wanted) if helpless else _Tools(None, None, "")
     remedies = (
         *_blends_sentence(value),
         *_start_sentence(start),
         *_start_sentence(both, without_blends=True),
         *_tool_sentences(tools),
     )
-    at_end = None if remedies else start_at_end(trial, wanted)
+    at_end = None if remedies else start_at_end(setup, wanted)
     if not remedies:
-        remedies = (_nothing_helps(closed=trial.closed) if at_end is None else _start_at_end_sentence(at_end),)
+        remedies = (_nothing_helps(closed=setup.closed) if at_end is None else _start_at_end_sentence(at_end),)
     sentences = (*why, *_first_named(too_small), *remedies)
     return Advice(why, too_small, tools.tool, start, value, at_end, both, tools.without_blends, sentences)
 
@@ -97,15 +97,15 @@ class _Tools(NamedTuple):
     where: str
 
 
-def _tools(trial: Trial, nearest: Row, too_small: tuple[Finding, ...], wanted: Callable[[], bool]) -> _Tools:
+def _tools(setup: CuttingSetup, nearest: Row, too_small: tuple[Finding, ...], wanted: Callable[[], bool]) -> _Tools:
     """The largest tools, with another start where the contour's own is an inside corner."""
     hint, where = min((finding.value for finding in too_small if finding.value is not None), default=None), ""
     if _starts_at_inside_corner(nearest):
-        row = longest_segments(trial.surface)[0]
-        where = f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
-        trial = replace(trial, surface=started(trial.surface, row))
-    tool = largest_tool(trial, hint, wanted)
-    return _Tools(tool, larger_tool_without_blends(trial, tool, hint, wanted), where)
+        row = longest_segments(setup.surface)[0]
+        where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
+        setup = replace(setup, surface=restarted(setup.surface, row))
+    tool = largest_tool(setup, hint, wanted)
+    return _Tools(tool, larger_tool_without_blends(setup, tool, hint, wanted), where)
 
 
 def _starts_at_inside_corner(row: Row) -> bool:
@@ -121,7 +121,7 @@ def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
-    """That CAL's value is not clean, with its deepest gouge, and the value that is."""
+    """Says that CAL's value is not clean, with its deepest gouge, and the value that is."""
     row = table.row(calculated)
     if row.clean:
         return ()

@@ -1,6 +1,7 @@
-"""Cutter compensation: the center path under the control's look-ahead rule.
+"""Compensation of MILL CONTOUR blocks: the center path under the conversational control's look-ahead.
 
 `compensate` calls the stages: `offset`, `crossings`, `prune`, `blend_moves`.  What goes around an outside corner is
-made in `offset` alone, one piece a corner; `best_path.raw_offset` takes those pieces as arcs about the contour's
-vertices, and Klartext's M120 uses these stages too.  NC programs join their corners by `controls.compensation`.
+one piece, an arc about the vertex, made in `offset`; `best_path.raw_offset`, `best_path.trim`, `verify.report` and
+`importing.offset_back` count on that.  Klartext's M120 uses these stages too.  G41, G42, RL and RR of NC programs are
+`controls.compensation`.
 """

@@ -1,4 +1,4 @@
-"""Compensate: a contour's center path under the control's look-ahead rule, every stage kept.
+"""Compensate: a MILL CONTOUR block's center path under the look-ahead, with every stage kept.
 
 The stages: zero-length segments dropped, offset to the raw chain, crossings found, walked and pruned, blended.
 """

@@ -1,4 +1,4 @@
-"""Prune: the control's walk along the raw chain, which trims, bridges and deletes under the look-ahead.
+"""Prune: the conversational control's walk along the raw chain, which trims, bridges and deletes under the look-ahead.
 
 The pieces b come one after the other.  Each is first joined to its predecessor; then it is tested against what is
 left of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,

@@ -33,7 +33,7 @@ from core.progress import Progress, silent
 from core.progress import part as part_of
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.units import Kind, Unit, decimals_shown, to_mm
-from core.verify.contact import AirCut, air_cuts
+from core.verify.air_cuts import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import DIGIT, SHOWN, contact_findings, enumerated, or_more
 from core.verify.surface import Leads

@@ -1,1 +1,1 @@
-"""Paths as rows of character cells."""
+"""Drawings for the terminal: a scene of paths as rows of character cells."""

@@ -108,7 +108,7 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
 
 
 def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    """(8, n) fractions of each piece among which every local least distance from its partner in `other` is found."""
+    """(8, n) fractions of n pieces, among them every local least distance from the partner in `other`, also n."""
     fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
     return _inside(fractions)
 

@@ -2,5 +2,5 @@
 
 `dxf` reads a drawing's entities, `contours` makes contours of them (`curves`, `clean_up`, `nodes`, `loops`, `joints`,
 `nesting`, `arc_fitting`), `listing` and `scene` show them, `segments` writes a contour as a block.  `nc` reads NC
-programs, those of the tool's center by `center_path`.
+programs, those of the tool's center by `offset_back`.
 """

@@ -22,7 +22,7 @@ MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
 
 
 def too_much(what: str, count: int, most: int) -> DrawingError:
-    """That a drawing has more of something than is read."""
+    """The error that a drawing has more of something than is read."""
     return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
 
 
@@ -69,7 +69,7 @@ def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
 
 
 def damaged_file(text: str, readable: int | None = None) -> DrawingError:
-    """That a file is damaged, and how many of its entities can be read; None where it cannot be taken."""
+    """The error that a file is damaged, and how many of its entities can be read; None where it cannot be taken."""
     return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
 
 

@@ -23,8 +23,8 @@ from core.finding import Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.importing.center_path import offset_back
-from core.importing.nc_contour import SAME_HEIGHT, CenterPath, Cut, NcContour, NcError, NcProgram
+from core.importing.nc_contour import SAME_HEIGHT, CenterPathTool, Cut, NcContour, NcError, NcProgram
+from core.importing.offset_back import offset_back
 from core.tolerance import CLOSED
 from core.units import Unit, sentence, to_mm
 
@@ -42,7 +42,7 @@ TANGENT: Final = 0.01
 
 
 def read_nc(
-    text: bytes, control: str, tools: ToolTable, *, unit: Unit | None = None, center: CenterPath | None = None
+    text: bytes, control: str, tools: ToolTable, *, unit: Unit | None = None, center: CenterPathTool | None = None
 ) -> NcProgram:
     """The contours of a program on a control.  Raises NcError; `center` is needed where nothing is compensated."""
     made = run(text, control, tools, unit)
@@ -235,7 +235,7 @@ def _tangent(first: Piece, second: Piece) -> bool:
     return abs(ux * vy - uy * vx) <= TANGENT and ux * vx + uy * vy > 0.0
 
 
-def _center_passes(made: ControlRun, center: CenterPath, words: _Words) -> Iterator[NcContour]:
+def _center_passes(made: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:
     """The contours of a program of the tool's center."""
     moves, radius = made.moves, to_mm(center.diameter, made.unit) / 2.0
     for first, last in _feed_runs(moves):

@@ -31,8 +31,8 @@ class NcError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class CenterPath:
-    """What the operator says of a program of the tool's center: the side of the tool, None for ON, and its diameter.
+class CenterPathTool:
+    """The tool of a program of the tool's center, as the operator tells it: its side, None for ON, and its diameter.
 
     The diameter is in the program's unit.
     """
@@ -92,7 +92,7 @@ class NcProgram:
 def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[ImportedBlock]]:
     """The program with a block for each contour of an NC program, and the tools that were not in its table.
 
-    Raises `segments.NotTaken`.
+    Raises `segments.DoesNotFitError`.
     """
     made: list[ImportedBlock] = []
     for number, contour in enumerate(read.contours, 1):

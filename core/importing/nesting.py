@@ -65,7 +65,7 @@ def _ends(piece: Piece) -> tuple[Point, Point]:
 
 
 def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
-    """Of each closed chain the numbers of the chains that it lies inside of."""
+    """For each closed chain, the indexes (from 0) of the chains it lies inside."""
     if not chains:
         return []
     polygons = [_polygon(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]
@@ -89,7 +89,7 @@ def _polygon(points: Floats) -> shapely.Geometry:
 
 
 def crossings(chains: Sequence[Sequence[Piece]], most: int) -> dict[int, int]:
-    """Of each chain that touches or crosses another one the first such; nothing where there are more chains."""
+    """For each chain that touches or crosses another, the index of the first it meets; empty for more than `most`."""
     if not chains or len(chains) > most:
         return {}
     lines = [shapely.LineString(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]

@@ -43,12 +43,12 @@ class ImportedBlock:
     notes: tuple[str, ...] = ()
 
 
-class NotTaken(Exception):
+class DoesNotFitError(Exception):
     """A contour does not fit into the form; the text says why."""
 
 
 def block_of(contour: Contour, program: Program, side: CutterComp | None = None) -> ImportedBlock:
-    """The contour as a block to be put behind the program's own.  Raises NotTaken.
+    """The contour as a block to be put behind the program's own.  Raises DoesNotFitError.
 
     `side` is the operator's answer for an open contour, None where he has not been asked.
     """
@@ -62,15 +62,15 @@ def block_of(contour: Contour, program: Program, side: CutterComp | None = None)
             if side is not None and not contour.closed:
                 block = replace(block, cutter_comp=side)
             return ImportedBlock(block, decimals, moved, _notes(contour, decimals, usual, asked=side is not None))
-    raise NotTaken(f"Chain {contour.number} cannot be written as segments: its arcs are too flat or too short.")
+    raise DoesNotFitError(f"Chain {contour.number} cannot be written as segments: its arcs are too flat or too short.")
 
 
-def taken(
+def with_contours(
     program: Program, contours: Sequence[Contour], side: CutterComp | None = None
 ) -> tuple[Program, list[ImportedBlock]]:
-    """The program with a block for each contour, in their order; an only block without segments is replaced.
+    """The program with a block for each contour, in their order; an only block is replaced while it is empty.
 
-    `side` is the operator's answer for open contours.
+    `side` is the operator's answer for open contours.  Raises DoesNotFitError.
     """
     made = [block_of(contour, program, side) for contour in contours]
     kept = program.blocks
@@ -96,11 +96,11 @@ def _refuse_far(contour: Contour, unit: Unit) -> None:
         if abs(worst) > FARTHEST:
             most = from_mm(FARTHEST, unit)
             if isinstance(piece, Arc) and max(map(abs, (*piece.start, *piece.end))) <= FARTHEST:
-                raise NotTaken(
+                raise DoesNotFitError(
                     f"Chain {contour.number} has an arc of radius {from_mm(piece.radius, unit):.3f} {unit}, whose "
                     f"center lies farther away than the form takes, {most:g}. Draw it as lines."
                 )
-            raise NotTaken(
+            raise DoesNotFitError(
                 f"Chain {contour.number} reaches {from_mm(worst, unit):.3f} {unit}: "
                 f"the form takes at most {most:g}. Move the drawing to its origin."
             )

@@ -20,7 +20,7 @@ from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
 from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
-from core.output.objections import OVERRIDE, overridden_errors, posting_errors
+from core.output.objections import OVERRIDE, overridable_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
@@ -155,7 +155,7 @@ def center_path_program(
         return Refusal(against, unit)
     safe, highest = max(job.safe_z for job in jobs), max(jobs, key=clear_height)
     level = [replace(job, safe_z=max(safe, clear_height(highest))) for job in jobs]
-    waived = overridden_errors(jobs)
+    waived = overridable_errors(jobs)
     lines = (
         *_header(jobs, unit, program_titles(name, part), waived),
         *_raised_safe_z(safe, highest, unit),

@@ -1,4 +1,4 @@
-"""Objections: the findings that forbid posting, and those an operator may override by typing POST WITH GOUGE."""
+"""Objections: the findings that forbid posting, and which of them the operator may override."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
             yield objection
 
 
-def overridden_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
-    """The errors that may be overridden."""
+def overridable_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
+    """Errors of the jobs that `OVERRIDE` may waive."""
     return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
 
 

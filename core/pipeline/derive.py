@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from core.advice.block_paths import BlockPaths, Loop, RoughPass
-from core.advice.lookahead_table import Table, Trial, table_of
+from core.advice.lookahead_table import CuttingSetup, Table, judge_lookaheads
 from core.advice.path_findings import (
     better_path_findings,
     by_severity,
@@ -173,15 +173,15 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
 
 def look_ahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
-    trial = trial_of(block, program)
-    return None if trial is None else table_of(trial, progress)
+    setup = cutting_setup(block, program)
+    return None if setup is None else judge_lookaheads(setup, progress)
 
 
-def trial_of(block: DerivedBlock, program: Program) -> Trial | None:
+def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
     """What a derived block cuts; None for ON and while there is nothing to compensate."""
     if block.paths is None or block.side is None or block.radius is None:
         return None
-    return Trial(
+    return CuttingSetup(
         block.paths.surface,
         block.side,
         block.radius,
@@ -201,10 +201,10 @@ def advice_for_block(
 
     `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
     """
-    trial = trial_of(block, program)
-    if trial is None:
+    setup = cutting_setup(block, program)
+    if setup is None:
         return None
-    return advice_for(trial, block.lookahead.calculated, table or table_of(trial), wanted)
+    return advice_for(setup, block.lookahead.calculated, table or judge_lookaheads(setup), wanted)
 
 
 def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
@@ -212,14 +212,14 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
 
     None where the block does not gouge, and where neither helps.
     """
-    trial = trial_of(block, program)
-    if trial is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
+    setup = cutting_setup(block, program)
+    if setup is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
         return None
-    value = table_of(trial).recommended
+    value = judge_lookaheads(setup).recommended
     if value is not None:
         text = f"Block {block.number}: CUTCOMP LOOKAHEAD {value} is clean."
         return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead")
-    fits = largest_tool(trial)
+    fits = largest_tool(setup)
     if fits is None:
         return None
     text = f"Block {block.number}: the tool is too big; largest that fits: {{value}}."

@@ -33,7 +33,8 @@ class DerivedBlock:
     """One block with everything that follows from it.
 
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
-    `paths` is None in an outline and without a surface or a radius to work with; `known` distinguishes the two.
+    `profile` is whether CUTTER COMP. is PROFILE LEFT or RIGHT: roughing comes in from MAX OFFSET.  `paths` is None
+    before they are made, and without a surface or a radius to make them of; `known` is whether that has been tried.
     """
 
     number: int
@@ -49,7 +50,7 @@ class DerivedBlock:
 
     @property
     def postable(self) -> bool:
-        """Nothing is unread, undetermined or gouged."""
+        """Derived, with paths, and without a finding that is an error."""
         return self.known and self.paths is not None and not self.errors
 
     @property

@@ -50,7 +50,7 @@ def run_program(
 
 
 def with_verdicts(proof: Proof, progress: Progress = silent) -> Proof:
-    """The same with its verdicts."""
+    """The proof with a verdict on every compensated stretch; `progress` may raise Stopped."""
     return Proof(proof.run, judge_run(proof.run, progress))
 
 

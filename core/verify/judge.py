@@ -11,7 +11,7 @@ from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import ARC_RADII, GOUGE
-from core.verify.contact import backwards, loose
+from core.verify.air_cuts import backwards, loose
 from core.verify.gouge import closest, gouges, gouging
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Leads, Surface

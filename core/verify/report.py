@@ -11,7 +11,7 @@ import numpy as np
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.tolerance import GOUGE, STOCK
-from core.verify.contact import AirCut
+from core.verify.air_cuts import AirCut
 from core.verify.verdict import Gouge, OverRun, Uncut, UnevenArc, Verdict
 
 DIGIT: Final = 0.00254

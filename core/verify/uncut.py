@@ -97,8 +97,10 @@ def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) ->
 
 
 def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
-    """What of the pieces is farther than the radius from the others and longer than STOCK; those that are `whole` are
-    known to be reached from end to end."""
+    """Stretches of `pairs.pieces` farther than `radius` (mm) from the other path; none shorter than STOCK.
+
+    `whole` (n,) marks the pieces that are known to be reached from end to end.
+    """
     pieces, stations = pairs.pieces, pairs.stations
     cut = _reached(pairs, whole, radius)
     first, last = np.append(0.0, cut.last), np.append(cut.first, stations[-1])

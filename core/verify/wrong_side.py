@@ -66,14 +66,13 @@ def sided(side: Side, walls: PieceArrays, crossings: SelfCrossings, *, closed: b
 
 
 def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> tuple[Flags, Gouging]:
-    """(n,) pieces of the center path of which some point is clearly on the part's side; and the gouges, those that
-    get there told by the place farthest inside.
+    """(n,) True where a piece of the center path runs on the part's side; and the gouges, with their depth there.
 
-    Every piece is asked in its middle, one that is away from the surface at its ends too, and each of its parts between
-    the places where it may change sides.  Beside an open contour, which has a side only as far as something is nearest
-    to more than its ends, the nearest wall decides: every piece that does not keep to one wall is asked at its ends, a
-    gouge at its ends, in its middle and where it is deepest, and a piece that meets no wall may be on another side
-    between these places.
+    A gouge that gets to that side is told by the place farthest inside.  Every piece is tested at its middle, one that
+    is away from the surface at its ends too, and each of its parts between the places where it may change sides.
+    Beside an open contour, which has a side only as far as something is nearest to more than its ends, the nearest wall
+    decides: every piece that does not keep to one wall is tested at its ends, a gouge at its ends, in its middle and
+    where it is deepest, and a piece that meets no wall may be on another side between these places.
     """
     if not len(pairs.pieces):
         return np.zeros(0, np.bool_), found

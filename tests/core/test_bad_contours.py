@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.advice.lookahead_table import Trial, table_of
+from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all
@@ -87,8 +87,8 @@ def spoiled(draw: st.DrawFn) -> Path:
 @settings(max_examples=60)
 @given(spoiled(), st.sampled_from(Side), st.sampled_from([0.02, 0.05, 0.1, 0.25, 0.0, nan]), st.booleans())
 def test_tables_and_needs_of_odd_contours(contour, side, radius, closed):
-    trial = Trial(contour, side, radius, closed, 0.1, 0.1)
-    table = table_of(trial)
+    trial = CuttingSetup(contour, side, radius, closed, 0.1, 0.1)
+    table = judge_lookaheads(trial)
     advice_for(trial, 3, table)
     if table.recommended is not None:
         exercised()

@@ -6,18 +6,18 @@ from dataclasses import replace
 
 import pytest
 
-from core.advice.lookahead_table import Trial, table_of
+from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.geometry.piece import Side
 from core.verify.judge import judge
 from tests.core.comp.contours import lines
 
 NOTCH = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
-TRIAL = Trial(NOTCH, Side.LEFT, 0.25, False, 0.0, 0.0)
-SLOT = Trial(lines((0, 0), (40, 0), (40, -5), (52, -5), (52, 0), (90, 0)), Side.LEFT, 4.0, False, 0.0, 0.0)
+SETUP = CuttingSetup(NOTCH, Side.LEFT, 0.25, False, 0.0, 0.0)
+SLOT = CuttingSetup(lines((0, 0), (40, 0), (40, -5), (52, -5), (52, 0), (90, 0)), Side.LEFT, 4.0, False, 0.0, 0.0)
 
 
 def test_the_table_has_a_row_for_every_value_with_its_path_and_verdict():
-    table = table_of(TRIAL)
+    table = judge_lookaheads(SETUP)
     assert [row.value for row in table.rows] == list(range(1, 21))
     assert [row.clean for row in table.rows] == [False] * 2 + [True] * 18
     assert table.recommended == 3
@@ -32,24 +32,24 @@ def test_the_table_has_a_row_for_every_value_with_its_path_and_verdict():
 
 
 def test_roughing_passes_count_with_the_radius_of_their_own_tool():
-    plain = table_of(SLOT)
+    plain = judge_lookaheads(SLOT)
     assert plain.recommended == 1
-    table = table_of(replace(SLOT, stocks=(8.0,)))
+    table = judge_lookaheads(replace(SLOT, stocks=(8.0,)))
     assert [row.clean for row in table.rows[:3]] == [False, False, True]
     assert table.recommended == 3
     assert table.row(1).gouge == pytest.approx(4.0, abs=0.5)
     assert table.row(1).verdict.clean
-    wider = table_of(replace(SLOT, stocks=(0.5,), rougher=12.0))
+    wider = judge_lookaheads(replace(SLOT, stocks=(0.5,), rougher=12.0))
     assert wider.row(1).gouge > plain.row(1).gouge
     assert len(wider.row(1).rough) == 1
 
 
 def test_blend_moves_are_part_of_what_is_judged():
-    channel = Trial(lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6)), Side.LEFT, 0.25, False, 0.0, 0.0)
-    assert table_of(channel).recommended == 1
-    assert table_of(replace(channel, blend=0.5)).recommended is None
+    channel = CuttingSetup(lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6)), Side.LEFT, 0.25, False, 0.0, 0.0)
+    assert judge_lookaheads(channel).recommended == 1
+    assert judge_lookaheads(replace(channel, blend=0.5)).recommended is None
 
 
 def test_a_contour_without_a_path_is_clean_at_no_value():
-    hole = Trial(lines((0, 0), (1, 0), (1, 1), (0, 1), (0, 0)), Side.LEFT, 3.0, True, 0.0, 0.0)
-    assert not any(row.clean for row in table_of(hole).rows)
+    hole = CuttingSetup(lines((0, 0), (1, 0), (1, 1), (0, 1), (0, 0)), Side.LEFT, 3.0, True, 0.0, 0.0)
+    assert not any(row.clean for row in judge_lookaheads(hole).rows)

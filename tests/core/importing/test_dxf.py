@@ -14,7 +14,7 @@ from core.importing.contours import ContourList, ImportOptions, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
 from core.importing.dxf import read_dxf
 from core.importing.listing import sentences, unit_question
-from core.importing.segments import NotTaken, block_of
+from core.importing.segments import DoesNotFitError, block_of
 from core.program.model import Program
 from core.tolerance import JOINED
 from core.units import Unit
@@ -364,5 +364,5 @@ def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
         tag for x, turn in ((0, 1e-4), (400, 0)) for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, 0), (42, turn))
     ]
     (contour,) = listed(dxf([(0, "POLYLINE"), (8, "0"), (66, 1), (70, 0), *vertices, (0, "SEQEND")])).contours
-    with pytest.raises(NotTaken, match="Chain 1 has an arc of radius 1000000"):
+    with pytest.raises(DoesNotFitError, match="Chain 1 has an arc of radius 1000000"):
         block_of(contour, Program(unit=Unit.MM))

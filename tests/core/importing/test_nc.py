@@ -14,8 +14,8 @@ from core.controls.registry import names
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
 from core.importing.nc import read_nc
-from core.importing.nc_contour import CenterPath, NcError, NcProgram, nc_blocks
-from core.importing.segments import NotTaken
+from core.importing.nc_contour import CenterPathTool, NcError, NcProgram, nc_blocks
+from core.importing.segments import DoesNotFitError
 from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
@@ -111,7 +111,7 @@ def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> No
     block = derived.blocks[0]
     assert block.side is not None
     assert block.radius is not None
-    center = CenterPath(block.side, from_mm(2.0 * block.radius, single.unit))
+    center = CenterPathTool(block.side, from_mm(2.0 * block.radius, single.unit))
     read = read_nc(posted.text.encode(), "linuxcnc", tools_of(single), center=center)
     assert len(read.contours) == len(derived.blocks)
     again = derive(imported(read))
@@ -170,11 +170,11 @@ def test_a_program_of_the_center_needs_side_and_diameter() -> None:
     text = SQUARE % (b"G1 X0 Y0", b"")
     with pytest.raises(NcError, match="its side and the tool's diameter are needed"):
         read_nc(text, "linuxcnc", TOOLS)
-    read = read_nc(text, "linuxcnc", TOOLS, center=CenterPath(None, 4.0))
+    read = read_nc(text, "linuxcnc", TOOLS, center=CenterPathTool(None, 4.0))
     assert len(read.contours[0].pieces) == 5
     assert imported(read).blocks[0].cutter_comp is CutterComp.ON
     # to the left of the square's own travel is its inside
-    inside = read_nc(text, "linuxcnc", TOOLS, center=CenterPath(Side.LEFT, 4.0))
+    inside = read_nc(text, "linuxcnc", TOOLS, center=CenterPathTool(Side.LEFT, 4.0))
     corners = {tuple(round(value, 6) for value in piece.start) for piece in inside.contours[0].pieces}
     assert corners == {(10.0, -2.0), (-2.0, -2.0), (-2.0, 22.0), (22.0, -2.0), (22.0, 22.0)}
 
@@ -182,7 +182,7 @@ def test_a_program_of_the_center_needs_side_and_diameter() -> None:
 def test_an_arc_smaller_than_the_tool_is_refused_by_its_line() -> None:
     text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
     with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
-        read_nc(text, "linuxcnc", ToolTable(), center=CenterPath(Side.LEFT, 10.0))
+        read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(Side.LEFT, 10.0))
 
 
 DATA = Path(__file__).parents[2] / "data"
@@ -190,15 +190,17 @@ PROGRAMS = sorted(path for path in DATA.rglob("*") if path.suffix.lower() in (".
 SIZES = ToolTable.of(*(CutterTool(number, 10.0, unit=Unit.MM) for number in range(1, 60)))
 
 
-@pytest.mark.parametrize("center", [None, CenterPath(Side.LEFT, 2.0), CenterPath(None, 2.0)], ids=["own", "left", "on"])
-def test_any_program_gives_contours_or_a_sentence(center: CenterPath | None) -> None:
+@pytest.mark.parametrize(
+    "center", [None, CenterPathTool(Side.LEFT, 2.0), CenterPathTool(None, 2.0)], ids=["own", "left", "on"]
+)
+def test_any_program_gives_contours_or_a_sentence(center: CenterPathTool | None) -> None:
     taken, refusals = 0, list[str]()
     for path in PROGRAMS[::3]:
         text = path.read_bytes()
         for control in ("linuxcnc", "klartext", "nine-series:a"):
             try:
                 nc_blocks(Program(), read_nc(text, control, SIZES, center=center))
-            except (NcError, NotTaken) as error:
+            except (NcError, DoesNotFitError) as error:
                 refusals.append(str(error))
             else:
                 taken += 1
@@ -213,7 +215,7 @@ def test_an_alarm_names_the_line() -> None:
 
 def test_units_of_the_program_stay() -> None:
     text = b"G20 G90 G17\nG0 X0 Y0\nG1 Z-.1 F10\nX1.\nY1.\nM30\n"
-    read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPath(None, 1.0))
+    read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(None, 1.0))
     assert read.unit is Unit.IN
     block = imported(read).blocks[0]
     assert block.segments[0].x_end == Number(1.0)

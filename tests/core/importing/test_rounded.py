@@ -20,7 +20,7 @@ from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.importing.contour import Contour, fitted_contour
 from core.importing.nc import read_nc
 from core.importing.nc_contour import nc_blocks
-from core.importing.segments import block_of, taken
+from core.importing.segments import block_of, with_contours
 from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.post import post_control_program
@@ -135,7 +135,7 @@ def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> Non
     contour = contour_of(rounded_polygon(3), 6)
     tool = Tool(1, diameter=Number(8.0), speed=Number(3000.0), plunge_feed=Number(100.0))
     empty = Program(unit=Unit.MM, tools=(tool,))
-    program, _ = taken(empty, [contour])
+    program, _ = with_contours(empty, [contour])
     program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-5.0)),))
     derived = derive(program)
     posted = post_control_program(derived, name="part", control=control)
@@ -159,7 +159,7 @@ def test_a_contour_of_arcs_alone_ends_on_its_start_and_is_cut_clean(unit: Unit) 
         center, axis = ((chance.uniform(-80.0, 80.0), chance.uniform(-80.0, 80.0)) for _ in range(2))
         contour = listed(dxf(ellipse(center, axis, chance.uniform(0.3, 0.95)))).contours[0]
         assert all(isinstance(piece, Arc) for piece in contour.pieces)
-        program, (made,) = taken(empty, [contour])
+        program, (made,) = with_contours(empty, [contour])
         program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-1.0)),))
         codes = {finding.code for finding in derive(program).blocks[0].findings}
         assert not codes & {"GOUGE", "NEARLY_CLOSED"}, (seed, made.decimals, codes)

@@ -6,7 +6,7 @@ import pytest
 
 from core.comp.lookahead import recommended
 from core.output.passes import meets_solid
-from core.pipeline.derive import advice_for_block, derive, look_ahead_table, trial_of
+from core.pipeline.derive import advice_for_block, cutting_setup, derive, look_ahead_table
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
@@ -160,6 +160,6 @@ def test_roughing_passes_are_cut_by_tool_where_a_finish_tool_follows():
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.02))
     for finish, radius, rougher in ((Number(2), 0.125, 0.25), (None, 0.25, None)):
         part = program(replace(rough, finish_tool=finish), parameters=parameters)
-        asked = trial_of(derive(part).blocks[0], part)
+        asked = cutting_setup(derive(part).blocks[0], part)
         assert asked.radius == pytest.approx(25.4 * radius)
         assert asked.rougher == (None if rougher is None else pytest.approx(25.4 * rougher))

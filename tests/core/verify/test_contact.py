@@ -8,7 +8,7 @@ import pytest
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.verify.contact import air_cuts
+from core.verify.air_cuts import air_cuts
 from core.verify.judge import judge
 from tests.core.verify.shapes import around, circle, lines, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, R

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece_arrays import piece_arrays
-from core.verify.contact import air_cuts
+from core.verify.air_cuts import air_cuts
 from core.verify.gouge import gouging
 from core.verify.judge import judge, judge_prepared, judge_together
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of

@@ -10,7 +10,7 @@ from core.finding import Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
-from core.verify.contact import air_cuts
+from core.verify.air_cuts import air_cuts
 from core.verify.judge import judge
 from core.verify.report import contact_findings, move_name, verdict_findings
 from tests.core.verify.shapes import around, lines, square

@@ -1,6 +1,6 @@
-"""Center path: the contour whose path at a radius and a side the moves of the tool's center are.
+"""Contour of a program of the tool's center: its moves offset back by the tool's radius.
 
-Each piece is offset back: lines by the radius, arcs to R - r or R + r, the arc about a corner to that corner.  What
+In this way back lines by the radius, arcs to R - r or R + r, the arc about a corner to that corner.  What
 comes out is compensated again, and is the contour only if that makes the program's path.
 """
 

@@ -1,4 +1,4 @@
-"""Contact: where a center path cuts air, and where it runs along the surface against its direction.
+"""Air cuts, and pieces that run along the surface against its direction.
 
 Neither is a gouge.  Lead moves always cut air; in a path read from elsewhere a stretch in the air that is no lead move,
 or a piece traveled backwards, is a mistake worth seeing.
