@@ -1,8 +1,8 @@
 """Arithmetic an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
 
 A suffix belongs to the product it is in; in a sum either every term has one or none has.  A comma (one alone is a
-decimal point before it comes here), and a dash that shop people read as "and" (`1-1/2`), may mean two things and are
-refused with the reason.
+decimal point before it comes here), a dash that shop people read as "and" (`1-1/2`), and a division by a number with a
+fraction (`1/2 1/2`) may mean two things and are refused with the reason.
 """
 
 from __future__ import annotations
@@ -156,6 +156,10 @@ class _Reader:
             return Fraction(0)
         if int(above) >= int(below):
             raise CannotReadError(f"{whole} {above}/{below}: the fraction must be less than 1.")
+        if re.search(r"/[-+]?$", "".join(text for _, text in self.tokens[: self.at - 1])):
+            raise CannotReadError(
+                f"{self.typed} is not clear: put {whole} {above}/{below} into brackets to divide by it."
+            )
         self.at += 3
         return Fraction(int(above), int(below))
 
