@@ -14,7 +14,7 @@ import numpy as np
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.tolerance import CLOSED
+from core.tolerance import CLOSED, JOINED
 from core.verify.judge import judge
 
 MAX_STARTS: Final = 6
@@ -35,10 +35,25 @@ USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
 
 @dataclass(frozen=True, slots=True)
 class ToolFits:
-    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one that is a step larger is not."""
+    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one that is a step larger is not.
+
+    `inside_radius` is the smallest inside radius of the contour (mm), None without one.
+    """
 
     diameter: float
     value: int
+    inside_radius: float | None = None
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The smallest inside radius, where the cutter leaves it uncut, and the diameter that does not (mm)."""
+        small = self.inside_radius
+        return () if small is None or small >= self.diameter / 2 - JOINED else (small, 2.0 * small)
+
+    @property
+    def left_uncut(self) -> str:
+        """The sentence on what the cutter leaves uncut, with a blank before it; empty where it leaves no radius."""
+        return " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,32 +92,32 @@ def lookahead_without_blends(setup: CuttingSetup, wanted: Callable[[], bool] = n
 
 
 def larger_tool_without_blends(
-    setup: CuttingSetup, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = never_canceled
+    setup: CuttingSetup, than: ToolFits | None, wanted: Callable[[], bool] = never_canceled
 ) -> ToolFits | None:
     """The largest clean tool with BLEND OFFSET 0, or None.
 
-    `than` is the tool that fits with blends: one that is less than `LARGER_BY` times as large is not offered.  `hint`
-    is a radius (mm) to try first.
+    `than` is the tool that fits with blends: one that is less than `LARGER_BY` times as large is not offered.
     """
     if setup.blend <= 0.0:
         return None
     given = 0 if than is None else _steps(setup, than.diameter)
     least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
-    return largest_tool(without_blends(setup), hint, wanted, least=least)
+    return largest_tool(without_blends(setup), wanted, least=least)
 
 
 def largest_tool(
-    setup: CuttingSetup, hint: float | None = None, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
+    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
 ) -> ToolFits | None:
     """The largest clean diameter below the cutter's, in whole steps, rounded down; by halving what is left.
 
-    `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.  There is none
-    where one of `least` steps is not clean.
+    The smallest inside radius, often the limit, is tried first: where it is one, a larger tool that is clean only since
+    it deletes such arcs is not looked for.  There is none where one of `least` steps is not clean.
     """
     clean, fails = least, _steps(setup, 2.0 * setup.radius)
     if clean >= fails or (clean and not _clean(setup, clean, wanted)):
         return None
-    tries = [] if hint is None else [_steps(setup, 2.0 * hint), _steps(setup, 2.0 * hint) + 1]
+    limit = _smallest_inside_radius(setup)
+    tries = [] if limit is None else [_steps(setup, 2.0 * limit), _steps(setup, 2.0 * limit) + 1]
     while fails - clean > 1:
         size = tries.pop(0) if tries else (clean + fails) // 2
         if not clean < size < fails:
@@ -112,7 +127,13 @@ def largest_tool(
         else:
             fails = size
     value = _recommended(_with_tool(setup, clean), wanted) if clean else None
-    return None if value is None else ToolFits(clean * setup.diameter_step, value)
+    return None if value is None else ToolFits(clean * setup.diameter_step, value, limit)
+
+
+def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
+    surface = setup.surface
+    radii: list[float] = surface.radii[surface.turns * setup.side.sign > 0].tolist()
+    return min(radii, default=None)
 
 
 def _clean(setup: CuttingSetup, size: int, wanted: Callable[[], bool]) -> bool:

@@ -75,7 +75,7 @@ def _with_remedies(why: tuple[Finding, ...], setup: CuttingSetup, table: Table, 
     value, start = lookahead_without_blends(setup, wanted), start_mid_side(setup, wanted)
     both = start_mid_side_without_blends(setup, wanted) if start is None and value is None else None
     helpless = start is None and value is None and both is None
-    tools = _tools(setup, nearest, too_small, wanted) if helpless else _Tools(None, None, "")
+    tools = _tools(setup, nearest, wanted) if helpless else _Tools(None, None, "")
     remedies = (
         *_blends_sentence(value),
         *_start_sentence(start),
@@ -97,15 +97,15 @@ class _Tools(NamedTuple):
     where: str
 
 
-def _tools(setup: CuttingSetup, nearest: Row, too_small: tuple[Finding, ...], wanted: Callable[[], bool]) -> _Tools:
+def _tools(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool]) -> _Tools:
     """The largest tools, with another start where the contour's own is an inside corner."""
-    hint, where = min((finding.value for finding in too_small if finding.value is not None), default=None), ""
+    where = ""
     if _starts_at_inside_corner(nearest):
         row = longest_segments(setup.surface)[0]
         where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
         setup = replace(setup, surface=restarted(setup.surface, row))
-    tool = largest_tool(setup, hint, wanted)
-    return _Tools(tool, larger_tool_without_blends(setup, tool, hint, wanted), where)
+    tool = largest_tool(setup, wanted)
+    return _Tools(tool, larger_tool_without_blends(setup, tool, wanted), where)
 
 
 def _starts_at_inside_corner(row: Row) -> bool:
@@ -171,8 +171,9 @@ def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
     fitting = ((tools.tool, "TOOL_FITS", ""), (tools.without_blends, "TOOL_BLENDLESS", f" {_NO_BLENDS}"))
     for tool, code, blends in fitting:
         if tool is not None:
-            text = f"Tool too big; largest that fits{blends}{tools.where}: {{value}}, with look-ahead {tool.value}."
-            yield replace(_remedy(code, text), field="tool", value=tool.diameter)
+            largest = f"the largest that does not gouge{blends}{tools.where}: {{value}}, with look-ahead {tool.value}."
+            text = f"Tool too big; {largest}{tool.left_uncut}"
+            yield replace(_remedy(code, text), field="tool", value=tool.diameter, lengths=tool.lengths)
 
 
 def _start_at_end_sentence(start: StartMoved) -> Finding:

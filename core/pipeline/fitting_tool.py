@@ -63,7 +63,7 @@ def largest_tool(
         while fails - clean > 1:
             size = (clean + fails) // 2
             clean, fails = (size, fails) if fits(tool, size) else (clean, size)
-        said = f"Tool {tool.number} is too big; largest that fits: {{0}}."
+        said = f"Tool {tool.number} is too big; the largest that does not gouge: {{0}}."
         return Finding("TOOL_FITS", Severity.INFO, said, lengths=(to_mm(step * clean, done.unit),))
     return None
 

@@ -168,4 +168,4 @@ def test_where_no_lookahead_is_clean_the_largest_tool_is_named_rounded_down() ->
     part = replace(slot, unit=Unit.IN, parameters=parameters, tools=(Tool(1, "END MILL", Number(0.5)),))
     found = remedy_for_gouge(derive(part).block(1), part)
     assert found is not None
-    assert sentence(found, Unit.IN) == "Block 1: the tool is too big; largest that fits: 0.3937."
+    assert sentence(found, Unit.IN) == "Block 1: the tool is too big; the largest that does not gouge: 0.3937."

@@ -118,7 +118,7 @@ async def test_the_largest_tool_that_fits_stands_among_the_findings(tmp_path):
     slot = (
         b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\nX2.\nY0.\nX-.5\nG40 X-1.\n"
     )
-    said = "Tool 1 is too big; largest that fits: 0.3999."
+    said = "Tool 1 is too big; the largest that does not gouge: 0.3999."
     async with at_proof(tmp_path, slot) as one:
         await with_tool(one, "1=.5")
         fault, fits = one.findings()[-2:]

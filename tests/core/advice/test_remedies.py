@@ -51,11 +51,6 @@ def test_the_largest_tool_of_an_inch_program_is_one_that_its_screen_shows():
     assert found.diameter == pytest.approx(157 * inch_digit)
 
 
-def test_a_hint_finds_the_same_tool():
-    asked = CuttingSetup(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0)
-    assert largest_tool(asked, 0.2) == largest_tool(asked, 0.05) == largest_tool(asked)
-
-
 def test_no_tool_is_looked_for_that_is_as_large_as_the_one_in_force():
     asked = CuttingSetup(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0)
     assert largest_tool(asked, least=500) is None

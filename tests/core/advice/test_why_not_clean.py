@@ -139,7 +139,9 @@ def test_a_tool_that_only_the_blend_moves_keep_out_is_told_with_them_left_out():
     assert (found.tool, found.start, found.start_without_blends) == (None, None, None)
     assert found.tool_without_blends is not None
     assert found.tool_without_blends.diameter == pytest.approx(2.5)
-    text = "Tool too big; largest that fits without blend moves (BLEND OFFSET 0): 2.500, with look-ahead 1."
+    text = (
+        "Tool too big; the largest that does not gouge without blend moves (BLEND OFFSET 0): 2.500, with look-ahead 1."
+    )
     assert sentence(found.sentences[-1], Unit.MM) == text
     assert judge_lookaheads(replace(asked, radius=1.25, blend=0.0)).row(1).clean
     assert judge_lookaheads(replace(asked, radius=1.25)).recommended is None
@@ -154,10 +156,8 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
     assert found.tool_without_blends is not None
     assert found.tool.diameter < 45.0
     assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
-    words = (
-        "largest that fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1"
-    )
-    assert words in said(found)
+    blends = "without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1"
+    assert f"the largest that does not gouge {blends}" in said(found)
     small = replace(asked, surface=restarted(square, 0), radius=found.tool_without_blends.diameter / 2)
     assert judge_lookaheads(replace(small, blend=0.0)).row(found.tool_without_blends.value).clean
     assert judge_lookaheads(small).recommended is None
@@ -253,10 +253,11 @@ def slots(draw: st.DrawFn) -> Path:
 
 @st.composite
 def channels(draw: st.DrawFn) -> CuttingSetup:
-    """An open channel with room for the tool, and often none for its blend moves."""
-    radius, room, blend = draw(radii), draw(st.floats(0.02, 1.0)), draw(st.sampled_from((0.3, 2.0)))
-    high, along = 2 * radius + room, draw(sizes)
-    return setup(lines((0, 0), (along, 0), (along, high), (-along, high)), Side.LEFT, radius, closed=False, blend=blend)
+    """An open channel, some too narrow for the tool and some only for its blend moves."""
+    radius, along, blend = draw(radii), draw(sizes), draw(st.sampled_from((0.3, 2.0)))
+    high = 2 * radius * draw(st.floats(0.6, 1.8))
+    walls = lines((0, 0), (along, 0), (along, high), (-along, high))
+    return setup(walls, Side.LEFT, radius, closed=False, blend=blend)
 
 
 def asked_of(contour: Path, side: Side, radius: float, closed: bool, blend: float) -> CuttingSetup:
@@ -324,3 +325,23 @@ def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
 
     assert advice_for(asked, 8, judge_lookaheads(asked), wanted) is None
     assert answers == [True] * tries + [False]
+
+
+def test_the_radius_of_an_inside_corner_is_the_tool_to_take():
+    """A pocket of 60 by 30 with corners of radius 6: tools from 12 to 30 are clean only since they delete corners."""
+    pocket = Path.from_pieces(
+        [
+            Line((6, 0), (54, 0)),
+            Arc((54, 0), (60, 6), (54, 6), Turn.CCW),
+            Line((60, 6), (60, 24)),
+            Arc((60, 24), (54, 30), (54, 24), Turn.CCW),
+            Line((54, 30), (6, 30)),
+            Arc((6, 30), (0, 24), (6, 24), Turn.CCW),
+            Line((0, 24), (0, 6)),
+            Arc((0, 6), (6, 0), (6, 6), Turn.CCW),
+        ]
+    )
+    for radius in (17.5, 20.0):
+        found = of(setup(pocket, Side.LEFT, radius, closed=True))
+        assert found.tool is not None
+        assert found.tool.diameter == 12.0

@@ -89,7 +89,7 @@ SLANTING = b"G21 G17 G90 G1 F100.\nX-20. Y0.\nG41 D1 X0.\nX50.\nM8\nM9\nY40.\nX2
 def test_the_largest_tool_that_fits_is_named_where_one_is_too_big(control: str) -> None:
     row = answer(SLOT, asked(control, CutterTool(1, 0.5), CutterTool(2, 0.25)))
     (found,) = (finding for finding in row.findings if finding.code == "TOOL_FITS")
-    assert found.text == "Tool 1 is too big; largest that fits: {0}."
+    assert found.text == "Tool 1 is too big; the largest that does not gouge: {0}."
     assert from_mm(found.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
     assert answer(SLOT, asked(control, CutterTool(1, 0.3999))).fits is None
 
@@ -125,7 +125,7 @@ def test_where_only_a_lead_gouges_the_lead_is_to_be_moved(start: str, end: str, 
 
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
     told = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
-    assert "fanuc:a: Tool 1 is too big; largest that fits: 0.4000." in told
+    assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in told
     assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in told)
 
 
