@@ -204,7 +204,9 @@ def _power(left: float, right: float) -> float:
     return float(left**right)
 
 
-_RANKS: Final[Mapping[str, tuple[int, Callable[[float, float], float]]]] = {
+Operation = Callable[[float, float], float]
+
+_RANKS: Final[Mapping[str, tuple[int, Operation]]] = {
     "**": (4, _power),
     "*": (3, lambda left, right: left * right),
     "/": (3, lambda left, right: left / right),
@@ -244,8 +246,11 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
 class ExpressionReader:
     """Reads values out of a text in capitals without blanks; `at` is where it stands.
 
-    `unset` are the numbers read that nothing had set, and where.
+    `unset` are the numbers read that nothing had set, and where.  `ranks`: of operators those of a higher rank count
+    first.
     """
+
+    ranks = _RANKS
 
     def __init__(self, text: str, values: MacroParameters, at: int = 0) -> None:
         self.text = text
@@ -305,13 +310,21 @@ class ExpressionReader:
 
     def _ranked(self, rank: int) -> float:
         value = self.value()
-        while (operator := _OPERATOR.match(self.text, self.at)) and _RANKS[operator[0]][0] >= rank:
-            if operator[0] in "&|^" and self.values.kept is not ParameterStore.MACRO_B:
-                break
-            begin, self.at = self.at, operator.end()
-            above, work = _RANKS[operator[0]]
-            value = self._worked(begin, operator[0], work, value, self._ranked(above + 1))
+        while (name := self._operator()) and self.ranks[name][0] >= rank:
+            begin, (above, work) = self.at, self.ranks[name]
+            self.at += len(name)
+            value = self._operated(begin, name, work, value, self._ranked(above + 1))
         return value
+
+    def _operator(self) -> str:
+        """The operator that comes next, "" where none of this control does."""
+        operator = _OPERATOR.match(self.text, self.at)
+        if operator is None or (operator[0] in "&|^" and self.values.kept is not ParameterStore.MACRO_B):
+            return ""
+        return operator[0]
+
+    def _operated(self, at: int, name: str, work: Operation, left: float, right: float) -> float:
+        return self._worked(at, name, work, left, right)
 
     def _worked(self, at: int, name: str, work: Callable[..., float], *values: float | str) -> float:
         try:

@@ -21,6 +21,7 @@ from core.controls.iso.macro import (
     ExpressionReader,
     FaultError,
     MacroParameters,
+    Operation,
     ParameterStore,
     plain,
 )
@@ -142,7 +143,7 @@ def is_common(index: int) -> bool:
     return 100 <= index <= 199 or 500 <= index <= 999 or 98000 <= index <= 99999
 
 
-def bits(work: Callable[[int, int], int]) -> Callable[[float, float], float]:
+def bits(work: Callable[[int, int], int]) -> Operation:
     """An operation on the bits of two whole numbers."""
     return lambda left, right: float(work(round(left), round(right)))
 
@@ -154,34 +155,25 @@ def equal(left: float, right: float) -> bool:
     return abs(left - right) <= EQUAL * max(abs(left), abs(right), 1e-3)
 
 
-_RELATIONS: Final[Mapping[str, Callable[[float, float], bool]]] = MappingProxyType(
+_RELATION: Final = 0
+_RANKS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
     {
-        "EQ": equal,
-        "NE": lambda left, right: not equal(left, right),
-        "GT": lambda left, right: left > right,
-        "LT": lambda left, right: left < right,
-        "GE": lambda left, right: left >= right,
-        "LE": lambda left, right: left <= right,
+        "EQ": (_RELATION, equal),
+        "NE": (_RELATION, lambda left, right: not equal(left, right)),
+        "GT": (_RELATION, lambda left, right: left > right),
+        "LT": (_RELATION, lambda left, right: left < right),
+        "GE": (_RELATION, lambda left, right: left >= right),
+        "LE": (_RELATION, lambda left, right: left <= right),
+        "+": (1, lambda left, right: left + right),
+        "-": (1, lambda left, right: left - right),
+        "OR": (1, bits(int.__or__)),
+        "XOR": (1, bits(int.__xor__)),
+        "*": (2, lambda left, right: left * right),
+        "/": (2, lambda left, right: left / right),
+        "AND": (2, bits(int.__and__)),
+        "MOD": (2, fmod),
     }
 )
-_SUMS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
-    {
-        "+": lambda left, right: left + right,
-        "-": lambda left, right: left - right,
-        "OR": bits(int.__or__),
-        "XOR": bits(int.__xor__),
-    }
-)
-_PRODUCTS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
-    {
-        "*": lambda left, right: left * right,
-        "/": lambda left, right: left / right,
-        "AND": bits(int.__and__),
-        "MOD": fmod,
-    }
-)
-_RANKED: Final = (_RELATIONS, _SUMS, _PRODUCTS)
-_OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/]")
 
 
 def from_bcd(value: float) -> float:
@@ -231,6 +223,7 @@ class MacroReader(ExpressionReader):
     """Reads values as a Fanuc control does; `increment` is what ROUND rounds a word to, 0 outside of words."""
 
     increment = 0.0
+    ranks = _RANKS
 
     def __init__(self, text: str, values: Variables, at: int = 0) -> None:
         super().__init__(text, values, at)
@@ -280,28 +273,17 @@ class MacroReader(ExpressionReader):
         self._brackets -= 1
         return value
 
-    def _ranked(self, rank: int) -> float:
-        if rank == len(_RANKED):
-            return self.value()
-        value = self._ranked(rank + 1)
-        operators = _RANKED[rank]
-        while operator := _OPERATOR.match(self.text, self.at):
-            name, begin = operator[0], self.at
-            if name == "**":
-                raise FaultError("PS0114", "This control has no **. Write POW[a,b] or multiply.", begin)
-            if name not in operators:
-                break
-            self.at = operator.end()
-            value = self._operated(begin, name, operators[name], value, self._ranked(rank + 1))
-        return value
+    def _operator(self) -> str:
+        name = super()._operator()
+        if name == "**":
+            raise FaultError("PS0114", "This control has no **. Write POW[a,b] or multiply.", self.at)
+        return name
 
-    def _operated(
-        self, at: int, name: str, work: Callable[[float, float], float], left: float, right: float
-    ) -> float:  # fmt: skip
+    def _operated(self, at: int, name: str, work: Operation, left: float, right: float) -> float:
         # to compare with #0 is to ask whether a variable is set
         if name not in ("EQ", "NE") or not any(isinstance(one, Vacant) and not one.number for one in (left, right)):
             self.note_use(left, right)
-        if name in _RELATIONS:
+        if _RANKS[name][0] == _RELATION:
             self.differences.append(abs(left - right))
         if name in "/MOD" and right == 0.0:
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
