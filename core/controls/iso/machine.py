@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import dist, hypot
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.elements import arc_element, element_sweep, line_element
@@ -432,12 +431,17 @@ class Machine(ModalState):
 
     def _preset(self, block: Block) -> None:
         """G92: the origin moves so that the present position reads as written."""
-        reads, base, old = self.axis_words(block, ZERO), self.origin.base, self.origin.local
+        local = self._reading_as_written(block, self.origin.base, self.origin.local)
+        self.set_origin(replace(self.origin, local=local, stored=local))
+
+    def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
+        """What makes the present position read as written, besides the rest of the origin; old where no word is."""
+        words = self.axis_words(block, ZERO)
         x, y, z = (
-            self.position[axis] - reads[axis] - base[axis] if "XYZ"[axis] in block.words else old[axis]
+            self.position[axis] - words[axis] - rest[axis] if "XYZ"[axis] in block.words else old[axis]
             for axis in range(3)
         )
-        self.set_origin(replace(self.origin, local=(x, y, z), stored=(x, y, z)))
+        return x, y, z
 
     def _set_data(self, block: Block) -> None:
         """G10: a work offset, or a tool's data where the control has that; other data stop the run."""
@@ -462,16 +466,8 @@ class Machine(ModalState):
             self.log.stop("DATA", text, block.line, block.column("R" if "R" in block.words else "PL"))
         code = system_code(number) if number else self.origin.system
         old = self.origin.systems.get(code, ZERO)
-        offset = self.axis_words(block, old)
-        if from_here:
-            here, local = self.position, self.origin.local
-            x, y, z = (
-                here[axis] - offset[axis] - local[axis] if "XYZ"[axis] in block.words else old[axis]
-                for axis in range(3)
-            )
-            offset = (x, y, z)
-        systems = MappingProxyType({**self.origin.systems, code: offset})
-        self.set_origin(replace(self.origin, systems=systems))
+        offset = self._reading_as_written(block, self.origin.local, old) if from_here else self.axis_words(block, old)
+        self.set_system(code, offset)
 
     def _set_tool(self, block: Block) -> None:
         """G10 L1 P R: the radius of a tool in the table; its length counts for nothing in the plane."""

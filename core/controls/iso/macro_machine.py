@@ -505,13 +505,9 @@ class MacroMachine(Machine):
         old = self.origin.systems.get(code, ZERO)
         offset = self.axis_words(block, old)
         if self.incremental:
-            x, y, z = (
-                before + (now if "XYZ"[axis] in block.words else 0.0)
-                for axis, (before, now) in enumerate(zip(old, self.axis_words(block, ZERO), strict=True))
-            )
+            x, y, z = (before + step for before, step in zip(old, self.axis_words(block, ZERO), strict=True))
             offset = (x, y, z)
-        systems = MappingProxyType({**self.origin.systems, code: offset})
-        self.set_origin(replace(self.origin, systems=systems))
+        self.set_system(code, offset)
 
     def _set_offset(self, kind: int, number: int, block: Block) -> None:
         if "R" not in block.words:
@@ -633,20 +629,10 @@ class MacroMachine(Machine):
         return from_mm(value * self._radii_in(kind), self.unit)
 
     def _origin_variable(self, key: int) -> float | None:
-        if 5201 <= key <= 5203:
-            return from_mm(self.origin.systems.get(EXTERNAL, ZERO)[key - 5201], self.unit)
-        for index in range(6):
-            axis = key - 5221 - 20 * index
-            if 0 <= axis <= 2:
-                return from_mm(self.origin.systems.get(540 + 10 * index, ZERO)[axis], self.unit)
-        if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
-            system = EXTENDED_SYSTEM + 1 + (key - 7001) // 20
-            return from_mm(self.origin.systems.get(system, ZERO)[(key - 7001) % 20], self.unit)
-        if (place := _work_offset_place(key)) is not None:
+        place = (EXTERNAL, key - 5201) if 5201 <= key <= 5203 else _work_offset_place(key)
+        if place is not None:
             return from_mm(self.origin.systems.get(place[0], ZERO)[place[1]], self.unit)
-        if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999:
-            return 0.0
-        return None
+        return 0.0 if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999 else None
 
     def set_variable(self, key: int, value: float) -> bool:
         """Sets a system variable; False where a program cannot."""
@@ -658,28 +644,22 @@ class MacroMachine(Machine):
             return True
         if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
             return True
-        for index in range(6):
-            axis = key - 5221 - 20 * index
-            if 0 <= axis <= 2:
-                self._write_origin(540 + 10 * index, axis, millimeters)
-                return True
-        if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
-            self._write_origin(EXTENDED_SYSTEM + 1 + (key - 7001) // 20, (key - 7001) % 20, millimeters)
-            return True
-        if (place := _work_offset_place(key)) is not None:
-            self._write_origin(*place, millimeters)
-            return True
-        return False
-
-    def _write_origin(self, code: int, axis: int, value: float) -> None:
-        offset = list(self.origin.systems.get(code, ZERO))
-        offset[axis] = value
-        systems = MappingProxyType({**self.origin.systems, code: (offset[0], offset[1], offset[2])})
-        self.set_origin(replace(self.origin, systems=systems))
+        if (place := _work_offset_place(key)) is None:
+            return False
+        offset = list(self.origin.systems.get(place[0], ZERO))
+        offset[place[1]] = millimeters
+        self.set_system(place[0], (offset[0], offset[1], offset[2]))
+        return True
 
 
 def _work_offset_place(key: int) -> tuple[int, int] | None:
-    """The work offset and the axis of #2500 to #2506 (X), #2600 to #2606 (Y) and #2700 to #2706 (Z)."""
+    """The work offset and the axis that a variable holds, from #5221, #7001 and #2500 on; None for any other."""
+    number, axis = divmod(key - 5221, 20)
+    if 0 <= number < 6 and axis <= 2:
+        return 540 + 10 * number, axis
+    number, axis = divmod(key - 7001, 20)
+    if 7001 <= key <= 7943 and axis <= 2:
+        return EXTENDED_SYSTEM + 1 + number, axis
     axis, number = divmod(key - 2500, 100)
     if not 0 <= axis <= 2 or number > 6:
         return None

@@ -6,7 +6,7 @@ All positions are millimeters from the machine's zero as the program shifts it; 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Final
 
@@ -158,6 +158,11 @@ class ModalState:
     def set_origin(self, origin: Origin) -> None:
         """The program counts from another origin."""
         self.origin, self.shift = origin, origin.shift
+
+    def set_system(self, code: int, offset: Point3) -> None:
+        """A work offset of this code, millimeters."""
+        systems = MappingProxyType({**self.origin.systems, code: offset})
+        self.set_origin(replace(self.origin, systems=systems))
 
     def set_length_offset(self, offset: Point3) -> None:
         """Another tool length offset: the axes stand still, and the point that they stand for is another one."""
