@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from math import cos, hypot, sin, sqrt
 from typing import Final, NamedTuple
 
-from core.geometry.oriented import Circle, OrientedLine, direction, normal
+from core.geometry.oriented import Locus, OrientedLine, direction, normal
 from core.geometry.piece import Point
 from core.program.solve.run.branch import Anchor, Branch
 from core.tolerance import ARC_RADII, GRAZE
@@ -122,53 +122,32 @@ def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], l
         rows.append((0.0, 1.0, 0.0, y - origin[1]))
     if rho is not None:
         rows.append((0.0, 0.0, 1.0, rho))
-    for condition in (*_at_start(branch, index), *_at_end(branch, index), *_swept(branch, index)):
-        _take(condition, rows, quadrics, origin)
+    at_start = _at_joint(branch, index, branch.heading_in[index], branch.arriving_linked(index), origin)
+    at_end = _at_joint(branch, index + 1, branch.heading_out[index], branch.departing_linked(index + 1), origin)
+    for condition in (*at_start, *at_end, *_swept(branch, index, origin)):
+        if isinstance(condition, Quadric):
+            quadrics.append(condition)
+        else:
+            rows.append(condition)
     point = branch.run.elements[index].point
     if point is not None:
         quadrics.append(_cone(Anchor(point, 0.0, 0.0), origin))
     return rows, quadrics
 
 
-class _Tied(NamedTuple):
-    """A joint that is c - rho n, `heading` known; it lies on `locus`."""
-
-    heading: float
-    locus: OrientedLine | Circle | Point
-
-
-class _Turned(NamedTuple):
-    """A joint that is the known joint `start` turned about c by `angle`; it lies on `locus`."""
-
-    start: Point
-    angle: float
-    locus: OrientedLine | Circle | Point
-
-
-Condition = _Tied | _Turned | Anchor
-
-
-def _at_start(branch: Branch, index: int) -> Iterator[Condition]:
-    yield from _at_joint(branch, index, branch.heading_in[index], branch.arriving_linked(index))
-
-
-def _at_end(branch: Branch, index: int) -> Iterator[Condition]:
-    yield from _at_joint(branch, index + 1, branch.heading_out[index], branch.departing_linked(index + 1))
-
-
-def _at_joint(branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor]) -> Iterator[Condition]:
+def _at_joint(
+    branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor], origin: Point
+) -> Iterator[Row | Quadric]:  # fmt: skip
+    """That the circle passes a joint."""
     if heading is None:
-        yield from anchors
+        yield from (_cone(anchor, origin) for anchor in anchors)
         return
     point = branch.joint(joint)
-    if point is not None:
-        yield _Tied(heading, point)
-        return
-    for locus in branch.loci(joint):
-        yield _Tied(heading, locus)
+    for locus in branch.loci(joint) if point is None else (point,):
+        yield from _tied(heading, locus, origin)
 
 
-def _swept(branch: Branch, index: int) -> Iterator[Condition]:
+def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]:
     """SWEEP ANGLE turns one joint into the other, whatever the heading is."""
     sweep = branch.sweep[index]
     if sweep is None or branch.heading_in[index] is not None:
@@ -178,21 +157,10 @@ def _swept(branch: Branch, index: int) -> Iterator[Condition]:
         first, second = branch.joint(start), branch.joint(end)
         if first is None:
             continue
+        for locus in branch.loci(end) if second is None else (second,):
+            yield from _turned(first, turned, locus, origin)
         if second is not None:
-            yield _Turned(first, turned, second)
             return
-        for locus in branch.loci(end):
-            yield _Turned(first, turned, locus)
-
-
-def _take(condition: Condition, rows: list[Row], quadrics: list[Quadric], origin: Point) -> None:
-    """Put a condition among the linear or the quadratic ones."""
-    if isinstance(condition, Anchor):
-        quadrics.append(_cone(condition, origin))
-    elif isinstance(condition, _Tied):
-        _take_tied(condition, rows, quadrics, origin)
-    else:
-        _take_turned(condition, rows, quadrics, origin)
 
 
 def _cone(anchor: Anchor, origin: Point) -> Quadric:
@@ -201,37 +169,37 @@ def _cone(anchor: Anchor, origin: Point) -> Quadric:
     return Quadric(1.0, -1.0, 0.0, 0.0, -2.0 * x, -2.0 * y, -2.0 * v, x * x + y * y - u * u - v * v)
 
 
-def _take_tied(condition: _Tied, rows: list[Row], quadrics: list[Quadric], origin: Point) -> None:
-    (nx, ny), locus = normal(condition.heading), condition.locus
+def _tied(heading: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
+    """The joint c - rho n, n the normal of its heading, lies on the locus."""
+    nx, ny = normal(heading)
     if isinstance(locus, tuple):
-        rows.append((1.0, 0.0, -nx, locus[0] - origin[0]))
-        rows.append((0.0, 1.0, -ny, locus[1] - origin[1]))
+        yield 1.0, 0.0, -nx, locus[0] - origin[0]
+        yield 0.0, 1.0, -ny, locus[1] - origin[1]
     elif isinstance(locus, OrientedLine):
         a, b = locus.normal
-        rows.append((a, b, -(a * nx + b * ny), locus.offset - a * origin[0] - b * origin[1]))
+        yield a, b, -(a * nx + b * ny), locus.offset - a * origin[0] - b * origin[1]
     else:
         x, y, r = locus.center[0] - origin[0], locus.center[1] - origin[1], locus.radius
         rest = x * x + y * y - r * r
-        quadrics.append(Quadric(1.0, 1.0, -2.0 * nx, -2.0 * ny, -2.0 * x, -2.0 * y, 2.0 * (nx * x + ny * y), rest))
+        yield Quadric(1.0, 1.0, -2.0 * nx, -2.0 * ny, -2.0 * x, -2.0 * y, 2.0 * (nx * x + ny * y), rest)
 
 
-def _take_turned(condition: _Turned, rows: list[Row], quadrics: list[Quadric], origin: Point) -> None:
-    """(1 - R) c + R start lies on the locus, R the rotation."""
-    c, s = cos(condition.angle), sin(condition.angle)
-    x, y = condition.start[0] - origin[0], condition.start[1] - origin[1]
+def _turned(start: Point, angle: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
+    """The joint `start` turned about c, (1 - R) c + R start with R the rotation, lies on the locus."""
+    c, s = cos(angle), sin(angle)
+    x, y = start[0] - origin[0], start[1] - origin[1]
     px, py = c * x - s * y, s * x + c * y
-    locus = condition.locus
     if isinstance(locus, tuple):
-        rows.append((1.0 - c, s, 0.0, locus[0] - origin[0] - px))
-        rows.append((-s, 1.0 - c, 0.0, locus[1] - origin[1] - py))
+        yield 1.0 - c, s, 0.0, locus[0] - origin[0] - px
+        yield -s, 1.0 - c, 0.0, locus[1] - origin[1] - py
     elif isinstance(locus, OrientedLine):
         a, b = locus.normal
         offset = locus.offset - a * origin[0] - b * origin[1]
-        rows.append((a * (1.0 - c) - b * s, a * s + b * (1.0 - c), 0.0, offset - a * px - b * py))
+        yield a * (1.0 - c) - b * s, a * s + b * (1.0 - c), 0.0, offset - a * px - b * py
     else:
         qx, qy, r = px - (locus.center[0] - origin[0]), py - (locus.center[1] - origin[1]), locus.radius
         a, b = 2.0 * (qx * (1.0 - c) - qy * s), 2.0 * (qx * s + qy * (1.0 - c))
-        quadrics.append(Quadric(2.0 - 2.0 * c, 0.0, 0.0, 0.0, a, b, 0.0, qx * qx + qy * qy - r * r))
+        yield Quadric(2.0 - 2.0 * c, 0.0, 0.0, 0.0, a, b, 0.0, qx * qx + qy * qy - r * r)
 
 
 def _difference(first: Quadric, second: Quadric) -> Row:
