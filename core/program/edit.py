@@ -155,11 +155,7 @@ def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
 
 def _picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
     """The program without the solutions picked at a segment, and of the runs it was or is a part of."""
-    block = new.blocks[where.block - 1]
-    part = block.segments[where.segment - 1]
-    if not isinstance(part, CornerSegment) and part.choice is not None:
-        new = _with_part(new, where, replace(part, choice=None))
-    return _run_picked_anew(old, new, where)
+    return _run_picked_anew(old, _without_choice(new, where.block, where.segment), where)
 
 
 def _run_picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
@@ -191,7 +187,7 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
     block = program.blocks[where.block - 1]
     before, after = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
     if not 0 < where.segment <= len(block.segments) + 1:
-        return _no_segment(block, where.segment)
+        return _does_not_exist("segment", where.segment, len(block.segments))
     if isinstance(segment, CornerSegment):
         if not before:
             return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
@@ -251,7 +247,7 @@ def new_block(program: Program) -> Block:
 def insert_block(program: Program, at: int) -> Edited:
     """Put a new block at number `at`, with the tool of the block before it; one more than the last appends."""
     if not 1 <= at <= len(program.blocks) + 1:
-        return _no_block(program, at)
+        return _does_not_exist("block", at, len(program.blocks))
     before, after = program.blocks[: at - 1], program.blocks[at - 1 :]
     return replace(program, blocks=(*before, new_block(replace(program, blocks=before)), *after))
 
@@ -387,17 +383,9 @@ def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Pa
 
 def _absent(program: Program, where: FormPlace) -> Refused | None:
     if not 1 <= where.block <= len(program.blocks):
-        return _no_block(program, where.block)
-    block = program.blocks[where.block - 1]
-    return None if 0 <= where.segment <= len(block.segments) else _no_segment(block, where.segment)
-
-
-def _no_block(program: Program, number: int) -> Refused:
-    return _does_not_exist("block", number, len(program.blocks))
-
-
-def _no_segment(block: Block, number: int) -> Refused:
-    return _does_not_exist("segment", number, len(block.segments))
+        return _does_not_exist("block", where.block, len(program.blocks))
+    count = len(program.blocks[where.block - 1].segments)
+    return None if 0 <= where.segment <= count else _does_not_exist("segment", where.segment, count)
 
 
 def _does_not_exist(thing: str, number: int, count: int) -> Refused:
