@@ -92,6 +92,12 @@ def heading(line: Line) -> float:
     return angle + tau if angle < 0.0 else angle
 
 
+def heading_at(piece: Piece, at: Point) -> float:
+    """Direction of travel at a point of a piece in radians, from -pi to pi."""
+    x, y = piece.direction_at(at)
+    return atan2(y, x)
+
+
 def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Line)
     if name == "angle":

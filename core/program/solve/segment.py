@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, inf, tau
+from math import inf, tau
 from typing import Final, assert_never
 
 from core.finding import Finding, Severity
@@ -11,7 +11,7 @@ from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.fields import FARTHEST, TABLES, form_of
 from core.program.model import ArcSegment, BlendSegment, ChamferSegment, CornerSegment, LineSegment, Number, Segment
 from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
-from core.program.solve.line import LINE_TASK, heading, kept_axis, line_sketch
+from core.program.solve.line import LINE_TASK, heading, heading_at, kept_axis, line_sketch
 from core.program.solve.reading import Reading
 from core.program.solve.rules import Given, Outcome, Task, solve
 from core.program.solve.solved import Origin, Value
@@ -87,14 +87,8 @@ def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, u
     if kept is not None:
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
-    heading = None if shape.piece is None else end_heading(shape.piece)
+    heading = None if shape.piece is None else heading_at(shape.piece, shape.piece.end)
     return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed, heading, origin))
-
-
-def end_heading(piece: Piece) -> float:
-    """The direction in which a piece ends, in radians."""
-    x, y = piece.direction_at(piece.end)
-    return atan2(y, x)
 
 
 def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
@@ -218,5 +212,4 @@ def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
         reading.fill("y_center", from_mm(piece.center[1], unit))
         reading.fill("radius", from_mm(piece.radius, unit))
         reading.fill("sweep", from_radians(abs(piece.sweep)))
-        x, y = piece.direction_at(piece.start)
-        reading.fill("start_angle", from_radians(atan2(y, x) % tau))
+        reading.fill("start_angle", from_radians(heading_at(piece, piece.start) % tau))

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import atan2, cos, dist, inf, sin, sqrt, tau
+from math import cos, dist, inf, sin, sqrt, tau
 from typing import Final
 
 from core.geometry import construct
 from core.geometry.piece import Arc, Line, Piece, Point
+from core.program.solve.line import heading_at
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.element import Element, Run
 from core.program.solve.run.proof import Chain, objections
@@ -164,10 +165,10 @@ class ChainProblem:
         """The unknown numbers as they are in a chain."""
         numbers = [0.0] * self.count
         for part, piece in zip(self.parts, chain.pieces, strict=True):
-            x, y = piece.direction_at(piece.start)
+            heading = heading_at(piece, piece.start)
             sweep = abs(piece.sweep) if isinstance(piece, Arc) else 0.0
             size = piece.radius if isinstance(piece, Arc) else piece.length
-            for slot, value in ((part.heading, atan2(y, x)), (part.size, size), (part.sweep, sweep)):
+            for slot, value in ((part.heading, heading), (part.size, size), (part.sweep, sweep)):
                 if slot is not None and slot.index is not None:
                     numbers[slot.index] = value
         return numbers

@@ -7,7 +7,7 @@ A branch that does not agree is dropped, so that surplus data choose among sever
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, dist, hypot, pi, sin, tau
+from math import dist, hypot, pi, sin, tau
 from typing import Final
 
 from core.finding import Finding
@@ -15,6 +15,7 @@ from core.geometry import construct
 from core.geometry.oriented import direction
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point
 from core.program.fields import FARTHEST
+from core.program.solve.line import heading_at
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.element import Element, Run
@@ -31,10 +32,6 @@ class Chain:
     def length(self) -> float:
         """The length of all pieces together, in millimeters."""
         return sum(piece.length for piece in self.pieces)
-
-
-ON_GRAZE: Final = 10.0 * ARC_RADII
-"""How far an end may move onto a circle that a line only grazes."""
 
 
 ANGLES: Final = ("angle", "start_angle", "sweep")
@@ -115,13 +112,13 @@ def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:
     before = run.heading
     for index, (element, piece) in enumerate(zip(run.elements, chain.pieces, strict=True)):
         findings += _own(run, index, element, piece)
-        leaving = _heading(piece, piece.start)
+        leaving = heading_at(piece, piece.start)
         if element.link is not None and before is not None:
             turned = leaving - before - element.link
             if not _same_heading(turned, _reach(piece)):
                 findings.append(reasons.not_linked(run, index, element.link, leaving - before))
         findings += _parallel(run, chain, index)
-        before = _heading(piece, piece.end)
+        before = heading_at(piece, piece.end)
     return tuple(findings)
 
 
@@ -151,7 +148,7 @@ def measured(piece: Piece) -> dict[str, float]:
     (x, y), (x_end, y_end) = piece.start, piece.end
     values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
     if isinstance(piece, Line):
-        return values | {"length": piece.length, "angle": _heading(piece, piece.start)}
+        return values | {"length": piece.length, "angle": heading_at(piece, piece.start)}
     cx, cy = piece.center
     return values | {
         "x_center": cx,
@@ -160,13 +157,8 @@ def measured(piece: Piece) -> dict[str, float]:
         "y_center_inc": cy - y,
         "radius": piece.radius,
         "sweep": abs(piece.sweep),
-        "start_angle": _heading(piece, piece.start),
+        "start_angle": heading_at(piece, piece.start),
     }
-
-
-def _heading(piece: Piece, at: Point) -> float:
-    x, y = piece.direction_at(at)
-    return atan2(y, x)
 
 
 def _distance(piece: Piece, point: Point) -> float:
@@ -199,8 +191,8 @@ def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
     else:
         assert parallel.index is not None
         target = chain.pieces[parallel.index]
-        heading, apart = _heading(target, target.start), _distance(target, piece.start)
-    actual = _heading(piece, piece.start)
+        heading, apart = heading_at(target, target.start), _distance(target, piece.start)
+    actual = heading_at(piece, piece.start)
     off = actual - heading
     if abs(sin(off)) > AGREES and abs(sin(off)) * piece.length > ARC_RADII:
         return [reasons.not_parallel(run, index, heading, actual)]
