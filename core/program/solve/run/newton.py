@@ -15,11 +15,11 @@ from functools import lru_cache
 from math import atan2, cos, dist, hypot, pi, sin, sqrt, tau
 from typing import Final
 
-from core.geometry.piece import Arc, Piece, Point
+from core.geometry.piece import Arc, Point
 from core.program.solve.run.element import Run
 from core.program.solve.run.problem import ChainProblem, Numbers, newton_root, norm, slopes
 from core.program.solve.run.proof import objections
-from core.program.solve.run.search import SAME, Answer, search
+from core.program.solve.run.search import SAME, Answer, same_pieces, search
 
 STARTS: Final = 48
 """Starts that are laid out about a pick."""
@@ -84,18 +84,12 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
         chain = None if root is None else problem.chain(root)
         if root is None or chain is None or objections(problem.run, chain):
             continue
-        if any(_same_ends(chain.pieces, answer.pieces) for answer in answers):
+        if any(same_pieces(chain.pieces, answer.pieces, SAME * 10) for answer in answers):
             continue
         if _free(problem, root):
             return []
         answers.append(Answer(0, chain.pieces, chain.length))
     return answers
-
-
-def _same_ends(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
-    pairs = list(zip(first, second, strict=True))
-    centers = all(dist(a.center, b.center) <= SAME * 10 for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc))
-    return centers and all(dist(a.end, b.end) <= SAME * 10 for a, b in pairs)
 
 
 def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]:

@@ -85,7 +85,7 @@ def search(run: Run) -> Search:
 
 def _add(answers: list[Answer], branch: Branch, chain: Chain) -> None:
     """Put an answer among the others unless it is one of them."""
-    if not any(_same(chain.pieces, other.pieces) for other in answers):
+    if not any(same_pieces(chain.pieces, other.pieces, SAME) for other in answers):
         answers.append(Answer(choice_of(branch), chain.pieces, chain.length))
 
 
@@ -95,9 +95,10 @@ def choice_of(branch: Branch) -> int:
     return code + sum(1 << (GRAZE_SHIFT + place) for place, grazing in enumerate(branch.grazes) if grazing)
 
 
-def _same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
+def same_pieces(first: tuple[Piece, ...], second: tuple[Piece, ...], within: float) -> bool:
+    """Whether the ends and centers of two answers' pieces are the same within so many millimeters."""
     return all(
-        dist(a, b) <= SAME
+        dist(a, b) <= within
         for one, two in zip(first, second, strict=True)
         for a, b in zip(_points(one), _points(two), strict=True)
     )
