@@ -57,7 +57,7 @@ class Calculator(Dialog[str]):
         results = calculate(self.case, self.typed, self.unit)
         refused = isinstance(results, Refusal)
         self.query_one("#number-trouble", Static).update(results.text if isinstance(results, Refusal) else "")
-        answers = () if isinstance(results, Refusal) else results.answers
+        answers = () if isinstance(results, Refusal) else results
         rows = [
             (quantity, field_text(answer[quantity.name], self.unit), number)
             for number, answer in enumerate(answers, 1)

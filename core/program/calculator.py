@@ -37,11 +37,8 @@ class Refusal:
     name: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Results:
-    """Every answer of a case: each the outputs by name, in program units and degrees."""
-
-    answers: tuple[Numbers, ...]
+Answers = tuple[Numbers, ...]
+"""Every answer of a case: each the outputs by name, in program units and degrees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +48,7 @@ class Case:
     name: str
     inputs: tuple[Quantity, ...]
     outputs: tuple[Quantity, ...]
-    solve: Callable[[Numbers], Results | Refusal]
+    solve: Callable[[Numbers], Answers | Refusal]
     """From millimeters and radians to millimeters and radians."""
     optional: bool = False
     """Whether some inputs may stay blank: of a triangle and of an arc any two are typed."""
@@ -65,7 +62,7 @@ def _angle(name: str, label: str) -> Quantity:
     return Quantity(name, label, Kind.ANGLE)
 
 
-def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Results | Refusal:
+def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Answers | Refusal:
     """What comes out of a case with these texts in its inputs; blanks may be left out."""
     known: dict[str, float] = {}
     for quantity in case.inputs:
@@ -78,10 +75,8 @@ def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Results | Ref
         if isinstance(value, Unreadable):
             return Refusal(f"{quantity.label}: {value.reason}", quantity.name)
         known[quantity.name] = _inside(value, quantity.kind, unit)
-    results = case.solve(known)
-    if isinstance(results, Refusal):
-        return results
-    return Results(tuple(_outside(case, answer, unit) for answer in results.answers))
+    answers = case.solve(known)
+    return answers if isinstance(answers, Refusal) else tuple(_outside(case, answer, unit) for answer in answers)
 
 
 def _inside(value: float, kind: Kind, unit: Unit) -> float:
@@ -106,7 +101,7 @@ def field_text(value: float, unit: Unit) -> str:
 # the right triangle and the arc
 
 
-def _triangle(known: Numbers) -> Results | Refusal:
+def _triangle(known: Numbers) -> Answers | Refusal:
     """Any two of both legs, the hypotenuse and the angle between the first leg and the hypotenuse."""
     fault = _two_of("Enter two of the four: two sides, or a side and the angle.", known)
     if fault is not None:
@@ -116,7 +111,7 @@ def _triangle(known: Numbers) -> Results | Refusal:
     if max(known.get("adjacent", 0.0), known.get("opposite", 0.0)) >= known.get("hypotenuse", inf):
         return Refusal("The hypotenuse is the longest side.", "hypotenuse")
     a, b = _legs(known)
-    return Results(({"adjacent": a, "opposite": b, "hypotenuse": hypot(a, b), "angle": atan2(b, a)},))
+    return ({"adjacent": a, "opposite": b, "hypotenuse": hypot(a, b), "angle": atan2(b, a)},)
 
 
 def _two_of(advice: str, known: Numbers) -> Refusal | None:
@@ -142,7 +137,7 @@ def _legs(known: Numbers) -> tuple[float, float]:
             return known["hypotenuse"] * cos(known["angle"]), known["hypotenuse"] * sin(known["angle"])
 
 
-def _arc(known: Numbers) -> Results | Refusal:
+def _arc(known: Numbers) -> Answers | Refusal:
     """Any two of radius, chord, height over the chord, and sweep; a radius and a chord leave two arcs."""
     fault = _two_of("Enter two of the four: radius, chord, height, sweep.", known)
     if fault is not None:
@@ -154,7 +149,7 @@ def _arc(known: Numbers) -> Results | Refusal:
         return Refusal("The chord is longer than the diameter.", "chord")
     if known.get("height", 0.0) >= diameter:
         return Refusal("The height is below the diameter.", "height")
-    return Results(tuple(_arc_numbers(radius, sweep) for radius, sweep in dict.fromkeys(_radii_and_sweeps(known))))
+    return tuple(_arc_numbers(radius, sweep) for radius, sweep in dict.fromkeys(_radii_and_sweeps(known)))
 
 
 def _radii_and_sweeps(known: Numbers) -> tuple[tuple[float, float], ...]:
@@ -184,7 +179,7 @@ def _arc_numbers(radius: float, sweep: float) -> Numbers:
 # points
 
 
-def _tangent(known: Numbers) -> Results | Refusal:
+def _tangent(known: Numbers) -> Answers | Refusal:
     """The two tangents from a point to a circle: that which leaves the circle on its left first."""
     point, center, radius = _point(known, "x", "y"), _point(known, "x_center", "y_center"), known["radius"]
     if radius <= 0.0:
@@ -198,17 +193,17 @@ def _tangent(known: Numbers) -> Results | Refusal:
         x, y = center[0] + rho * sin(heading), center[1] - rho * cos(heading)
         length = hypot(x - point[0], y - point[1])
         answers.append({"x_touch": x, "y_touch": y, "angle": heading % tau, "length": length})
-    return Results(tuple(answers))
+    return tuple(answers)
 
 
-def _polar(known: Numbers) -> Results | Refusal:
+def _polar(known: Numbers) -> Answers | Refusal:
     """The point at a length in a direction."""
     x, y = _point(known, "x", "y")
     angle, length = known["angle"], known["length"]
-    return Results(({"x_end": x + length * cos(angle), "y_end": y + length * sin(angle)},))
+    return ({"x_end": x + length * cos(angle), "y_end": y + length * sin(angle)},)
 
 
-def _bolt_circle(known: Numbers) -> Results | Refusal:
+def _bolt_circle(known: Numbers) -> Answers | Refusal:
     """One hole of a bolt circle; hole 1 stands at the start angle, the others follow counterclockwise."""
     count, hole = known["count"], known["hole"]
     if not 1 <= count <= 9999:
@@ -220,22 +215,22 @@ def _bolt_circle(known: Numbers) -> Results | Refusal:
     angle = known["start_angle"] + tau * (hole - 1.0) / count
     x, y = _point(known, "x_center", "y_center")
     radius = known["diameter"] / 2.0
-    return Results(({"x_hole": x + radius * cos(angle), "y_hole": y + radius * sin(angle), "angle": angle % tau},))
+    return ({"x_hole": x + radius * cos(angle), "y_hole": y + radius * sin(angle), "angle": angle % tau},)
 
 
-def _two_lines(known: Numbers) -> Results | Refusal:
+def _two_lines(known: Numbers) -> Answers | Refusal:
     first = line_through(_point(known, "x", "y"), known["angle"])
     return _meetings(first, line_through(_point(known, "x2", "y2"), known["angle2"]))
 
 
-def _line_and_circle(known: Numbers) -> Results | Refusal:
+def _line_and_circle(known: Numbers) -> Answers | Refusal:
     if known["radius"] <= 0.0:
         return Refusal("RADIUS must be above 0.", "radius")
     circle = Circle(_point(known, "x_center", "y_center"), known["radius"])
     return _meetings(line_through(_point(known, "x", "y"), known["angle"]), circle)
 
 
-def _two_circles(known: Numbers) -> Results | Refusal:
+def _two_circles(known: Numbers) -> Answers | Refusal:
     if known["radius"] <= 0.0 or known["radius2"] <= 0.0:
         return Refusal("RADIUS must be above 0.", "radius")
     first = Circle(_point(known, "x_center", "y_center"), known["radius"])
@@ -246,13 +241,13 @@ def _point(known: Numbers, x: str, y: str) -> Point:
     return known[x], known[y]
 
 
-def _meetings(first: Locus, second: Locus) -> Results | Refusal:
+def _meetings(first: Locus, second: Locus) -> Answers | Refusal:
     met = meeting(first, second)
     if met.coincident:
         return Refusal("Both are the same: they meet everywhere.")
     if not met.points:
         return Refusal("They never meet.")
-    return Results(tuple({"x_meet": x, "y_meet": y} for x, y in met.points))
+    return tuple({"x_meet": x, "y_meet": y} for x, y in met.points)
 
 
 _MEET: Final = (_length("x_meet", "X"), _length("y_meet", "Y"))

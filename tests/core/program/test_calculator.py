@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from core.program.calculator import CASES, Case, Refusal, Results, calculate, field_text, outputs_for
+from core.program.calculator import CASES, Case, Refusal, calculate, field_text, outputs_for
 from core.units import Kind, Unit
 
 
@@ -17,8 +17,8 @@ def case(name: str) -> Case:
 
 def answers(name: str, unit: Unit = Unit.MM, /, **typed: Any) -> list[dict[str, float]]:
     results = calculate(case(name), {key: str(value) for key, value in typed.items()}, unit)
-    assert isinstance(results, Results), results
-    return [dict(answer) for answer in results.answers]
+    assert not isinstance(results, Refusal), results
+    return [dict(answer) for answer in results]
 
 
 def refusal(name: str, **typed: Any) -> str:
