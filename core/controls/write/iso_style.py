@@ -71,24 +71,15 @@ class IsoStyle:
         return self.decimals[0 if unit is Unit.IN else 1]
 
 
-_NIST: Final = ("G17 {unit} G40 G49 {offset} G50 G69 G90",)
-_NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
-
-FREE_ENTRY: Final = IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.SQUARE_TO_NEXT, Radius.REDUCED)
+FREE_ENTRY: Final = IsoStyle(
+    "G20", "G21", ("G17 {unit} G40 G49 {offset} G50 G69 G90",), (6, 5), EntryRule.SQUARE_TO_NEXT, Radius.REDUCED
+)
 """A style whose leads may come from anywhere."""
 
-_FANUC: Final = IsoStyle(
-    "G20",
-    "G21",
-    ("G17 {unit} G40 G49 {offset} G80 G90 G94",),
-    (4, 3),
-    EntryRule.SQUARE_TO_NEXT,
-    Radius.OFFSET,
-    head=("%", "O0001"),
-    tail=("%",),
+_NINE_SERIES: Final = IsoStyle(
+    "G20", "G21", ("G17 {unit} G40 G49 {offset} G80 G90 G94",), (4, 3), EntryRule.SQUARE_TO_NEXT, Radius.OFFSET
 )
-
-_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), EntryRule.SQUARE_TO_NEXT, Radius.OFFSET)
+_FANUC: Final = replace(_NINE_SERIES, head=("%", "O0001"), tail=("%",))
 
 STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
     {
@@ -105,9 +96,9 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             length=False,
             spaced=False,
         ),
-        "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.TANGENT, Radius.REDUCED),
+        "rosettacnc:nist": replace(FREE_ENTRY, entry=EntryRule.TANGENT),
         "rosettacnc:easy": FREE_ENTRY,
-        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.SQUARE_TO_ITSELF, Radius.REDUCED),
+        "rosettacnc:normal": replace(FREE_ENTRY, entry=EntryRule.SQUARE_TO_ITSELF),
         **{
             f"nine-series:{kind}{corners}": replace(_NINE_SERIES, corner_code=code)
             for kind in ("a", "b")
