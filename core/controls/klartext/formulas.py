@@ -39,15 +39,19 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
         "EXP": math.exp,
     }
 )
-_PRODUCTS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
+_OPERATORS: Final[Mapping[str, tuple[int, Callable[[float, float], float]]]] = MappingProxyType(
     {
-        "*": lambda a, b: a * b,
-        "/": lambda a, b: a / b,
-        "DIV": lambda a, b: a / b,
-        "LEN": math.hypot,
-        "ANG": lambda a, b: math.degrees(math.atan2(a, b)) % 360.0,
+        "+": (0, lambda a, b: a + b),
+        "-": (0, lambda a, b: a - b),
+        "*": (1, lambda a, b: a * b),
+        "/": (1, lambda a, b: a / b),
+        "DIV": (1, lambda a, b: a / b),
+        "LEN": (1, math.hypot),
+        "ANG": (1, lambda a, b: math.degrees(math.atan2(a, b)) % 360.0),
+        "^": (2, math.pow),
     }
 )
+"""Those of a higher rank count first."""
 
 
 class _FaultError(Exception):
@@ -59,7 +63,7 @@ def evaluate(text: str, parameters: Mapping[str, float]) -> float | str:
     tokens = [token.group(token.lastindex or 0).strip() for token in _TOKEN.finditer(text)]
     parser = _Parser(tokens, parameters)
     try:
-        value = parser.sum()
+        value = parser.ranked()
     except _FaultError as fault:
         return str(fault)
     except (ArithmeticError, ValueError):
@@ -84,23 +88,12 @@ class _Parser:
         self.at += 1
         return token
 
-    def sum(self) -> float:
-        value = self.product()
-        while self.next() in ("+", "-"):
-            value = value + self.product() if self.take() == "+" else value - self.product()
-        return value
-
-    def product(self) -> float:
-        value = self.power()
-        while self.next() in _PRODUCTS:
-            value = _PRODUCTS[self.take()](value, self.power())
-        return value
-
-    def power(self) -> float:
+    def ranked(self, rank: int = 0) -> float:
+        """What operators of a rank or a higher one give; those of one rank go from left to right."""
         value = self.operand()
-        while self.next() == "^":
-            self.take()
-            value = math.pow(value, self.operand())
+        while (name := self.next()) in _OPERATORS and _OPERATORS[name][0] >= rank:
+            above, work = _OPERATORS[self.take()]
+            value = work(value, self.ranked(above + 1))
         return value
 
     def operand(self) -> float:
@@ -115,7 +108,7 @@ class _Parser:
         if token in ("+", "-"):
             return self.operand() if token == "+" else -self.operand()
         if token == "(":
-            value = self.sum()
+            value = self.ranked()
             if self.take() != ")":
                 raise _FaultError("A bracket is not closed in this formula.")
             return value
