@@ -55,12 +55,9 @@ def without_repeats(path: Path) -> Path:
 
 def _piece_names(path: Path) -> Rows:
     """(n,) the same number for pieces that are one piece to ON_PATH."""
-    places, at = _alike(path.points)
-    if len(at) - places < 2:
-        # a piece that comes again brings both its ends again
-        return np.arange(len(path))
+    at = _alike(path.points)
     swept = np.round(path.sweeps, SWEEP_DECIMALS)
-    columns = (at[:-1], at[1:], _alike(path.centers)[1], path.turns, swept)
+    columns = (at[:-1], at[1:], _alike(path.centers), path.turns, swept)
     order = np.lexsort(columns)
     new = np.zeros(len(path), np.bool_)
     for column in columns:
@@ -70,11 +67,10 @@ def _piece_names(path: Path) -> Rows:
     return names
 
 
-def _alike(points: NDArray[np.float64]) -> tuple[int, Rows]:
-    """How many places these points (n, 2) are to ON_PATH, and of each point (n,) which one."""
+def _alike(points: NDArray[np.float64]) -> Rows:
+    """(n,) the same number for points that are one place to ON_PATH."""
     grid = np.round(points / ON_PATH)
-    places, at = np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)
-    return len(places), at.reshape(-1)
+    return np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)[1].reshape(-1)
 
 
 def _periods(names: Rows) -> list[int]:
