@@ -26,6 +26,16 @@ class _OpenStretch:
     changes: list[Change] = field(default_factory=list)
 
 
+def record_programmed(tape: Tape, element: Element, plane: Plane) -> None:
+    """Puts an element on a tape as it is programmed in a plane."""
+    target = solid(*element.end, element.end_height, plane)
+    if element.turn:
+        center = solid(*element.center, element.end_height, plane)
+        tape.arc(target, center, element.turn, plane, element.feed, element.line, rapid=element.rapid)
+    else:
+        tape.straight(target, element.feed, element.line, rapid=element.rapid)
+
+
 class Recorder:
     """Moves of programmed elements, without compensation unless a control adds it.
 
@@ -121,14 +131,8 @@ class Recorder:
 
     def note(self, element: Element) -> None:
         """An element programmed under compensation."""
-        if self._open is None:
-            return
-        tape, target = self._open.programmed, solid(*element.end, element.end_height, self.plane)
-        if element.turn:
-            center = solid(*element.center, element.end_height, self.plane)
-            tape.arc(target, center, element.turn, self.plane, element.feed, element.line)
-        else:
-            tape.straight(target, element.feed, element.line, rapid=element.rapid)
+        if self._open is not None:
+            record_programmed(self._open.programmed, element, self.plane)
 
     def leave(self) -> None:
         """Compensation is canceled: the next motion in the plane still belongs to the stretch."""

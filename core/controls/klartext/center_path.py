@@ -14,6 +14,7 @@ from typing import Final, NamedTuple, NoReturn
 from core.controls.compensation import elements
 from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, Outside, join
 from core.controls.compensation.elements import Element
+from core.controls.compensation.recorder import record_programmed
 from core.controls.control_run import Log, Stretch
 from core.controls.klartext import lead_curves
 from core.controls.klartext.lead_curves import Lead, LeadShape
@@ -133,11 +134,7 @@ class Record:
 
     def plain(self, step: ProgrammedStep, end: Point) -> None:
         """The step's element as programmed, but ending at `end`."""
-        element = step.element
-        if element.turn:
-            self.arc(end, element.end_height, element.center, element.turn, step)
-        else:
-            self.line(end, element.end_height, step)
+        record_programmed(self.tape, step.element._replace(end=end), step.plane)
 
     def sink(self, step: ProgrammedStep) -> None:
         """The tool axis alone, where the center stands."""
@@ -154,13 +151,7 @@ class Record:
         """Put the step's element on the tape of what is programmed."""
         if self.programmed is None:
             return
-        element = step.element
-        target, rapid = solid(*element.end, element.end_height, step.plane), element.rapid
-        if element.turn:
-            center = solid(*element.center, element.end_height, step.plane)
-            self.programmed.arc(target, center, element.turn, step.plane, element.feed, element.line, rapid=rapid)
-        else:
-            self.programmed.straight(target, element.feed, element.line, rapid=rapid)
+        record_programmed(self.programmed, step.element, step.plane)
         self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
         self.led_out = step.role is Role.DEPARTURE
 
