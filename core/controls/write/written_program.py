@@ -15,7 +15,6 @@ from core.controls.write.contour_pass import (
     PassToWrite,
     PassWithLeads,
     UncompensatedPass,
-    WrittenLine,
     not_written,
     path_begin,
     path_finish,
@@ -62,13 +61,13 @@ def write_program(
 def _klartext(
     cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
-    decimals = klartext_program.KLARTEXT_DECIMALS[frame.unit]
+    digit = to_mm(10.0 ** -klartext_program.KLARTEXT_DECIMALS[frame.unit], frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended | Finding:
         lines = klartext_program.write_klartext(cuts, name, frame.unit, remarks(notes))
         if isinstance(lines, Finding):
             return lines
-        return _intended(lines, control, cuts, ToolTable(), frame, decimals)
+        return Intended(control, lines, tuple(cuts), ToolTable(), frame.unit, digit, leads=False)
 
     return _confirmed(write)
 
@@ -84,11 +83,12 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
     if refusals:
         return NotWritten(refusals)
     runs = [cut if isinstance(cut, UncompensatedPass) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
-    frame = replace(frame, corners=style.corner_code)
+    frame, tools = replace(frame, corners=style.corner_code), tools_of(cuts, style)
+    digit = to_mm(10.0 ** -style.digits(frame.unit), frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended:
         lines = iso_program.write_iso(runs, style, frame, remarks(notes))
-        return _intended(lines, control, cuts, tools_of(cuts, style), frame, style.digits(frame.unit))
+        return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=True)
 
     return _confirmed(write)
 
@@ -117,18 +117,6 @@ def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | 
     ends = shape.segments[0], shape.segments[-1]
     shape = with_blends(merged(shape) if style.merged else shape, first, last, radius, ends)
     return PassWithLeads(cut, compensated.side, shape, leads[0], first.corner, leads[1], offset)
-
-
-def _intended(
-    lines: tuple[WrittenLine, ...],
-    control: str,
-    cuts: Sequence[PassToWrite],
-    tools: ToolTable,
-    frame: Frame,
-    decimals: int,
-) -> Intended:
-    digit = to_mm(10.0**-decimals, frame.unit)
-    return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=not is_klartext(control))
 
 
 def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
