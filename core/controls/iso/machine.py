@@ -57,6 +57,7 @@ _G53: Final = 530
 _G80: Final = 800
 _SURFACE: Final = 960
 _TOOL_CHANGE: Final = 60
+_METRIC: Final = (210, 710)
 _LINES: Final = (0, 10)
 _MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
@@ -182,19 +183,15 @@ class Machine(ModalState):
             groups.add(code.group)
             known.append(code)
         if {"motion", "cycle"} <= groups and any(code.action is CodeAction.CYCLE for code in known):
-            if self.dialect.last_code_counts:
-                return self._without_cycle(known, block)
-            text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
-            self.log.stop(self.dialect.group_rule, text, block.line, block.column("G"))
+            rule, column = self.dialect.group_rule, block.column("G")
+            if not self.dialect.last_code_counts:
+                text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
+                self.log.stop(rule, text, block.line, column)
+            text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
+            self.log.tell(Severity.WARNING, rule, text, block.line, column)
+            known = [code for code in known if code.action is not CodeAction.CYCLE]
         known.sort(key=lambda code: _ORDER.get(code.action, _LATEST))
         return known
-
-    def _without_cycle(self, known: list[Code], block: Block) -> list[Code]:
-        """A motion next to a drilling cycle cancels it."""
-        text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
-        self.log.tell(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G"))
-        kept = [code for code in known if code.action is not CodeAction.CYCLE]
-        return sorted(kept, key=lambda code: _ORDER.get(code.action, _LATEST))
 
     def _moves_in(self, block: Block) -> bool:
         """Whether a block has a motion or a cycle besides G80."""
@@ -249,8 +246,10 @@ class Machine(ModalState):
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:
-        self.set_units(code)
-        self.control.unit = self.unit
+        """G20, G21, G70 or G71."""
+        self.unit = self.control.unit = Unit.MM if code in _METRIC else Unit.IN
+        self.scale = 1.0 if self.unit is Unit.MM else 25.4
+        self.unit_said = True
 
     def _take_tool(self, block: Block) -> None:
         number, before = self.tool_number(block), self.tool

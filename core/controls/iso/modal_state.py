@@ -35,7 +35,6 @@ RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0", "FN-D0"))
 """Rules that report compensation that is asked for and moves nothing."""
 
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
-_METRIC: Final = (210, 710)
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
 _POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 
@@ -148,12 +147,6 @@ class ModalState:
     def centers_from_origin(self) -> bool:
         """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
         return self.absolute_centers and not (self.incremental and self.dialect.absolute_centers)
-
-    def set_units(self, code: int) -> None:
-        """G20, G21, G70 or G71."""
-        self.unit = Unit.MM if code in _METRIC else Unit.IN
-        self.scale = 1.0 if self.unit is Unit.MM else 25.4
-        self.unit_said = True
 
     def set_origin(self, origin: Origin) -> None:
         """The program counts from another origin."""
