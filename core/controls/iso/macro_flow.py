@@ -394,18 +394,15 @@ class MacroFlow(Flow):
     def _if(self, reader: MacroReader, line: CompactText, row: int) -> int:
         true = reader.brackets() != 0.0
         self._note_progress(row, reader.differences)
-        text = line.text
-        if text[reader.at :].startswith("GO"):
-            reader.at += 4 if text.startswith("GOTO", reader.at) else 2
-            return self._go_to(reader, row) if true else row + 1
-        then = _THEN.match(text, reader.at)
-        if then is None:
+        text, then = line.text, _THEN.match(line.text, reader.at)
+        target = then.end() if then else reader.at
+        if then is None and not text.startswith("GO", target):
             raise FaultError("PS0114", "IF needs GOTO or THEN after its condition.", min(reader.at, len(text) - 1))
         if not true:
             return row + 1
-        reader.at = then.end()
-        if text.startswith("GO", reader.at):
-            reader.at += 4 if text.startswith("GOTO", reader.at) else 2
+        reader.at = target
+        if text.startswith("GO", target):
+            reader.at += 4 if text.startswith("GOTO", target) else 2
             return self._go_to(reader, row)
         self._set(reader, line, row)
         return row + 1
