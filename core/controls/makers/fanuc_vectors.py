@@ -9,7 +9,7 @@ drops the pair of vectors nearest to each other, and the next pair, before it gi
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import copysign, hypot, pi, radians
+from math import copysign, hypot, radians
 from typing import Final
 
 from core.controls.compensation.corner_rules import (
@@ -28,14 +28,13 @@ from core.controls.compensation.corner_rules import (
 from core.controls.compensation.elements import (
     SAME_DIRECTION,
     Element,
-    element_sweep,
     line_element,
     meeting,
     offset_end,
     offset_point,
     offset_radius,
     offset_start,
-    sweep,
+    runs_back,
 )
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
@@ -404,12 +403,8 @@ def _is_loose(element: Element, offset: float) -> bool:
 
 def _crosses(element: Element, start: Point, end: Point) -> bool:
     """Whether an element from one vector to another runs 90 degrees or more off what is programmed."""
-    if element.turn:
-        if hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT:
-            return False
-        return sweep(start, end, element.center, element.turn) - element_sweep(element) > pi
-    way = element.start_direction
-    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_POINT
+    at_one_point = element.turn != 0 and hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT
+    return not at_one_point and runs_back(element, start, end)
 
 
 def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
