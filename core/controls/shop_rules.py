@@ -137,9 +137,7 @@ def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
     programmed = stretch.programmed
     heights = programmed.points[:, height]
     sinking = np.flatnonzero(heights[1:] != heights[:-1]) + 1
-    flat = stretch.plane.axes[:2]
-    moving = np.any(programmed.points[1:, flat] != programmed.points[:-1, flat], axis=1) | (programmed.turns[1:] != 0)
-    contour = np.flatnonzero(moving[stretch.entry :])
+    contour = np.flatnonzero(programmed.moving_in(stretch.plane)[stretch.entry + 1 :])
     begin = stretch.entry + 1 + int(contour[0]) if len(contour) else len(programmed)
     findings = [_sunk(index, int(programmed.lines[row])) for index, row in enumerate(sinking[sinking < begin].tolist())]
     late = programmed.lines[sinking[sinking >= begin]].tolist()

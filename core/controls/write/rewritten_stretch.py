@@ -88,8 +88,7 @@ def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
     if stretch.exit == 1 and moves.turns[-1]:
         end += 1
     rows: NDArray[np.intp] = np.arange(entry + 1, end)
-    moving = (moves.turns[rows] != 0) | np.any(moves.points[rows, :2] != moves.points[rows - 1, :2], axis=1)
-    return rows.compress(moving)
+    return rows.compress(moves.moving_in(Plane.XY)[rows])
 
 
 def _contour_pass(source: ControlRun, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> ContourPass:
