@@ -333,26 +333,23 @@ class Branch:
 
     def arriving(self, index: int) -> Iterator[Anchor]:
         """The anchors of a joint in the frame of the heading in which the contour arrives there."""
-        if index:
-            yield from self._circle_anchor(index - 1)
-            yield from self._carried_on(index - 1)
-        joint = self.joint(index)
-        if joint is not None:
-            yield Anchor(joint, 0.0, 0.0)
+        return self._anchors(index, index - 1, 1)
 
     def departing(self, index: int) -> Iterator[Anchor]:
         """The anchors of a joint in the frame of the heading in which the contour departs from there."""
-        if index < len(self.run.elements):
-            yield from self._circle_anchor(index)
-            yield from self._carried_back(index)
+        return self._anchors(index, index, -1)
+
+    def _anchors(self, index: int, element: int, way: int) -> Iterator[Anchor]:
+        """The anchors of a joint by the element that ends there (`way` 1) or begins there (-1), and the joint."""
+        if 0 <= element < len(self.run.elements):
+            center, rho = self.center(element), self.rho[element]
+            if center is not None and rho is not None:
+                yield Anchor(center, 0.0, -rho)
+            if self._shape(element):
+                yield from self._carried(element, way)
         joint = self.joint(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
-
-    def _circle_anchor(self, element: int) -> Iterator[Anchor]:
-        center, rho = self.center(element), self.rho[element]
-        if center is not None and rho is not None:
-            yield Anchor(center, 0.0, -rho)
 
     def _shape(self, element: int) -> bool:
         """Whether an element's shape is known: a LINE's length, an ARC's radius and sweep."""
@@ -362,46 +359,30 @@ class Branch:
 
     def arriving_linked(self, index: int) -> Iterator[Anchor]:
         """The anchors of the joint before element `index` in the frame of that element's heading there."""
-        joint, link = self.joint(index), self.link(index)
-        if joint is not None:
-            yield Anchor(joint, 0.0, 0.0)
-        elif link is not None:
-            yield from (anchor.turned(link) for anchor in self.arriving(index))
+        return self._across(index, self.arriving(index), 1)
 
     def departing_linked(self, index: int) -> Iterator[Anchor]:
         """The anchors of joint `index` in the frame of the heading of the element before it, where that ends."""
+        return self._across(index, self.departing(index), -1)
+
+    def _across(self, index: int, anchors: Iterator[Anchor], way: int) -> Iterator[Anchor]:
+        """The anchors of a joint in the frame of the heading on its other side, where the angle between is typed."""
         joint, link = self.joint(index), self.link(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
         elif link is not None:
-            yield from (anchor.turned(-link) for anchor in self.departing(index))
+            yield from (anchor.turned(way * link) for anchor in anchors)
 
-    def _carried_on(self, element: int) -> Iterator[Anchor]:
-        """The anchors of an element's start carried to its end."""
-        if not self._shape(element):
-            return
+    def _carried(self, element: int, way: int) -> Iterator[Anchor]:
+        """The anchors of an element's start carried on to its end (`way` 1), or those of its end back (-1)."""
         rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
-        for anchor in self.arriving_linked(element):
+        for anchor in self.arriving_linked(element) if way > 0 else self.departing_linked(element + 1):
             if turn:
-                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(
-                    turn * (self.sweep[element] or 0.0)
-                )
+                swept = way * turn * (self.sweep[element] or 0.0)
+                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(swept)
                 yield Anchor(anchor.at, at_center.along, at_center.left - rho)
             else:
-                yield Anchor(anchor.at, anchor.along + (self.length[element] or 0.0), anchor.left)
-
-    def _carried_back(self, element: int) -> Iterator[Anchor]:
-        """The anchors of an element's end carried back to its start."""
-        if not self._shape(element):
-            return
-        rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
-        for anchor in self.departing_linked(element + 1):
-            if turn:
-                back = -turn * (self.sweep[element] or 0.0)
-                at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(back)
-                yield Anchor(anchor.at, at_center.along, at_center.left - rho)
-            else:
-                yield Anchor(anchor.at, anchor.along - (self.length[element] or 0.0), anchor.left)
+                yield Anchor(anchor.at, anchor.along + way * (self.length[element] or 0.0), anchor.left)
 
     def line_ties(self, index: int) -> Iterator[tuple[Point, float, str]]:
         """Points A at known distances left of a LINE: (A, n.A - p, which end of the LINE its foot is, or nothing)."""
