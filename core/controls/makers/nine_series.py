@@ -167,15 +167,6 @@ class NineSeries(ElementQueue, Control):
         else:
             self.change_stretch(self._tool_side, self.coming, 1 + len(self.standing), joint.moves)
 
-    def _tell_generated(self, line: int) -> None:
-        """Reports that a generated block is made at any length."""
-        text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
-        self._assumed("AMP", text, line)
-
-    def _tell_slowed(self, line: int) -> None:
-        """Reports that the feed inside an arc has no least value."""
-        self._assumed("MFR", "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster.", line)
-
     def _assumed(self, rule: str, text: str, line: int) -> None:
         """Reports a value that the machine builder sets, once."""
         if not self.log.has(rule):
@@ -185,7 +176,8 @@ class NineSeries(ElementQueue, Control):
     def begin(self, side: Side, block: Block) -> None:
         """G41 and G42: the start, or a change of side."""
         if self.exit_block is not None:
-            self._leave_square()
+            self.release_at_end()
+            self._cancel()
         if not self.active:
             if self.machine.mode in (20, 30):
                 self._circular_start(block.line, block.side_column())
@@ -288,7 +280,8 @@ class NineSeries(ElementQueue, Control):
     def _with_notice(self, joint: Joint, element: Element) -> Joint:
         """The joint; reports that generated blocks are made at any length."""
         if joint.through or joint.center is not None or joint.end != joint.start:
-            self._tell_generated(element.line)
+            text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
+            self._assumed("AMP", text, element.line)
         return joint
 
     def _interpreted(self, first: Element, second: Element) -> None:
@@ -323,7 +316,8 @@ class NineSeries(ElementQueue, Control):
         """Inside an arc the surface keeps the feed; outside the center does."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
-        self._tell_slowed(element.line)
+        text = "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster."
+        self._assumed("MFR", text, element.line)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:
@@ -338,7 +332,10 @@ class NineSeries(ElementQueue, Control):
         if held is None or block is None:
             return
         if not {"I", "J", "K"}.isdisjoint(block.words):
-            self.release(vector_end(held, self._vector(block), self.offset))
+            first, second, _ = IN_PLANE[self.plane]
+            scale = self.machine.scale
+            vector = block.words.get(first, 0.0) * scale, block.words.get(second, 0.0) * scale
+            self.release(vector_end(held, vector, self.offset))
         elif self.type_a or self.offset == 0.0:
             self.release_at_end()
         else:
@@ -348,19 +345,10 @@ class NineSeries(ElementQueue, Control):
         self._cancel()
         super().travel(element)
 
-    def _vector(self, block: Block) -> Point:
-        first, second, _ = IN_PLANE[self.plane]
-        scale = self.machine.scale
-        return block.words.get(first, 0.0) * scale, block.words.get(second, 0.0) * scale
-
     def _cancel(self) -> None:
         self.active, self.entering, self.exit_block, self.written_side = False, False, None, None
         self.held, self.start, self.standing = None, None, []
         self.leave()
-
-    def _leave_square(self) -> None:
-        self.release_at_end()
-        self._cancel()
 
     def _interrupt(self, block: Block) -> None:
         """A change of origin: the last move becomes an exit move, the next one an entry move."""
