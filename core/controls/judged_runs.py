@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress, pairwise
 from typing import Final
@@ -465,17 +465,15 @@ def _first_line(path: Path) -> int | None:
     return _line(path.numbers[0]) if len(path) else None
 
 
-def _by_itself(result: Judged) -> list[Finding]:
+def _by_itself(result: Judged) -> Iterator[Finding]:
     """That a part is judged by itself."""
-    if not result.by_itself:
-        return []
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
-    return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
+    if result.by_itself:
+        yield Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))
 
 
-def _uncompensated(result: Judged) -> list[Finding]:
+def _uncompensated(result: Judged) -> Iterator[Finding]:
     """Moves without compensation through a contour: a warning, for what stood there may be cut away by then."""
-    told = list[Finding]()
     for cut in result.uncompensated:
         code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
         at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
@@ -483,27 +481,22 @@ def _uncompensated(result: Judged) -> list[Finding]:
             f"This {move} at Z {{0}} cuts the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. "
             "Raise the tool before it."
         )
-        told.append(
-            Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
-        )
-    return told
+        yield Finding(code, Severity.WARNING, text, at=at, value=cut.gouge.depth, lengths=(cut.height,), line=line)
 
 
-def _cuts_of_others(result: Judged) -> list[Finding]:
+def _cuts_of_others(result: Judged) -> Iterator[Finding]:
     """Cuts into the contours of other stretches: warnings, for a wall may be meant to be cut, as by a slot."""
     deepest = sorted(result.of_others, key=lambda cut: -cut.gouge.depth)
-    listed = list[Finding]()
     for cut in deepest[:MAX_GOUGES]:
         into = (
             f"the contour of line {int(cut.gouge.surface_number)} at X {{x}} Y {{y}}. Check that this wall may be cut."
         )
         text = f"The cutter runs through {into}" if cut.through else f"The cutter cuts {{value}} into {into}"
         at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
-        listed.append(Finding("OTHER-CONTOUR", Severity.WARNING, text, at=at, value=cut.gouge.depth, line=line))
+        yield Finding("OTHER-CONTOUR", Severity.WARNING, text, at=at, value=cut.gouge.depth, line=line)
     if len(deepest) > MAX_GOUGES:
         text = f"Other paths cut {len(deepest) - MAX_GOUGES} more contours, none deeper."
-        listed.append(Finding("OTHER-CONTOUR", Severity.WARNING, text))
-    return listed
+        yield Finding("OTHER-CONTOUR", Severity.WARNING, text)
 
 
 def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
@@ -516,15 +509,15 @@ def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
     )
 
 
-def _above(result: Judged) -> list[Finding]:
+def _above(result: Judged) -> Iterator[Finding]:
     """That moves above the part pass over it and are not judged: no program says how high it is."""
     above = result.above
     if above is None:
-        return []
+        return
     listed = ", ".join(map(str, above.lines[:MAX_LINES])) + (" ..." if len(above.lines) > MAX_LINES else "")
     which = f"line {listed}" if len(above.lines) == 1 else f"lines {listed}"
     text = f"The tool passes over the part at Z {{0}} or higher ({which}). Check that it clears part and clamps."
-    return [Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])]
+    yield Finding("ABOVE", Severity.WARNING, text, lengths=(above.height,), line=above.lines[0])
 
 
 def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
@@ -600,10 +593,10 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 
 
-def _leads(result: Judged) -> list[Finding]:
+def _leads(result: Judged) -> Iterator[Finding]:
     """That moves are treated as leads, and what is cut of them."""
     if not result.leads:
-        return []
+        return
     text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
     check = "They are long. Check that none of them is a wall."
     if len(result.leads) == 1:
@@ -612,7 +605,7 @@ def _leads(result: Judged) -> list[Finding]:
     severity = Severity.INFO
     if result.long_leads:
         severity, text = Severity.WARNING, f"{text} {check}"
-    listed = [Finding("LEADS", severity, text, line=result.leads[0])]
+    yield Finding("LEADS", severity, text, line=result.leads[0])
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
@@ -620,21 +613,18 @@ def _leads(result: Judged) -> list[Finding]:
         text += " It is judged with {0} extra tolerance." if slack else ""
         line, at = _line(gouge.path_number), gouge.surface_at
         severity = Severity.WARNING if result.corner_leads else severity
-        listed.append(Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line))
-    return listed
+        yield Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line)
 
 
-def _corner_loops(result: Judged) -> list[Finding]:
+def _corner_loops(result: Judged) -> Iterator[Finding]:
     """That a contour crosses itself to go around an outside corner."""
-    told = list[Finding]()
     for loop in result.loops:
         lines = enumerated("line", loop.numbers)
         text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
         severity = Severity.INFO
         if loop.long:
             severity, text = Severity.WARNING, f"{text} It is long. Check that none of it is a wall."
-        told.append(Finding("CORNER-LOOP", severity, text, at=loop.at, line=_line(loop.numbers[0])))
-    return told
+        yield Finding("CORNER-LOOP", severity, text, at=loop.at, line=_line(loop.numbers[0]))
 
 
 def _contact(result: Judged) -> list[Finding]:
