@@ -126,8 +126,7 @@ class Dialect:
     is a program's number alone.  `program_names`: a name in angle brackets may stand for O and its number.
     `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
     `macro_codes`: the parameters that make G codes macros.
-    `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
-    of O-words that may run, before the run is given up.
+    `max_repeated_blocks`: how many blocks subprograms and loops may run again before the run is given up.
     """
 
     codes: Mapping[int, Code]
@@ -166,7 +165,6 @@ class Dialect:
     diameters_apart: bool = False
     macro_codes: str = ""
     max_repeated_blocks: int = 400_000
-    max_o_words: int = 15_000
 
 
 _ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")

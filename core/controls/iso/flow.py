@@ -39,6 +39,9 @@ MAX_NESTED: Final = 9
 
 MAX_ARGUMENTS: Final = 30
 
+MAX_O_WORDS: Final = 15_000
+"""O-words that may run before the run is given up."""
+
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
@@ -401,7 +404,7 @@ class Flow:
         self.calls = [Call(len(lines), Scope())]
         self.budget = dialect.max_repeated_blocks
         self.ran = bytearray(len(lines))
-        self.o_words_left = dialect.max_o_words
+        self.o_words_left = MAX_O_WORDS
         self.percents = 0
         self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is ParameterStore.NGC else {}
@@ -439,26 +442,20 @@ class Flow:
             left -= count
         return number, ""
 
-    def follow_o_word(self, index: int) -> bool:
-        """Follows the O-word of a line, if it has one."""
-        if self.o_words is None or index not in self.o_words.words:
-            return False
-        word = self.o_words.words[index]
-        if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
-            text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
-            self.log.stop("OWORD", text, index + 1, word.column)
-        self.o_words_left -= 1
-        if self.o_words_left < 0:
-            text = f"The program has run more than {self.dialect.max_o_words} O-words. {GIVEN_UP_TEXT}"
-            self.log.stop("LIMIT", text, index + 1, word.column)
-        self.at = self.o_words.run(word)
-        return True
-
     def blocks(self, line: int) -> Iterable[Block]:
         """The blocks of a line, none of an O-word, which is followed."""
-        if self.follow_o_word(line - 1):
-            return ()
-        return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
+        word = self.o_words.words.get(line - 1) if self.o_words is not None else None
+        if self.o_words is None or word is None:
+            return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
+        if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
+            text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
+            self.log.stop("OWORD", text, line, word.column)
+        self.o_words_left -= 1
+        if self.o_words_left < 0:
+            text = f"The program has run more than {MAX_O_WORDS} O-words. {GIVEN_UP_TEXT}"
+            self.log.stop("LIMIT", text, line, word.column)
+        self.at = self.o_words.run(word)
+        return ()
 
     def ends_here(self, line: int, /) -> bool:
         """Whether the program ends with a line that was run."""
