@@ -201,17 +201,7 @@ def entry_joint(first: Element, second: Element, offset: float, rule: Outside, *
     start = offset_start(second, offset)
     if direct or inward_turn(first, second, offset) >= 0.0:
         return Joint(start, start)
-    end, angle = offset_end(first, offset), turn_angle(first, second)
-    if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
-        return Joint(miter(first.end, first.end_direction, angle, offset), start)
-    if _arc_at_lead(rule, second):
-        return Joint(end, start, center=second.start)
-    return Joint(end, start, _prolonged(first, second, offset))
-
-
-def _arc_at_lead(rule: Outside, element: Element) -> bool:
-    """Whether the corner of an entry or exit move with an element is an arc."""
-    return rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn)
+    return _around_lead(first, second, offset, rule, second)._replace(start=start)
 
 
 def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
@@ -219,13 +209,19 @@ def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) ->
     end = offset_end(last, offset)
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
-    angle = turn_angle(last, leaving)
+    return _around_lead(last, leaving, offset, rule, last)._replace(end=end)
+
+
+def _around_lead(first: Element, second: Element, offset: float, rule: Outside, element: Element) -> Joint:
+    """The way around the outside corner of an element and its entry or exit move; M alone up to a right angle."""
+    angle = turn_angle(first, second)
     if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
-        return Joint(end, miter(last.end, last.end_direction, angle, offset))
-    start = offset_start(leaving, offset)
-    if _arc_at_lead(rule, last):
-        return Joint(end, start, center=leaving.start)
-    return Joint(end, start, _prolonged(last, leaving, offset))
+        point = miter(first.end, first.end_direction, angle, offset)
+        return Joint(point, point)
+    end, start = offset_end(first, offset), offset_start(second, offset)
+    if rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn):
+        return Joint(end, start, center=second.start)
+    return Joint(end, start, _prolonged(first, second, offset))
 
 
 def offset_change_joint(first: Element, second: Element, old: float, new: float) -> Joint:
