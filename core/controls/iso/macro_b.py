@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import acos, asin, atan, atan2, ceil, cos, degrees, exp, floor, fmod, radians, sin, sqrt, tan
 from math import log as natural_log
 from types import MappingProxyType
-from typing import Final, NamedTuple
+from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.macro import (
@@ -364,20 +364,13 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
         values.set(key, reader.expression())
 
 
-class BlockWords(NamedTuple):
-    """The words of a block as plain text, vacant ones left out, and the column of each; its `,R` or `,C`.
+def words_of(
+    line: CompactText, values: Variables, increment: float, start: int = 0
+) -> tuple[str, tuple[int, ...], tuple[str, float] | None, int]:
+    """The words of a block with the values of its variables as plain text, vacant ones left out.
 
-    `skip`: the column of its block skip, 0 without one.
+    With it the column of each, the block's `,R` or `,C`, and the column of its block skip, 0 without one.
     """
-
-    text: str
-    columns: tuple[int, ...]
-    corner: tuple[str, float] | None
-    skip: int
-
-
-def words_of(line: CompactText, values: Variables, increment: float, start: int = 0) -> BlockWords:
-    """The words of a block with the values of its variables."""
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
     if ")" in text:
@@ -403,7 +396,7 @@ def words_of(line: CompactText, values: Variables, increment: float, start: int 
                 columns.append(line.columns[begin] + 1)
         else:
             raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
-    return BlockWords(" ".join(words), tuple(columns), corner, skip)
+    return " ".join(words), tuple(columns), corner, skip
 
 
 def _word_value(reader: MacroReader, letter: str, begin: int) -> float:
