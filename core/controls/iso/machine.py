@@ -19,11 +19,11 @@ from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_
 from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
-from core.controls.moves import Point3, flat
+from core.controls.moves import Plane, Point3, flat
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
-from core.units import Unit
+from core.units import Unit, from_mm
 
 NON_MODAL_ACTIONS: Final = frozenset(
     (
@@ -58,6 +58,8 @@ _G80: Final = 800
 _SURFACE: Final = 960
 _TOOL_CHANGE: Final = 60
 _METRIC: Final = (210, 710)
+_PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
+_POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 _LINES: Final = (0, 10)
 _MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
@@ -124,8 +126,28 @@ class Machine(ModalState):
             self.ended = True
 
     def value_of(self, key: int | str) -> float | str | None:
-        """What a program reads of the machine by number or name."""
-        return self.value(key, self.control.active, self.control.readable_position(self.position))
+        """What a program reads of the machine by number or name, None if it is not known before the control runs."""
+        if key in _POSITION:
+            if self.control.active and isinstance(key, int):
+                return "The position cannot be read under compensation; write G40 before it."
+            standing = self.position if isinstance(key, int) else self.control.readable_position(self.position)
+            return from_mm(standing[_POSITION[key]] - self.shift[_POSITION[key]], self.unit)
+        tool, system = self.tools.get(self.tool), self.origin.system
+        values: dict[int | str, float] = {
+            5220: float((system - 530) // 10 if system <= 590 else system - 584),
+            5400: float(self.tool),
+            5410: from_mm(tool.diameter_mm(self.unit), self.unit) if tool else 0.0,
+            "_PLANE": _PLANE_CODES[self.plane],
+            "_METRIC": float(self.unit is Unit.MM),
+            "_IMPERIAL": float(self.unit is Unit.IN),
+            "_ABSOLUTE": float(not self.incremental),
+            "_INCREMENTAL": float(self.incremental),
+            "_IJK_ABSOLUTE_MODE": float(self.absolute_centers),
+            "_COORD_SYSTEM": float(system),
+            "_CURRENT_TOOL": float(self.tool),
+            "_SELECTED_TOOL": float(self.next_tool),
+        }
+        return values.get(key)
 
     def _codes(self, block: Block) -> Code | None:
         """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""

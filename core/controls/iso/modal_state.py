@@ -1,4 +1,4 @@
-"""Modal state of a word-address control: what is in force between blocks, and what a program can read of it.
+"""Modal state of a word-address control: what is in force between blocks.
 
 All positions are millimeters from the machine's zero as the program shifts it; work offsets nobody gave are zero.
 """
@@ -17,7 +17,7 @@ from core.controls.iso.reader import Block, ToolData, whole
 from core.controls.moves import Plane, Point3
 from core.finding import Finding, Severity
 from core.tolerance import GOUGE
-from core.units import Unit, from_mm
+from core.units import Unit
 
 ZERO: Final[Point3] = (0.0, 0.0, 0.0)
 G54: Final = 540
@@ -35,8 +35,6 @@ RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0", "FN-D0"))
 """Rules that report compensation that is asked for and moves nothing."""
 
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
-_PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
-_POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 
 
 def system_code(number: int) -> int:
@@ -262,30 +260,3 @@ class ModalState:
         self.log.add(
             Finding("OFFSET", severity, text, value=abs(difference), lengths=lengths, line=line, column=column)
         )
-
-    def value(self, key: int | str, compensated: bool, standing: Point3) -> float | str | None:
-        """What a program reads of the machine by number or name, None if it is not known before the control runs.
-
-        `standing` is where a program reads that the axes stand.
-        """
-        if key in _POSITION:
-            if compensated and isinstance(key, int):
-                return "The position cannot be read under compensation; write G40 before it."
-            axis = _POSITION[key]
-            return from_mm((self.position if isinstance(key, int) else standing)[axis] - self.shift[axis], self.unit)
-        tool, system = self.tools.get(self.tool), self.origin.system
-        values: dict[int | str, float] = {
-            5220: float((system - 530) // 10 if system <= 590 else system - 584),
-            5400: float(self.tool),
-            5410: from_mm(tool.diameter_mm(self.unit), self.unit) if tool else 0.0,
-            "_PLANE": _PLANE_CODES[self.plane],
-            "_METRIC": float(self.unit is Unit.MM),
-            "_IMPERIAL": float(self.unit is Unit.IN),
-            "_ABSOLUTE": float(not self.incremental),
-            "_INCREMENTAL": float(self.incremental),
-            "_IJK_ABSOLUTE_MODE": float(self.absolute_centers),
-            "_COORD_SYSTEM": float(system),
-            "_CURRENT_TOOL": float(self.tool),
-            "_SELECTED_TOOL": float(self.next_tool),
-        }
-        return values.get(key)
