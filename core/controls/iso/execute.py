@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.control_run import AlarmError, ControlRun, Log, Stretch
+from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.flow import Flow, MakeControl, ProgramLibrary
@@ -93,7 +93,9 @@ def _by_main_lines(made: ControlRun, flow: Flow) -> ControlRun:
         line, place = flow.origin_of(finding.line or 0)
         text = f"{place}: {finding.text}" if place else finding.text
         findings.append(replace(finding, text=text, line=line or None, column=1 if place else finding.column))
-    stretches = tuple(_stretch_by_main_lines(stretch, flow) for stretch in made.stretches)
+    stretches = tuple(
+        replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow)) for stretch in made.stretches
+    )
     stopped_at = None if made.stopped_at is None else flow.origin_of(made.stopped_at)[0]
     return replace(
         made,
@@ -106,7 +108,3 @@ def _by_main_lines(made: ControlRun, flow: Flow) -> ControlRun:
 
 def _moves_by_main_lines(moves: Moves, flow: Flow) -> Moves:
     return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))
-
-
-def _stretch_by_main_lines(stretch: Stretch, flow: Flow) -> Stretch:
-    return replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow))

@@ -87,9 +87,9 @@ def _look_ahead(state: State, block: Block, words: Words) -> None:
 
 def only_functions(state: State, block: Block) -> None:
     """STOP, or a block of M words alone."""
-    body = block.body if block.head == "STOP" else block.head + block.body
-    column = block.column if block.head == "STOP" else block.column - len(block.head)
-    whole = block._replace(body=body, column=column)
+    whole = block
+    if block.head != "STOP":
+        whole = block._replace(body=block.head + block.body, column=block.column - len(block.head))
     words = state.words(whole, frozenset(("M", "LA", "MB", "MAX")))
     if not leaves_workpiece(state, whole, words):
         functions(state, whole, words)

@@ -202,7 +202,8 @@ class NistEntry(ElementQueue, RosettaCnc):
         if element.turn:
             self._refuse_arc(element, "An arc as first move must touch the tool where it stands; write a line")
         if length <= radius:
-            self._too_short(element, length)
+            text = "The first move is {0} long and must be longer than the radius {1}. cutcomp takes this from NIST."
+            self.log.stop("C8", text, element.line, 1, lengths=(length, radius))
         self.open_stretch(self.side, self.offset, element)
         self.note(element)
         angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
@@ -213,10 +214,6 @@ class NistEntry(ElementQueue, RosettaCnc):
 
     def _refuse_arc(self, element: Element, what: str) -> NoReturn:
         self.log.stop("C8", f"{what}. cutcomp assumes this from NIST's rules.", element.line, 1)
-
-    def _too_short(self, element: Element, length: float) -> None:
-        text = "The first move is {0} long and must be longer than the radius {1}. cutcomp takes this from NIST."
-        self.log.stop("C8", text, element.line, 1, lengths=(length, abs(self.offset)))
 
     def _corner(self, element: Element) -> None:
         if self.before is None:

@@ -67,10 +67,8 @@ def clear_leads(
 def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
     """Where the entry starts: `length` away from where it ends, on the line the control needs it on."""
     at = end.corner if style.entry is EntryRule.SQUARE_TO_ITSELF else end.at
-    if end.blend:
+    if end.blend or style.entry is EntryRule.SQUARE_TO_NEXT:
         return point_along(at, end.off, length)
-    if style.entry is EntryRule.SQUARE_TO_NEXT:
-        return point_along(end.at, end.off, length)
     return point_along(at, end.way, -length)
 
 
