@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import cos, pi, radians
+from math import cos, dist, pi, radians
 from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Floats, Path
+from core.geometry.path import Flags, Floats, Path
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -39,6 +40,8 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     Pieces behind the longest one that run along its beginning again count as neither.
     """
     whole = (0, len(path))
+    if not len(path):
+        return (whole,)
     places = _places(path)
     sums = _sums(path)
     longest = _longest(sums, places)
@@ -98,11 +101,13 @@ def _split_at_start(path: Path) -> tuple[Path, Path] | None:
 
     Once split on the line, and once at the point itself, which may be off the line by rounding.
     """
+    directions = path.start_directions
     for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
-        point, way = path.points[lead], path.start_directions[lead]
-        rows = [row for row in range(lead + 2, len(path)) if not path.turns[row] and _runs_over(path, row, point, way)]
+        point = path.points[lead]
+        over = _runs_over(path, point, directions[lead])
+        rows = [row for row in over.nonzero()[0].tolist() if row >= lead + 2]
         if rows:
-            along, starts = path.start_directions[rows], path.starts[rows]
+            along, starts = directions[rows], path.starts[rows]
             feet = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
             return _split(path, rows, feet), _split(path, rows, np.repeat(point[None], len(rows), axis=0))
     return None
@@ -117,18 +122,19 @@ def _split_at_corner(path: Path) -> Path | None:
         return None
     for way, turned in ((path, False), (path.reversed(), True)):
         row = len(way) - 1
-        if not way.turns[0] and not way.turns[row] and _runs_over(way, row, way.points[1], way.end_directions[row]):
+        if not way.turns[0] and _runs_over(way, way.points[1], way.end_directions[row])[row]:
             split = _split(way, [row], way.points[1:2])
             return split.reversed() if turned else split
     return None
 
 
-def _runs_over(path: Path, row: int, point: Floats, way: Floats) -> bool:
-    """Whether a line runs over a point, in a direction, with both ends away from it."""
-    step, along = point - path.starts[row], path.start_directions[row]
-    reach, off = float(step @ along), float(abs(step[0] * along[1] - step[1] * along[0]))
-    inside = CLOSED < reach < float(path.lengths[row]) - CLOSED
-    return inside and off <= CLOSED and float(along @ way) > cos(BLEND)
+def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
+    """(n,) whether a piece is a line that runs over a point, in a direction, with both ends away from it."""
+    steps, along = point - path.starts, path.start_directions
+    reach, off = (steps * along).sum(axis=1), np.abs(steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
+    inside = (reach > CLOSED) & (reach < path.lengths - CLOSED)
+    over: Flags = (path.turns == 0) & inside & (off <= CLOSED) & (along @ way > cos(BLEND))
+    return over
 
 
 def _split(path: Path, rows: list[int], at: Floats) -> Path:
@@ -188,13 +194,24 @@ def contour_of(path: Path) -> RowRange:
     return contours[0] if len(contours) == 1 else (0, len(path))
 
 
-def _places(path: Path) -> list[tuple[float, float]]:
-    return [(x, y) for x, y in np.round(path.points / CLOSED).tolist()]
+def _places(path: Path) -> list[int]:
+    """The place of each of the path's points: the index of the first point that is no farther than CLOSED from it."""
+    places = list[int]()
+    firsts = defaultdict[tuple[int, int], list[int]](list)
+    points, cells = path.points.tolist(), np.floor(path.points / CLOSED).astype(np.int64).tolist()
+    for index, (point, (column, row)) in enumerate(zip(points, cells, strict=True)):
+        around = ((column + across, row + up) for across in (0, -1, 1) for up in (0, -1, 1))
+        near = (first for cell in around for first in firsts.get(cell, ()) if dist(points[first], point) <= CLOSED)
+        place = next(near, index)
+        places.append(place)
+        if place == index:
+            firsts[column, row].append(index)
+    return places
 
 
-def _longest(sums: Floats, places: list[tuple[float, float]]) -> RowRange | None:
+def _longest(sums: Floats, places: list[int]) -> RowRange | None:
     """The run of most pieces that ends where it begins and encloses something."""
-    first_seen: dict[tuple[float, float], int] = {}
+    first_seen: dict[int, int] = {}
     best = (0, 0)
     for index, place in enumerate(places):
         begin = first_seen.setdefault(place, index)
@@ -203,7 +220,7 @@ def _longest(sums: Floats, places: list[tuple[float, float]]) -> RowRange | None
     return best if best[1] else None
 
 
-def _between_leads(path: Path, sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> RowRange:
+def _between_leads(path: Path, sums: Floats, places: list[int], rows: RowRange) -> RowRange:
     """The closed run inside a closed one that starts and ends with a lead.
 
     That is a line there and back in the middle of a wall or off a corner, or an arc of a quarter turn at most, in line
@@ -241,7 +258,7 @@ def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool
     return circle and all(path.turns[arc] == turns[0] and path.radii[arc] < radii[0] for arc in arcs)
 
 
-def _within(sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:
+def _within(sums: Floats, places: list[int], rows: RowRange) -> list[RowRange]:
     """The contours among rows outside the longest one: closed runs in their order, and what is long between them."""
     begin, end = rows
     last_seen = {places[index]: index for index in range(begin, end + 1)}
@@ -258,17 +275,19 @@ def _within(sums: Floats, places: list[tuple[float, float]], rows: RowRange) -> 
 
 
 def _sums(path: Path) -> Floats:
-    """(2, n + 1) twice the area and the length up to each of the path's points."""
+    """(4, n + 1) twice the area and the length up to each of the path's points, and the point from the first one."""
     corners = (path.points - path.points[:1]).T
     areas = corners[0, :-1] * corners[1, 1:] - corners[1, :-1] * corners[0, 1:]
     areas += np.where(path.turns != 0, path.radii**2 * (path.sweeps - np.sin(path.sweeps)), 0.0)
-    return np.concatenate((np.zeros((2, 1)), np.cumsum((areas, path.lengths), axis=1)), axis=1)
+    sums = np.concatenate((np.zeros((2, 1)), np.cumsum((areas, path.lengths), axis=1)), axis=1)
+    return np.concatenate((sums, corners))
 
 
 def _encloses(sums: Floats, rows: RowRange) -> bool:
-    """Whether a closed run is more than a way there and back."""
-    area, length = (sums[:, rows[1]] - sums[:, rows[0]]).tolist()
-    return bool(abs(area) > CLOSED * length)
+    """Whether a closed run is more than a way there and back; the gap of rounding at its end is closed by a line."""
+    (begun, before, x0, y0), (ended, behind, x1, y1) = sums[:, rows].T.tolist()
+    area = ended - begun + x1 * y0 - y1 * x0
+    return bool(abs(area) > CLOSED * (behind - before))
 
 
 def _behind_overlap(path: Path, rows: RowRange) -> int:

@@ -37,6 +37,24 @@ def test_one_or_two_pieces_next_to_a_closed_contour_are_leads() -> None:
     assert contour_of(path.part(0, 2)) == (0, 2)
 
 
+def test_a_move_within_the_rounding_is_no_closed_contour() -> None:
+    """Its ends are one place, and between them lies nothing: what it is next to is judged as before."""
+    open_walls = ((500.0, 400.0), (500.0, 450.0), (450.0, 450.0), (450.0, 400.0), (400.0, 400.0))
+    for tiny in ((450.0005, 400.0005), (450.0, 400.001)):
+        corners = list(open_walls)
+        corners.insert(4, tiny)
+        assert contours_of(lines_through(*corners)) == ((0, 5),)
+
+
+@pytest.mark.parametrize("gap", [0.0001, 0.001, 0.0025])
+def test_ends_within_the_rounding_are_one_place_wherever_they_are(gap: float) -> None:
+    """The grid that points are sorted into has borders: a contour closes across them too."""
+    for at in np.arange(0.0, 0.006, 0.0002):
+        corners = np.array(RING, np.float64) + at
+        corners[-1, 0] += gap
+        assert contours_of(lines_through((-1, -1), *corners.tolist(), (-1, 1))) == ((1, 4),)
+
+
 def blended(*, tangent: bool) -> Path:
     """A square that its last line closes on the way, an arc leading in to the middle of that side."""
     lead = Arc((-0.5, 1.0 - 0.5), (0.0, 1.0), (-0.5, 1.0), Turn.CCW) if tangent else Line((-0.5, 0.5), (0.0, 1.0))
