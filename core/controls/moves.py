@@ -143,12 +143,18 @@ _POINT: Final = Struct("3d")
 
 
 class Tape:
-    """Moves being recorded, a row of `WIDTH` doubles each."""
+    """Moves being recorded, a row of `WIDTH` doubles each.
 
-    __slots__ = ("_packed",)
+    While `lost` is set an axis stands at a place of the machine: where the moves that are recorded then run is not
+    known, and their rows are kept in `unplaced`.
+    """
+
+    __slots__ = ("_packed", "lost", "unplaced")
 
     def __init__(self, start: Point3 = (0.0, 0.0, 0.0)) -> None:
         self._packed = bytearray()
+        self.lost = False
+        self.unplaced = set[int]()
         self.straight(start, 0.0, 0, rapid=True)
 
     def __len__(self) -> int:
@@ -162,17 +168,24 @@ class Tape:
 
     def straight(self, end: Point3, feed: float, line: int, *, rapid: bool = False) -> None:
         """A straight move."""
+        self._note_lost()
         self._packed += _ROW.pack(*end, *end, 0, 0, rapid, feed, line)
 
     def arc(
         self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool = False
     ) -> None:  # fmt: skip
         """An arc or a helix."""
+        self._note_lost()
         self._packed += _ROW.pack(*end, *center, turn, plane, rapid, feed, line)
+
+    def _note_lost(self) -> None:
+        if self.lost:
+            self.unplaced.add(len(self))
 
     def cut(self, rows: int) -> None:
         """Takes back all moves but the given number of rows."""
         del self._packed[rows * _ROW.size :]
+        self.unplaced = {row for row in self.unplaced if row < rows}
 
     def moves(self) -> Moves:
         """Everything recorded so far."""

@@ -7,6 +7,9 @@ from typing import Final
 
 from core.units import MAX_QUOTED
 
+BYTE_ORDER_MARKS: Final = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
+"""The marks of UTF-8 and UTF-16 that may begin a file."""
+
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
 
@@ -22,7 +25,7 @@ def lines_of(text: bytes) -> list[str]:
 
 
 def _decoded(text: bytes) -> str:
-    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
+    if text.startswith(BYTE_ORDER_MARKS[1:]):
         return text.decode("utf-16", errors="replace")
     try:
         return text.decode("utf-8-sig")

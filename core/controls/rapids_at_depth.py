@@ -94,7 +94,12 @@ def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
     begins = [stretch.first + 1 for stretch in run.stretches[1:]]
     for stretch, begin in zip(run.stretches, [*begins, len(moves)], strict=True):
         last = stretch.last
-        while last < begin and not moves.rapid[last] and abs(heights[last] - heights[stretch.last - 1]) <= ON_PATH:
+        while (
+            last < begin
+            and last not in run.unplaced
+            and not moves.rapid[last]
+            and abs(heights[last] - heights[stretch.last - 1]) <= ON_PATH
+        ):
             last += 1
         if last > stretch.last:
             yield stretch, last
@@ -103,12 +108,13 @@ def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
 def _low_rapids(run: ControlRun, top: float) -> Rows:
     """The rows of rapids in the plane outside the stretches that are no higher than this.
 
-    Where the tool is before the program moves it up or down is not known.
+    Where the tool is before the program moves it up or down is not known, nor where it is at a point of the machine.
     """
     moves, heights = run.moves, run.moves.points[:, 2]
     low = (heights <= top + ON_PATH) & np.logical_or.accumulate(heights != heights[0])
     low[1:] &= low[:-1]
     low &= moves.rapid & moves.moving_in(Plane.XY)
+    low[list(run.unplaced)] = False
     for stretch in run.stretches:
         low[stretch.first + 1 : stretch.last] = False
     rows: Rows = np.flatnonzero(low)

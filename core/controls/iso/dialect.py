@@ -187,6 +187,8 @@ def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
     taken = set(_ALWAYS_TAKEN)
     for code in block.g:
         taken.update(_TAKEN_BY_G.get(code, ""))
+    if dialect.parameters is ParameterStore.FANUC and not {300, 540}.isdisjoint(block.g):
+        taken.add("P")
     for code in block.m:
         if code != 970 or dialect.m97_calls:
             taken.update(_TAKEN_BY_M.get(code, ""))

@@ -16,7 +16,7 @@ from core.controls.iso.macro import ParameterStore
 from core.controls.iso.macro_flow import MacroFlow
 from core.controls.iso.macro_machine import MacroMachine
 from core.controls.moves import Moves
-from core.controls.program_text import lines_of
+from core.controls.program_text import BYTE_ORDER_MARKS, lines_of
 from core.progress import Progress, silent
 
 LINES_BETWEEN: Final = 200
@@ -51,6 +51,9 @@ def execute(
         flow = Flow(lines, dialect, log, machine, library)
     stopped_at = None
     try:
+        if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):
+            said = "The file begins with a byte order mark, which this control does not read. Save it as plain ASCII."
+            log.stop("WORD", said, 1, 1)
         _run(flow, machine, progress)
     except AlarmError as alarm:
         log.add(alarm.finding)
@@ -58,7 +61,8 @@ def execute(
     control.close_stretch()
     flow.finish(alarmed=stopped_at is not None)
     unit = machine.first_unit or machine.unit
-    made = ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
+    tape, stretches = control.tape, tuple(control.stretches)
+    made = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced))
     return _by_main_lines(made, flow)
 
 

@@ -23,6 +23,7 @@ from core.controls.iso.macro import (
     MacroParameters,
     Operation,
     ParameterStore,
+    named,
     plain,
 )
 from core.controls.program_text import quoted
@@ -238,10 +239,12 @@ class MacroReader(ExpressionReader):
 
     def value(self) -> float:
         """One factor; a vacant variable stays vacant unless a sign stands before it."""
-        negative = False
-        while self.text[self.at : self.at + 1] in ("+", "-"):
-            negative ^= self.text[self.at] == "-"
+        sign, behind = self.text[self.at : self.at + 1], self.text[self.at + 1 : self.at + 2]
+        negative = sign == "-"
+        if sign in ("+", "-"):
             self.at += 1
+            if behind in ("+", "-"):
+                raise FaultError("PS0006", "Two signs stand before a value. Keep one.", self.at)
         self._depth += 1
         if self._depth > MAX_NESTED:
             raise FaultError("PS0118", "Too many signs # stand in a row. Use variables.", self.at)
@@ -395,7 +398,7 @@ def words_of(
                 words.append(f"{sign}{plain(value)}")
                 columns.append(line.columns[begin] + 1)
         else:
-            raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
+            raise FaultError("WORD", f"{named(text[begin:])} is not a word. Write a letter and a value.", begin)
     return " ".join(words), tuple(columns), corner, skip
 
 

@@ -20,7 +20,7 @@ from core.controls.iso.dialect import Code, CodeAction, Dialect
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro import FaultError
 from core.controls.iso.macro_b import VACANT
-from core.controls.iso.modal_state import EXTERNAL, TAKEN_AS_ZERO, ZERO
+from core.controls.iso.modal_state import EXTERNAL, G54, TAKEN_AS_ZERO, ZERO
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
@@ -259,6 +259,7 @@ class MacroMachine(Machine):
 
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
         following, self.following = self.following, None
+        self._note_lost_axes()
         if block.corner is None or block is not self.current:
             super()._straight(block, end, rapid=rapid)
             return
@@ -271,6 +272,10 @@ class MacroMachine(Machine):
         beyond = self._target_from(end, following.words)
         self.incremental = incremental
         self._cut_corner(block, end, beyond)
+
+    def _note_lost_axes(self) -> None:
+        """Have the move that comes kept as one that starts or ends at a place of the machine, if it does."""
+        self.control.tape.lost = bool(self.unknown) or self.start_unknown
 
     def _goes_on_straight(self, block: Block) -> bool:
         letters = {"XYZ"[axis] for axis in self.plane.axes[:2]}
@@ -309,6 +314,7 @@ class MacroMachine(Machine):
                 "Where the arc starts is not known after the move to the machine's point. Write a straight move first."
             )
             self.log.stop("FN-WHERE", text, block.line, block.column("G"))
+        self._note_lost_axes()
         words = dict(block.words)
         if "R" in words:
             for letter in "IJK":
@@ -467,7 +473,7 @@ class MacroMachine(Machine):
     def _select_system(self, code: int, block: Block) -> None:
         if code in HAAS_SYSTEMS:
             name, number = f"G{code // 10}", HAAS_SYSTEMS.index(code) + 1
-        elif code in (541, 1540):
+        elif code in (541, 1540) or (code == G54 and "P" in block.words):
             given = whole(block.words.get("P", 1.0))
             if given is None or not 1 <= given <= 300:
                 self.log.stop("PS0030", "P is the number of a work offset, 1 to 300.", block.line, block.column("P"))

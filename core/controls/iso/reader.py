@@ -38,6 +38,9 @@ INTEGER_TOLERANCE: Final = 1e-4
 """How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
 
 
+LONGEST_STRICT: Final = 252
+"""The longest line, without its end, that LinuxCNC's interpreter reads (tried with rs274)."""
+
 SWITCHES: Final = frozenset((410, 420, 411, 421))
 """The codes that turn compensation on."""
 
@@ -49,7 +52,8 @@ class Syntax:
     `semicolon_ends`: a semicolon is the end of a block, not the beginning of a comment.  `tool_data`: a slash stands in
     tool data as in T4/.75/.2, not before a block that a switch can skip.  `blanks`: a blank parts words, rather than
     being nothing anywhere.  `last_counts`: of two words of one letter the last counts, with a warning.  `corners`: the
-    control has `,R` and `,C`, which are not followed.
+    control has `,R` and `,C`, which are not followed.  `strict`: N stands first, with a number without sign and without
+    a point at its end; a line has at most `LONGEST_STRICT` characters, and the file no byte order mark.
     """
 
     semicolon_ends: bool = False
@@ -57,6 +61,7 @@ class Syntax:
     blanks: bool = True
     last_counts: bool = False
     corners: bool = False
+    strict: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,11 +159,27 @@ def read_line(
     With `values` parameters and expressions are evaluated and set.
     """
     upper = capitals(text)
+    if syntax.strict:
+        _check_strictly(text, upper, line, log)
     if _CLEAN.fullmatch(upper):
         return [fill_words(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon_ends and ";" in upper:
         return list(_pieces(text, line, log, syntax))
     return _closer(Block(line, text), without_comments(upper), log, syntax, values)
+
+
+def _check_strictly(text: str, upper: str, line: int, log: Log) -> None:
+    """Stops the run at a line that is too long, or whose N does not stand first with a plain number."""
+    if len(text.encode()) > LONGEST_STRICT:
+        said = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
+        log.stop("WORD", said, line, LONGEST_STRICT + 1)
+    bare = without_comments(upper)
+    if "N" not in bare or not _CLEAN.fullmatch(words := "".join(bare.removeprefix("/").split(" "))):
+        return
+    for index, (letter, number) in enumerate(_PAIR.findall(words)):
+        if letter == "N" and (index or not number[0].isdigit() or number[-1] == "."):
+            said = "N stands first in a line, with a number without sign or point at its end. Write it so or delete it."
+            log.stop("WORD", said, line, bare.index("N") + 1)
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
@@ -220,7 +241,8 @@ def _squeezed(block: Block, log: Log) -> str:
     if nested:
         text = "A comment begins inside a comment; close the first one."
         log.stop("COMMENT", text, block.line, block.start + nested.end())
-    return "".join(without_comments(capitals(block.text), GAP).split()).replace(GAP, " ")
+    bare = without_comments(capitals(block.text), GAP)
+    return bare.replace(" ", "").replace("\t", "").replace(GAP, " ")
 
 
 def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN_SYNTAX) -> Block:
@@ -254,8 +276,13 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     """Stops the run at the first character that belongs to no word."""
     clean = _CLEAN.match(bare)
     at = clean.end() if clean else 0
-    at += len(bare[at:]) - len(bare[at:].lstrip())
+    at += len(bare[at:]) - len(bare[at:].lstrip(" \t"))
     rest, column = block.text[at:], block.start + at + 1
+    if rest and not rest[0].isprintable():
+        text = f"An invisible character (U+{ord(rest[0]):04X}) stands here. Delete it."
+        log.stop("WORD", text, block.line, column)
+    if rest.startswith(",") and rest[1:2].isdigit():
+        log.stop("WORD", "A comma is no decimal point here. Write a point.", block.line, column)
     if syntax.corners and rest.startswith(","):
         text = f"cutcomp does not follow {quoted(rest)} on this control. Write the corner's moves."
         log.stop("BEYOND", text, block.line, column)

@@ -75,7 +75,7 @@ class ProgrammedStep(NamedTuple):
     `element` starts at the programmed point before it.  Approaches and departures have a `lead`; their `hand` is the
     side of the word RL (+1), RR (-1) or R0 (0), turned over by a negative radius; `before` is rapid and feed of the
     block before.  A departure's element is straight, `leaving` in the contour's last direction.  `corner` are the rules
-    at its end, `ahead` is the LA of M120, 0 without.
+    at its end, `ahead` is the LA of M120, 0 without.  `lost`: it starts or ends where only the machine knows.
     """
 
     role: Role
@@ -88,6 +88,7 @@ class ProgrammedStep(NamedTuple):
     hand: int = 0
     before: tuple[bool, float] = (False, 0.0)
     ahead: int = 0
+    lost: bool = False
 
     @property
     def arc_feed(self) -> float:
@@ -121,6 +122,7 @@ class Record:
         """A straight move at the step's feed, or at that of the block before it."""
         target = solid(end[0], end[1], height, step.plane)
         rapid, feed = step.before if lead else (step.element.rapid, step.element.feed)
+        self.tape.lost = step.lost
         self.tape.straight(target, feed, step.element.line, rapid=rapid)
 
     def arc(
@@ -130,10 +132,12 @@ class Record:
         target, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
+        self.tape.lost = step.lost
         self.tape.arc(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
 
     def plain(self, step: ProgrammedStep, end: Point) -> None:
         """The step's element as programmed, but ending at `end`."""
+        self.tape.lost = step.lost
         record_programmed(self.tape, step.element._replace(end=end), step.plane)
 
     def sink(self, step: ProgrammedStep) -> None:

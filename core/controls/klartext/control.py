@@ -60,8 +60,9 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
         log.add(alarm.finding)
         stopped_at = alarm.finding.line
         center.record.close()  # what is recorded so far stays
-    moves, stretches = center.record.tape.moves(), tuple(center.record.stretches)
-    return ControlRun("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
+    tape, stretches = center.record.tape, tuple(center.record.stretches)
+    unplaced = frozenset(tape.unplaced)
+    return ControlRun("klartext", state.unit, tape.moves(), log.closed(), stopped_at, stretches, unplaced)
 
 
 def _run_blocks(state: State, progress: Progress) -> None:

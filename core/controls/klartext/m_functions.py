@@ -101,6 +101,7 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
         return False
     for name in words.keys() & AXES.keys():
         state.known.discard(AXES[name][0])
+        state.at_machine_place.add(AXES[name][0])
     state.waiting.flush()
     state.last = None
     text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."

@@ -95,9 +95,9 @@ def pole(state: State, block: Block) -> None:
 
     Without words it is where the tool stands, in the working plane.
     """
-    words, known = state.words(block, frozenset(AXES)), set(state.known)
+    words, known, elsewhere = state.words(block, frozenset(AXES)), set(state.known), set(state.at_machine_place)
     target = state.target(block, words)
-    state.known = known
+    state.known, state.at_machine_place = known, elsewhere
     plane = _plane_of(words) if words else state.plane
     if plane is None:
         state.stop("ARC", "CC needs two axes, or none for where the tool stands.", block)

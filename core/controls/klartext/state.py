@@ -50,6 +50,7 @@ class State:
     just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the share of the
     tool's radius that is run with.  `pole` is in coordinates of `pole_plane`, the plane of the axes that CC names.
     `cycle` is the number of the one that a call runs, `cycle_due` whether M99 calls it after the block.
+    `at_machine_place` are the axes that M91 has sent where only the machine knows; `lost`: the block starts there.
     """
 
     log: Log
@@ -67,6 +68,8 @@ class State:
     parameters: dict[str, float] = field(default_factory=dict)
     position: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     known: set[int] = field(default_factory=set)
+    at_machine_place: set[int] = field(default_factory=set)
+    lost: bool = False
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     pole: Point | None = None
     pole_plane: Plane = Plane.XY
@@ -165,7 +168,7 @@ class State:
 
     def target(self, block: Block, words: Words) -> list[float]:
         """The position the block's axis words lead to."""
-        position = self.position.copy()
+        position, self.lost = self.position.copy(), bool(self.at_machine_place)
         for name in words:
             if name in AXES:
                 axis, relative = AXES[name]
@@ -175,6 +178,7 @@ class State:
                     self.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block, name)
                 base = self.position[axis] if relative else self.shift[axis]
                 position[axis] = base + self.length(block, words, name)
+        self.at_machine_place -= self.known
         return position
 
     def chosen_side(self, block: Block, words: Words) -> None:
@@ -208,7 +212,7 @@ class State:
     def push(self, step: ProgrammedStep) -> None:
         """The next step, for the center path."""
         ahead = self.ahead if step.role is Role.CONTOUR else 0
-        self.waiting.push(step._replace(ahead=ahead) if ahead else step)
+        self.waiting.push(step._replace(ahead=ahead, lost=self.lost))
 
     def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
         """Take note of a block that moves, and say what it lacks."""
@@ -220,7 +224,10 @@ class State:
             self.tell(Severity.WARNING, "FEED", text, block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
-            text = "The tool's position is not programmed yet; cutcomp takes 0. Write an L block with both axes before."
+            text = (
+                "Where the tool stands is not known here; cutcomp takes its last known place, at the beginning 0. "
+                "Write an L block with both axes before."
+            )
             self.tell(Severity.WARNING, "POSITION", text, block)
 
     def apply(self, block: Block) -> None:

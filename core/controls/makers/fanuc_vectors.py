@@ -55,7 +55,8 @@ class VectorRules:
 
     `type_a`: the start-up and the cancel go straight.  `at_once`: a G41 or G40 without movement moves the tool by
     itself (type C).  `outside`: how outside corners are rounded.  `blocks_read`: blocks without movement that are
-    looked across, and two.  `checks`: vectors that cross are an alarm.
+    looked across, and two.  `checks`: vectors that cross are an alarm.  `point_arcs`: an inside arc of the tool's own
+    radius is a point of the path and no alarm.
     """
 
     type_a: bool = True
@@ -63,6 +64,7 @@ class VectorRules:
     outside: Outside = Outside.LINES
     blocks_read: int = 3
     checks: bool = True
+    point_arcs: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +182,8 @@ class VectorQueue(Recorder):
         """How two elements are joined; and whether the second is an arc the tool does not fit into."""
         first, offset = held.element, held.offset
         rounded, self.round_corner = self.round_corner, None
-        tight = element.turn != 0 and offset_radius(element, start) < -POINT_ARC
+        least = -POINT_ARC if self.vector_rules.point_arcs else POINT_ARC
+        tight = element.turn != 0 and offset_radius(element, start) < least
         if rounded is not None:
             return self._rounded(first, element, offset, rounded), tight
         if held.startup and not element_moves(first):
@@ -313,7 +316,8 @@ class VectorQueue(Recorder):
     def _check_inside(self, element: Element) -> None:
         """An arc smaller than the tool is an alarm as soon as it is read."""
         if self.vector_rules.checks:
-            text = "The arc radius {0} is smaller than the cutter radius {1}. Use a smaller cutter."
+            least = "smaller" if self.vector_rules.point_arcs else "no larger"
+            text = f"The arc radius {{0}} is {least} than the cutter radius {{1}}. Use a smaller cutter."
             lengths = (element.radius, abs(self.coming))
             self.log.stop(self.alarms.crossing, text, element.line, 1, lengths=lengths)
 

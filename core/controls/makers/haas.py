@@ -88,7 +88,7 @@ class Haas(fanuc.Fanuc):
 VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
     {
         f"{kind}{corners}": partial(
-            Haas, rules=VectorRules(type_a=kind == "a", outside=outside, blocks_read=BLOCKS_READ)
+            Haas, rules=VectorRules(type_a=kind == "a", outside=outside, blocks_read=BLOCKS_READ, point_arcs=False)
         )
         for kind in ("a", "b")
         for corners, outside in (("", Outside.LINES), ("-yasnac", Outside.ARC))

@@ -47,7 +47,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.MM,
     mode=None,
-    syntax=Syntax(blanks=False),
+    syntax=Syntax(blanks=False, strict=True),
     arc_radii=ArcRadii(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
     moves_alone=True,
     feed_needed=True,

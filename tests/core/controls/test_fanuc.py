@@ -421,6 +421,10 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("#1=#1-#11:", "PS0114"),
         ("X", "PS0005"),
         ("X1.2.3", "PS0009"),
+        ("X--10.", "PS0006"),
+        ("X-+10.", "PS0006"),
+        ("#1=-+2", "PS0006"),
+        ("X5\N{NO-BREAK SPACE}0.", "PS0009"),
         ("G123", "PS0010"),
         ("G2 X5 Y5", "PS0022"),
         ("G2 X50 R5", "PS0020"),
@@ -901,3 +905,28 @@ def test_calls_that_count_as_blocks_without_movement_are_named() -> None:
     program = f"{ENTERED}M98 P2\nM98 P3\nG40 X0\nM30\nO2\nY40\nM99\nO3\nX0\nM99"
     assert told(ran(program), "FN-N2")[0].text.endswith("Some controls count M98 and M99 as such blocks, as here.")
     assert "M98" not in told(ran(f"{ENTERED}M8\nM9\nY40\nG40 X0\nM30"), "FN-N2")[0].text
+
+
+def test_g54_with_p_is_g54_1_and_g30_has_a_p() -> None:
+    program = "G21 G17 G90 G40\nG10 L20 P3 X100. Y0. Z0.\nG54 P3\nG0 X1.\nM30\n"
+    for control in ("fanuc:a", "haas:a"):
+        written = ran(program, control)
+        assert flat(written) == flat(ran(program.replace("G54 P3", "G54.1 P3"), control))
+        assert not {"UNUSED", "OFFSET"} & {finding.code for finding in written.findings}
+        home = ran("G21 G90\nG91 G30 P2 Z0.\nM30\n", control)
+        assert "UNUSED" not in {finding.code for finding in home.findings}
+
+
+@pytest.mark.parametrize(
+    ("control", "alarm"), [("fanuc:a", None), ("haas:a", "H342"), ("haas:b", "H342"), ("haas:a-yasnac", "H342")]
+)
+def test_an_inside_arc_of_the_tools_own_radius_is_an_alarm_of_haas_only(control: str, alarm: str | None) -> None:
+    program = (
+        "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nG1 Z-5. F200.\nG41 D1 Y0.\nX35.\nG3 X40. Y5. R5.\nG1 Y40.\nX0.\nY0.\n"
+        "X22.\nG40 X20. Y20.\nM30\n"
+    )
+    done = ran(program, control)
+    assert done.stopped_at == (None if alarm is None else 7)
+    assert [finding.code for finding in done.findings if finding.severity is Severity.ERROR] == (
+        [alarm] if alarm else []
+    )

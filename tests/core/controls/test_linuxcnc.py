@@ -261,3 +261,34 @@ def test_a_stretch_knows_what_was_programmed() -> None:
     points = [(0, -1, 0), (0, 0, 0), (4, 0, 0), (4, 4, 0)]
     assert np.allclose(stretch.programmed.points / 25.4, points)
     assert [int(line) for line in stretch.programmed.lines] == [0, 4, 5, 6]
+
+
+@needs_witness
+@pytest.mark.parametrize(
+    ("line", "runs"),
+    [
+        ("N5 X1", True),
+        ("/N5 X1", True),
+        ("N5.5 X1", True),
+        ("X1 N5", False),
+        ("X[1+2] N5", False),
+        ("N80. X1", False),
+        ("N80 0.", False),
+        ("N-5 X1", False),
+        ("N1 N5 X1", False),
+        ("X1\x0cY2", False),
+        (f"({'a' * 250})", True),
+        (f"({'a' * 252})", False),
+    ],
+)
+def test_what_the_interpreters_reader_refuses_is_refused(line: str, runs: bool, tmp_path: Path) -> None:
+    text = f"G21 G0\n{line}\nM2\n"
+    fared, apart = outcome(text, tmp_path)
+    assert fared.startswith("same moves" if runs else "both refuse"), apart
+
+
+@pytest.mark.parametrize("start", [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"])
+def test_a_byte_order_mark_stops_the_interpreter(start: bytes) -> None:
+    """As rs274 says, Bad character '\\357' used; controls of other makers are asked nothing here."""
+    refused = registry.run(start + b"G21 G0 X1\nM2\n", "linuxcnc")
+    assert (refused.stopped_at, [one.code for one in refused.findings]) == (1, ["WORD"])

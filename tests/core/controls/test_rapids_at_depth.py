@@ -96,3 +96,23 @@ def test_klartext_rapids_are_told_too() -> None:
         "C X+30 Y+20 DR+\nL X+20 R0\nL X+70 FMAX\nL Z+50 FMAX\nEND PGM A MM\n"
     )
     assert [finding.line for finding in rapids(program, "heidenhain")] == [9]
+
+
+@pytest.mark.parametrize("home", ["G91 G28 Z0.\nG90\n", "G53 G0 Z0.\n", "G91 G28 X0. Y0. Z0.\nG90\n"])
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_behind_a_move_to_the_machines_point_nothing_is_at_the_old_depth(home: str, control: str) -> None:
+    assert not rapids(f"{BORE}{home}G0 X70.\nX20.\nG43 H1 Z5.\nX70.\nM30\n", control)
+    assert [one.line for one in rapids(f"{BORE}{home}G0 X0. Y20.\nZ-5.\nX70.\nZ5.\nM30\n", control)] == [
+        11 + home.count("\n")
+    ]
+
+
+def test_klartext_stands_elsewhere_behind_m91_too() -> None:
+    program = (
+        "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
+        "C X+30 Y+20 DR+\nL X+20 R0\n{}L X+70 FMAX\nL Z+50 FMAX\nEND PGM A MM\n"
+    )
+    assert len(rapids(program.format("L Z-6 R0 FMAX\n"), "heidenhain")) == 1
+    assert not rapids(program.format("L Z-1 R0 FMAX M91\n"), "heidenhain")
+    assert not rapids(program.format("L X+0 Y+0 R0 FMAX M91\n"), "heidenhain")
+    assert len(rapids(program.format("L X+0 Y+0 R0 FMAX M91\nL X+20 Y+20 FMAX\n"), "heidenhain")) == 1
