@@ -25,6 +25,9 @@ G54: Final = 540
 EXTERNAL: Final = 0
 """The key of the offset that shifts all work offsets, on controls that have one."""
 
+OUTLINE_JUDGED: Final = "The programmed path is judged as the part's outline, not as a center path with a wear offset."
+"""What a negative radius is not taken for."""
+
 TAKEN_AS_ZERO: Final = "is not in the program; it is taken as zero."
 """What is told of a work offset that the program does not set: places under it compare with no other's."""
 

@@ -20,6 +20,7 @@ from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro import ParameterStore
 from core.controls.iso.macro_machine import HAAS_SYSTEMS, MacroMachine
+from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
@@ -200,7 +201,7 @@ class Fanuc(VectorQueue, Control):
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
             self.log.stop("PS0030", text, line, column)
         if radius < 0.0:
-            text = "The radius is negative, so G41 and G42 change places."
+            text = f"The radius is negative, so G41 and G42 change places. {OUTLINE_JUDGED}"
             self.log.tell(Severity.INFO, "FN-D2", text, line, column)
         machine.compare_offset(radius, f"D{number}", line, column)
         return radius

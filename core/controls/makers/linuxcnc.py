@@ -20,7 +20,7 @@ from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import ParameterStore
-from core.controls.iso.modal_state import system_code
+from core.controls.iso.modal_state import OUTLINE_JUDGED, system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane, flat, solid
 from core.finding import Severity
@@ -256,7 +256,7 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.stop("N-ONWHENON", text, block.line, block.side_column())
         radius, orientation = self.radius(block)
         if radius < 0.0:
-            text = "The diameter is negative: the tool runs on the other side."
+            text = f"The diameter is negative: the tool runs on the other side. {OUTLINE_JUDGED}"
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
         elif radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, block.side_column())
