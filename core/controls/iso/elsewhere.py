@@ -28,8 +28,10 @@ CODES: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
 )
 """G codes in tenths that not every control has, and controls that have them."""
 
-TOOL_DATA: Final = (LINUXCNC, FANUC, HAAS)
-"""The controls on which G10 sets the data of a tool."""
+TOOL_DATA: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
+    {**dict.fromkeys((1, 10, 11), (LINUXCNC, FANUC, HAAS)), **dict.fromkeys((12, 13), (FANUC, HAAS))}
+)
+"""The controls on which G10 sets the data of a tool, by its L."""
 
 EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)
 """The controls with parameters and expressions."""

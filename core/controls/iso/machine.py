@@ -473,7 +473,7 @@ class Machine(ModalState):
             self._set_tool(block)
         else:
             can = "work offsets: G10 L2 P1 to P6 with X, Y, Z"
-            text = f"cutcomp sets only {can}. {only_on(TOOL_DATA) if kind in (1, 10, 11, 12, 13) else ''}".rstrip()
+            text = f"cutcomp sets only {can}. {only_on(TOOL_DATA.get(kind or 0, ()))}".rstrip()
             self.log.stop("DATA", f"{text} Set other data on the control.", block.line, block.column("L"))
 
     def _set_system(self, block: Block, *, from_here: bool) -> None:
