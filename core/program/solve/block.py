@@ -88,12 +88,9 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
     while len(drafts) < len(readings):
         index = len(drafts)
         own = draft(block.segments[index], readings[index].copy(), carried, unit)
-        stretch = stretch_at(contour, index, own)
-        if stretch is None:
-            drafts.append(own)
-        else:
-            drafts += stretch.drafts
-            runs += [stretch.run] if stretch.run is not None else []
+        together, run = stretch_at(contour, index, own) or ((own,), None)
+        drafts += together
+        runs += [run] if run is not None else []
         carried = drafts[-1].after
     placed = [_with_faults(item, place_faults(contour, index)) for index, item in enumerate(drafts)]
     return placed, tuple(runs)

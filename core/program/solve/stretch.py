@@ -49,12 +49,8 @@ SQUARE = 1e-9
 TURNS = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
 
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """The drafts of a stretch's segments, corners included, and the run as a screen sees it."""
-
-    drafts: tuple[Draft, ...]
-    run: SolvedRun | None
+Stretch = tuple[tuple[Draft, ...], SolvedRun | None]
+"""The drafts of a stretch's segments, corners included, and the run as a screen sees it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +76,7 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
         return None
     if _tied(contour, index) and own.before.heading is None:
         # nothing can be said before the segment to which it is tied is determined
-        return Stretch((drafted(segment, contour.readings[index], own.before, Shape(), contour.unit),), None)
+        return (drafted(segment, contour.readings[index], own.before, Shape(), contour.unit),), None
     attempt = _solved(contour, index, own.before, 1 if tied else 2)
     if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own)):
         return None
@@ -275,9 +271,9 @@ def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel 
         return None
     at = int(target) - 1
     if at in indices:
-        return Parallel(indices.index(at))
+        return indices.index(at)
     piece = contour.drafts[at].shape.piece if at < len(contour.drafts) else None
-    return Parallel(line=line_through(piece.start, heading(piece))) if isinstance(piece, Line) else None
+    return line_through(piece.start, heading(piece)) if isinstance(piece, Line) else None
 
 
 def parallel_fault(contour: Contour, index: int) -> Finding | None:
@@ -325,9 +321,9 @@ def _result(contour: Contour, attempt: _Attempt, own: Draft) -> Stretch:
     run = SolvedRun(indices[0] + 1, indices[-1] + 1, answers, taken, code, missing, () if taken is not None else sketch)
     if taken is not None:
         pieces = dict(answers[taken].pieces)
-        return Stretch(_determined(contour, attempt, pieces, own.before), run)
+        return _determined(contour, attempt, pieces, own.before), run
     assert finding is not None
-    return Stretch(_waiting(contour, attempt, own, finding), run)
+    return _waiting(contour, attempt, own, finding), run
 
 
 def _picked(contour: Contour, attempt: _Attempt) -> Picked | None:

@@ -35,12 +35,8 @@ COUNTED: Final = (
 """What counts as one datum each."""
 
 
-@dataclass(frozen=True, slots=True)
-class Parallel:
-    """PARALLEL TO: the index of the line in the run, or the line itself where it lies before the run."""
-
-    index: int | None = None
-    line: OrientedLine | None = None
+Parallel = int | OrientedLine
+"""PARALLEL TO: the index of the line in the run, or the line itself where it lies before the run."""
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from math import cos, dist, inf, sin, sqrt, tau
 from typing import Final
 
 from core.geometry import construct
+from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.solve.line import heading_at
 from core.program.solve.run.branch import Branch
@@ -151,11 +152,11 @@ class ChainProblem:
         parallel = element.parallel
         if parallel is None:
             return []
-        if parallel.line is not None:
-            heading, (nx, ny) = parallel.line.heading, parallel.line.normal
-            side = nx * there.start[0] + ny * there.start[1] - parallel.line.offset
+        if isinstance(parallel, OrientedLine):
+            heading, (nx, ny) = parallel.heading, parallel.normal
+            side = nx * there.start[0] + ny * there.start[1] - parallel.offset
         else:
-            target = walked[parallel.index or 0]
+            target = walked[parallel]
             heading, at = target.leaving, target.start
             side = (there.start[1] - at[1]) * cos(heading) - (there.start[0] - at[0]) * sin(heading)
         missed = [sin(there.leaving - heading) * self.scale]

@@ -12,7 +12,7 @@ from typing import Final
 
 from core.finding import Finding
 from core.geometry import construct
-from core.geometry.oriented import direction
+from core.geometry.oriented import OrientedLine, direction
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point
 from core.program.fields import FARTHEST
 from core.program.solve.line import heading_at
@@ -185,12 +185,11 @@ def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
     parallel = element.parallel
     if parallel is None or not isinstance(piece, Line):
         return []
-    if parallel.line is not None:
-        heading, (nx, ny) = parallel.line.heading, parallel.line.normal
-        apart = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.line.offset)
+    if isinstance(parallel, OrientedLine):
+        heading, (nx, ny) = parallel.heading, parallel.normal
+        apart = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.offset)
     else:
-        assert parallel.index is not None
-        target = chain.pieces[parallel.index]
+        target = chain.pieces[parallel]
         heading, apart = heading_at(target, target.start), _distance(target, piece.start)
     actual = heading_at(piece, piece.start)
     off = actual - heading

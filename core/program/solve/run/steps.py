@@ -34,15 +34,14 @@ def next_branches(branch: Branch) -> Ways | None:
 def _parallel(branch: Branch) -> Ways | None:
     """The heading of a line PARALLEL TO a known one: the same first, then the opposite."""
     for index, element in enumerate(branch.run.elements):
-        if element.parallel is None:
+        target = element.parallel
+        if target is None:
             continue
-        target = element.parallel.index
-        line = element.parallel.line
-        theirs = line.heading if line is not None else None if target is None else branch.heading_in[target]
+        theirs = target.heading if isinstance(target, OrientedLine) else branch.heading_in[target]
         ours = branch.heading_in[index]
         if theirs is not None and ours is None:
             return [_headed(branch, root, index, theirs + root * pi) for root in (0, 1)]
-        if theirs is None and ours is not None and target is not None:
+        if theirs is None and ours is not None and not isinstance(target, OrientedLine):
             return [_headed(branch, root, target, ours + root * pi) for root in (0, 1)]
     return None
 
@@ -180,15 +179,12 @@ def _point_side(branch: Branch) -> Ways | None:
 def _offset_side(branch: Branch) -> Ways | None:
     """The side on which a LINE lies OFFSET from its parallel: left of that first."""
     for index, element in enumerate(branch.run.elements):
-        heading, offset = branch.heading_in[index], element.known.get("offset")
-        if element.parallel is None or heading is None or offset is None or branch.offset[index] is not None:
+        heading, offset, parallel = branch.heading_in[index], element.known.get("offset"), element.parallel
+        if parallel is None or heading is None or offset is None or branch.offset[index] is not None:
             continue
-        target = element.parallel.line
-        if target is None and element.parallel.index is not None:
-            target = branch.line(element.parallel.index)
-        if target is None:
-            continue
-        return _offset_ways(branch, index, target, offset)
+        target = parallel if isinstance(parallel, OrientedLine) else branch.line(parallel)
+        if target is not None:
+            return _offset_ways(branch, index, target, offset)
     return None
 
 
