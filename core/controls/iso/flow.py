@@ -80,23 +80,17 @@ class OpenBlock:
 
 
 @dataclass(slots=True)
-class Scope:
-    """The program, or a subprogram that an O-word called: its label (None for the program), and what is open in it."""
-
-    label: str | None = None
-    opened: dict[str, OpenBlock] = field(default_factory=dict)
-
-
-@dataclass(slots=True)
 class Call:
-    """The program or a subprogram that runs: the line index it returns to and its scope.
+    """The program or a subprogram that runs: the line index it returns to, and what O-words have `opened` in it.
 
-    One that M98 called has its `number`, the index it starts at, and how often it runs again; it runs in the scope of
-    its caller.  `loops` are the open ones of WHILE and DO by number and row; `macro`: it has variables of its own.
+    `label` is that of a subprogram that an O-word called, None for the program.  One that M98 called has its `number`,
+    the index it starts at, and how often it runs again, and shares its caller's label and what is opened.  `loops` are
+    the open ones of WHILE and DO by number and row; `macro`: it has variables of its own.
     """
 
     back: int
-    scope: Scope
+    label: str | None = None
+    opened: dict[str, OpenBlock] = field(default_factory=dict)
     number: int | None = None
     start: int = 0
     again: int = 0
@@ -186,13 +180,8 @@ class OWords:
         self.log.stop(fault.code, fault.text, word.row + 1, word.line.column(fault.at))
 
     @property
-    def scope(self) -> Scope:
-        """That of the innermost subprogram."""
-        return self.calls[-1].scope
-
-    @property
     def _opened(self) -> dict[str, OpenBlock]:
-        return self.scope.opened
+        return self.calls[-1].opened
 
     def _values(self, word: OWord, most: int) -> list[float]:
         """The bracketed values after a word; anything else there stops the run."""
@@ -234,7 +223,7 @@ class OWords:
     def _sub(self, word: OWord) -> int:
         """A subprogram that is met is stepped over."""
         nested = "A subprogram begins inside a subprogram. Put it after the end of that subprogram."
-        if self.scope.label is not None:
+        if self.calls[-1].label is not None:
             self._stop(word, nested)
         self._fresh(word)
         self._values(word, 0)
@@ -258,7 +247,7 @@ class OWords:
         if sum(call.number is None for call in self.calls) > MAX_NESTED:
             self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
         self.values.enter(self._values(word, MAX_ARGUMENTS))
-        self.calls.append(Call(word.row + 1, Scope(label)))
+        self.calls.append(Call(word.row + 1, label))
         return begun.row + 1
 
     def _begin_of(self, label: str) -> OWord | None:
@@ -275,9 +264,9 @@ class OWords:
         return str(round(value))
 
     def _end(self, word: OWord) -> int:
-        if self.scope.label is None:
+        if self.calls[-1].label is None:
             self._stop(word, f"{word.word.lower()} is not in a called subprogram.")
-        if word.word == "ENDSUB" and self.scope.label != word.label:
+        if word.word == "ENDSUB" and self.calls[-1].label != word.label:
             self._stop(word, "This endsub does not match the running subprogram.")
         values = self._values(word, 1)
         self.values.leave(values[0] if values else None)
@@ -308,7 +297,7 @@ class OWords:
 
     def _fresh(self, word: OWord) -> None:
         """A label that began something once cannot begin anything else in its subprogram."""
-        key = (self.scope.label, word.label)
+        key = (self.calls[-1].label, word.label)
         if self.begun.setdefault(key, word.row) != word.row:
             line, place = self.origin_of(self.begun[key] + 1)
             text = f"This label is in use since {place or f'line {line}'}; give this {word.word.lower()} its own."
@@ -401,7 +390,7 @@ class Flow:
         self.at = 0
         code = (index for index, line in enumerate(lines) if line.strip() and line.strip()[0] not in "(;%")
         self.first_code = next(code, len(lines))
-        self.calls = [Call(len(lines), Scope())]
+        self.calls = [Call(len(lines))]
         self.budget = dialect.max_repeated_blocks
         self.ran = bytearray(len(lines))
         self.o_words_left = MAX_O_WORDS
@@ -496,7 +485,8 @@ class Flow:
             text = "L, how often the subprogram runs, is a whole number, not below 0."
             self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
         if times > 0:
-            self.calls.append(Call(self.at, self.calls[-1].scope, number, start, times - 1))
+            caller = self.calls[-1]
+            self.calls.append(Call(self.at, caller.label, caller.opened, number, start, times - 1))
             self.at = start
 
     def _return(self, block: Block) -> bool:

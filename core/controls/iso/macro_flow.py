@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import Call, Flow, ProgramLibrary, Scope, o_words_of
+from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_machine import MacroMachine
@@ -112,7 +112,7 @@ class MacroFlow(Flow):
         self.statements: dict[int, Statement] = {}
         self.ends: dict[int, int] = {}
         self.numbered: dict[int, list[int]] = {}
-        self.calls = [Call(0, Scope())]
+        self.calls = [Call(0)]
         self.modal_call: ModalCall | None = None
         self.no_point: list[tuple[int, int]] = []
         self.rows_run_again = 0
@@ -617,7 +617,7 @@ class MacroFlow(Flow):
         self._push(start, times, arguments)
 
     def _push(self, start: int, times: int, arguments: Mapping[int, float] | None) -> None:
-        call = Call(self.at, Scope(), 0, start, times - 1, macro=arguments is not None)
+        call = Call(self.at, number=0, start=start, again=times - 1, macro=arguments is not None)
         self.calls.append(call)
         if arguments is not None:
             self.variables.enter(arguments)
