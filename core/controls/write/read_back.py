@@ -80,39 +80,32 @@ class Intended:
         return self.lines[int(line) - 1].segment if line and line <= len(self.lines) else None
 
 
-@dataclass(frozen=True, slots=True)
-class ReadBackResult:
-    """Why a program is refused, or the notes on one that passes."""
-
-    errors: tuple[Finding, ...] = ()
-    notes: tuple[Finding, ...] = ()
-
-
-def read_back(intended: Intended) -> ReadBackResult:
-    """The control's answer to its program."""
+def read_back(intended: Intended) -> tuple[Finding, ...]:
+    """The control's answer to its program: errors where it is refused, and the notes on it."""
     made = run(intended.text.encode("ascii"), intended.control, intended.tools, intended.unit)
     assert not isinstance(made, UnknownControl), made.text
     stopped = _stopped(made, intended)
     if stopped:
-        return ReadBackResult(stopped)
+        return stopped
     cuts = [cut for cut in intended.cuts if isinstance(cut, CompensatedPass)]
     if len(made.stretches) != len(cuts):
         text = f"The control makes {len(made.stretches)} compensated runs instead of {len(cuts)}."
-        return ReadBackResult((not_written(text),))
+        return (not_written(text),)
     if (different := different_move(made, intended)) is not None:
-        return ReadBackResult((different,))
-    answers: dict[tuple[int, bytes], ReadBackResult] = {}
+        return (different,)
+    answers: dict[tuple[int, bytes], Finding | None] = {}
     for cut, stretch in zip(cuts, made.stretches, strict=True):
         moves = made.moves.part(stretch.first, stretch.last)
         key = (id(cut.compensated), moves.points[:, :2].tobytes())
         if not _level(made, stretch, cut, intended):
-            return ReadBackResult((not_written("A compensated run does not stay at its depth."),))
+            return (not_written("A compensated run does not stay at its depth."),)
         if key not in answers:
             answers[key] = compare_path(moves.path(), cut, intended)
-    errors = tuple(dict.fromkeys(error for answer in answers.values() for error in answer.errors))
-    differing = [note for answer in answers.values() for note in answer.notes]
+    found = [answer for answer in answers.values() if answer is not None]
+    errors = dict.fromkeys(answer for answer in found if answer.severity is Severity.ERROR)
+    differing = [answer for answer in found if answer.severity is not Severity.ERROR]
     worst = sorted(differing, key=lambda note: note.lengths)[-1:]
-    return ReadBackResult(errors, (*worst, *_warnings(made, intended)))
+    return (*errors, *worst, *_warnings(made, intended))
 
 
 def different_move(made: ControlRun, intended: Intended) -> Finding | None:
@@ -177,26 +170,24 @@ def _level(made: ControlRun, stretch: Stretch, cut: CompensatedPass, intended: I
     return not bool(made.moves.rapid[rows].any()) and bool((np.abs(heights - cut.depth) <= intended.tolerance).all())
 
 
-def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> ReadBackResult:
-    """The path the control makes, against the block's."""
+def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Finding | None:
+    """What there is to say of the path the control makes, against the block's: an error, or a note where it differs."""
     whole, tolerance = cut.compensated.whole, intended.tolerance
     inner = made.part(1, len(made) - 1) if intended.leads and len(made) > 2 else made
     if same_pieces(inner, whole, tolerance):
         apart, number = 0.0, 0.0
     elif max(len(inner), len(whole)) > MAX_COMPARED_PIECES:
-        return ReadBackResult((not_written("The control's path differs, and is too long to compare."),))
+        return not_written("The control's path differs, and is too long to compare.")
     else:
         # seen from the block's side a distance has no line of the program, so the path's first one stands for it
         first = float(inner.numbers[0]) if len(inner) else 0.0
         both = largest_distance(inner, whole), (largest_distance(whole, inner)[0], first)
         apart, number = both[int(np.argmax([distance for distance, _ in both]))]
     refused = _damage(made, inner, cut, intended, differs=not apart <= tolerance)
-    if refused is not None:
-        return ReadBackResult((refused,))
-    if apart <= tolerance:
-        return ReadBackResult()
+    if refused is not None or apart <= tolerance:
+        return refused
     text = f"{intended.shown_control} takes corners differently, by up to {{0}}. It does not gouge or leave more."
-    return ReadBackResult((), (Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,)),))
+    return Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,))
 
 
 def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:

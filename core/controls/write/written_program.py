@@ -24,7 +24,7 @@ from core.controls.write.iso_program import Frame, offsets, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import Intended, read_back
-from core.finding import Finding
+from core.finding import Finding, Severity
 from core.units import to_mm
 
 Remarks = Callable[[Sequence[Finding]], Sequence[str]]
@@ -127,9 +127,9 @@ def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> Writ
         if isinstance(intended, Finding):
             return NotWritten((intended,))
         answer = read_back(intended)
-        if answer.errors:
-            return NotWritten(answer.errors)
-        if answer.notes == notes:
+        if errors := tuple(finding for finding in answer if finding.severity is Severity.ERROR):
+            return NotWritten(errors)
+        if answer == notes:
             break
-        notes = answer.notes
+        notes = answer
     return WrittenProgram(intended.text, notes)
