@@ -246,7 +246,7 @@ class OWords:
             self._stop(word, f"There is no subprogram {name} in this file, and no file {missing} in its folder.")
         if sum(call.number is None for call in self.calls) > MAX_NESTED:
             self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
-        self.values.enter(self._values(word, MAX_ARGUMENTS))
+        self.values.enter(dict(enumerate(self._values(word, MAX_ARGUMENTS), 1)))
         self.calls.append(Call(word.row + 1, label))
         return begun.row + 1
 

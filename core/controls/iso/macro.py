@@ -8,7 +8,7 @@ to the subprogram that set it, unless it begins with an underscore.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from enum import Enum, auto
 from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isfinite, radians, sin, sqrt, tan
 from math import log as natural_log
@@ -71,11 +71,15 @@ MachineValue = Callable[[int | str], float | str | None]
 
 
 class MacroParameters:
-    """The values of one run; `machine_value` reads those that the control itself keeps."""
+    """The values of one run; `machine_value` reads those that the control itself keeps.
+
+    `local` are the first numbers, which are a subprogram's own, and `numbered` the others.
+    """
 
     def __init__(self, kept: ParameterStore, machine_value: MachineValue = lambda _: None) -> None:
         self.kept = kept
         self.machine_value = machine_value
+        self.local: dict[int, float] = {}
         self.numbered: dict[int, float] = {}
         self.names: dict[str, float] = {}
         self.shared: dict[str, float] = {}
@@ -90,8 +94,11 @@ class MacroParameters:
         if index >= _SYSTEM:
             return self._system(index, f"#{index}", at)
         if index <= _LOCALS and self._outer:
-            return self.numbered.get(index, 0.0)
-        return self.numbered.get(index)
+            return self.local.get(index, 0.0)
+        return self._store(index).get(index)
+
+    def _store(self, index: int) -> dict[int, float]:
+        return self.local if index <= _LOCALS else self.numbered
 
     def _within(self, index: int, at: int) -> None:
         if not 1 <= index <= _LAST:
@@ -103,7 +110,7 @@ class MacroParameters:
         if index >= _MACRO_SYSTEM:
             text = f"Only the control knows #{index} at run time. Program the number."
             raise FaultError("BEYOND", text, at)
-        value = self.numbered.get(index)
+        value = self._store(index).get(index)
         if value is None:
             text = f"#{index} has no value yet in this program. Set it first."
             raise FaultError("PARAMETER", text, at)
@@ -161,25 +168,17 @@ class MacroParameters:
         if isinstance(key, str):
             self._scope(key)[key] = value
         else:
-            self.numbered[key] = value
+            self._store(key)[key] = value
 
-    def enter(self, arguments: Sequence[float]) -> None:
-        """A subprogram begins, with its own numbers 1 to 30 and its own names."""
-        outer = {index: value for index, value in self.numbered.items() if index <= _LOCALS}
-        self._outer.append((outer, self.names))
-        self._locals(dict(enumerate(arguments, 1)))
-        self.names = {}
+    def enter(self, arguments: Mapping[int, float]) -> None:
+        """A subprogram or a macro begins, with its own first numbers and its own names."""
+        self._outer.append((self.local, self.names))
+        self.local, self.names = dict(arguments), {}
 
-    def leave(self, value: float | None, /) -> None:
-        """A subprogram ends, and may return a value."""
-        outer, self.names = self._outer.pop()
-        self._locals(outer)
+    def leave(self, value: float | None = None) -> None:
+        """A subprogram or a macro ends, and may return a value."""
+        self.local, self.names = self._outer.pop()
         self.returned = value
-
-    def _locals(self, values: dict[int, float]) -> None:
-        for index in range(1, _LOCALS + 1):
-            self.numbered.pop(index, None)
-        self.numbered.update(values)
 
 
 EQUAL: Final = 1e-4

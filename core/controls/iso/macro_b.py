@@ -8,7 +8,7 @@ with it is as if it were not written, in sums it is 0, and only EQ and NE tell i
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from math import acos, asin, atan, atan2, ceil, cos, degrees, exp, floor, fmod, radians, sin, sqrt, tan
 from math import log as natural_log
 from types import MappingProxyType
@@ -80,9 +80,7 @@ class Variables(MacroParameters):
     def __init__(self, machine_value: Callable[[int | str], float | str | None], set_system: SetSystem) -> None:
         super().__init__(ParameterStore.FANUC, machine_value)
         self.set_system = set_system
-        self.local: dict[int, float] = {}
         self.common: dict[int, float] = {}
-        self.callers: list[dict[int, float]] = []
         self.vacant_arguments = False
         self.unset: list[int] = []
 
@@ -92,7 +90,7 @@ class Variables(MacroParameters):
             return VACANT
         if 1 <= index <= LOCALS:
             value = self.local.get(index)
-            if value is None and not self.callers and index <= ARGUMENTS:
+            if value is None and not self._outer and index <= ARGUMENTS:
                 self.vacant_arguments = True
             return VACANT if value is None else value
         if is_common(index):
@@ -128,15 +126,6 @@ class Variables(MacroParameters):
             raise AlarmByProgramError(round(value))
         elif not self.set_system(key, value):
             raise FaultError("PS0116", f"#{key} cannot be set by a program. Choose #100 to #199.", 0)
-
-    def enter(self, arguments: Sequence[float] | Mapping[int, float]) -> None:
-        """A macro begins, with its own #1 to #33."""
-        self.callers.append(self.local)
-        self.local = dict(arguments) if isinstance(arguments, Mapping) else dict(enumerate(arguments, 1))
-
-    def leave(self, _returned: float | None = None, /) -> None:
-        """A macro ends; those of macro B return no value."""
-        self.local = self.callers.pop()
 
 
 def is_common(index: int) -> bool:
