@@ -256,14 +256,16 @@ class MacroReader(ExpressionReader):
 
     def brackets(self) -> float:
         """An expression in square brackets, not too deep."""
-        begin = self.at
-        self._brackets += 1
-        if self._brackets > MAX_BRACKETS:
-            text = f"More than {MAX_BRACKETS} brackets lie inside each other. Use a variable for the inner ones."
-            raise FaultError("PS0118", text, begin)
+        self._enter_bracket()
         value = super().brackets()
         self._brackets -= 1
         return value
+
+    def _enter_bracket(self) -> None:
+        self._brackets += 1
+        if self._brackets > MAX_BRACKETS:
+            text = f"More than {MAX_BRACKETS} brackets lie inside each other. Use a variable for the inner ones."
+            raise FaultError("PS0118", text, self.at)
 
     def _operator(self) -> str:
         name = super()._operator()
@@ -309,10 +311,7 @@ class MacroReader(ExpressionReader):
     def _arguments(self) -> tuple[float, float | None]:
         """The value in a function's brackets, or two with a comma between them."""
         begin = self.at
-        self._brackets += 1
-        if self._brackets > MAX_BRACKETS:
-            text = f"More than {MAX_BRACKETS} brackets lie inside each other. Use a variable for the inner ones."
-            raise FaultError("PS0118", text, begin)
+        self._enter_bracket()
         self.at += 1
         first, second = self._ranked(0), None
         if self.text[self.at : self.at + 1] == ",":
