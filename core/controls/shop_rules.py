@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
+from core.controls.judged_runs import programmed_surface
 from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
@@ -52,8 +53,7 @@ def check_shop_rules(run: ControlRun) -> tuple[Finding, ...]:
 def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
     if len(stretch.programmed) <= stretch.entry:
         return []
-    # the programmed moves between entry and exit, as seen on the plane, numbered by their lines
-    contour = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit).path(stretch.plane)
+    contour = programmed_surface(stretch)
     findings = [*_depths(moves, stretch), _side(stretch)]
     if not len(contour):
         return findings

@@ -127,11 +127,10 @@ class State:
             written = block.body[block.column_of(name) - block.column :].split(maxsplit=1)[0]
             if written.startswith("QS"):
                 text = f"cutcomp does not follow {quoted(written)}: a parameter that holds text. Write the text."
-                self.stop(code, text, block, name)
-            if written.startswith("#"):
+            elif written.startswith("#"):
                 text = f"cutcomp does not follow {quoted(written)}: a row of a table. Write its values."
-                self.stop(code, text, block, name)
-            code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
+            else:
+                code, text = "WORD", f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.stop(code, text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:

@@ -214,11 +214,10 @@ class ThreeBlock(ElementQueue, Control):
     def _approach(self, element: Element) -> None:
         if self.held is not None or not element.moves:
             return
-        if self.elements == 0:
-            if element.turn:
-                text = "The block after G41 or G42 is the approach; it must be straight."
-                self.log.stop("B6-APPR", text, element.line, 1)
-            self.open_stretch(self.side, self.offset, element)
+        if element.turn:
+            text = "The block after G41 or G42 is the approach; it must be straight."
+            self.log.stop("B6-APPR", text, element.line, 1)
+        self.open_stretch(self.side, self.offset, element)
 
     def _collinear(self, element: Element) -> None:
         held = self.held
