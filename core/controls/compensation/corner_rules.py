@@ -246,7 +246,7 @@ def vector_end(last: Element, vector: Point, offset: float) -> Point:
     if not size:
         return end
     towards = point_along(last.end, vector, 1.0)
-    point = meeting(last, line_element(last.end, towards, 0.0, 0.0, rapid=False, feed=0.0, line=0), offset)
+    point = meeting(last, line_element(last.end, towards), offset)
     if point is None:
         return point_along(end, vector, -reach / size)
     way = (point[0] - end[0], point[1] - end[1])

@@ -48,10 +48,10 @@ class Element(NamedTuple):
 
 
 def line_element(
-    start: Point, end: Point, start_height: float, end_height: float, rapid: bool, feed: float,
-    line: int, column: int = 1,
+    start: Point, end: Point, start_height: float = 0.0, end_height: float = 0.0, rapid: bool = False,
+    feed: float = 0.0, line: int = 0, column: int = 1,
 ) -> Element:  # fmt: skip
-    """A straight element."""
+    """A straight element, in the plane alone where no more is given."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
     way = (dx / size, dy / size) if size else (0.0, 0.0)
@@ -59,10 +59,10 @@ def line_element(
 
 
 def arc_element(
-    start: Point, end: Point, center: Point, turn: int, start_height: float, end_height: float, feed: float,
-    line: int, column: int = 1,
+    start: Point, end: Point, center: Point, turn: int, start_height: float = 0.0, end_height: float = 0.0,
+    feed: float = 0.0, line: int = 0, column: int = 1,
 ) -> Element:  # fmt: skip
-    """A circular element; equal ends are the full circle."""
+    """A circular element, in the plane alone where no more is given; equal ends are the full circle."""
     start_direction, end_direction = tangent(start, center, turn), tangent(end, center, turn)
     return Element(
         start, end, center, turn, start_direction, end_direction, start_height, end_height, False, feed, line, column

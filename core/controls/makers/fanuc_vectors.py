@@ -417,5 +417,5 @@ def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
     if not size:
         return offset_end(last, offset)
     towards = (last.end[0] + vector[0] / size, last.end[1] + vector[1] / size)
-    line = line_element(last.end, towards, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+    line = line_element(last.end, towards)
     return meeting(last, line, offset) or offset_end(last, offset)

@@ -189,18 +189,8 @@ def blend_of(compensated: Compensated) -> float:
 def element_of(piece: Piece) -> Element:
     """A line or an arc of a path as an element."""
     if isinstance(piece, Arc):
-        return flat_arc(piece.start, piece.end, piece.center, int(piece.turn))
-    return flat_line(piece.start, piece.end)
-
-
-def flat_line(start: Point, end: Point) -> Element:
-    """A straight element in the plane alone."""
-    return line_element(start, end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
-
-
-def flat_arc(start: Point, end: Point, center: Point, turn: int) -> Element:
-    """A circular element in the plane alone."""
-    return arc_element(start, end, center, turn, 0.0, 0.0, 0.0, 0)
+        return arc_element(piece.start, piece.end, piece.center, int(piece.turn))
+    return line_element(piece.start, piece.end)
 
 
 def _whole(whole: Element, cut: Element) -> Element:
@@ -217,8 +207,8 @@ def _rebuilt(element: Element) -> Element:
     (x, y), (ex, ey) = element.start, element.end
     short = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
     if element.turn and not (short and element_sweep(element) < pi):
-        return flat_arc(element.start, element.end, element.center, element.turn)
-    return flat_line(element.start, element.end)
+        return arc_element(element.start, element.end, element.center, element.turn)
+    return line_element(element.start, element.end)
 
 
 def _surface(element: Element, point: Point, offset: float) -> Point:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Final
 
-from core.controls.compensation.elements import Element, point_along
-from core.controls.write.contour_pass import PathEnd, ProgrammedElements, flat_arc, flat_line
+from core.controls.compensation.elements import Element, arc_element, line_element, point_along
+from core.controls.write.contour_pass import PathEnd, ProgrammedElements
 from core.controls.write.iso_style import EntryRule, IsoStyle
 from core.geometry.path import Path
 from core.geometry.piece import Line, Piece, Point, Side
@@ -83,8 +83,8 @@ def with_blends(
         return shape
     elements, size = shape.elements, first.blend + radius
     turn = 1 if first.off[1] * first.way[0] - first.off[0] * first.way[1] > 0.0 else -1
-    into = flat_arc(first.corner, elements[0].start, point_along(first.corner, first.way, size), turn)
-    off = flat_arc(elements[-1].end, last.corner, point_along(last.corner, last.way, -size), turn)
+    into = arc_element(first.corner, elements[0].start, point_along(first.corner, first.way, size), turn)
+    off = arc_element(elements[-1].end, last.corner, point_along(last.corner, last.way, -size), turn)
     return ProgrammedElements((into, *elements, off), (segments[0], *shape.segments, segments[1]))
 
 
@@ -93,7 +93,7 @@ def merged(shape: ProgrammedElements) -> ProgrammedElements:
     elements, segments = [shape.elements[0]], [shape.segments[0]]
     for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
         if _continues(elements[-1], element):
-            elements[-1] = flat_line(elements[-1].start, element.end)
+            elements[-1] = line_element(elements[-1].start, element.end)
         else:
             elements.append(element)
             segments.append(segment)
