@@ -80,7 +80,7 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
         refusal = refusal or _lookahead_misfit(part, typed)
     if refusal:
         return refusal
-    edited = _with_part(program, where, _typed_into(part, name, typed))
+    edited = with_part(program, where, _typed_into(part, name, typed))
     if isinstance(part, Block) or name in UNSHAPED or type(typed) is type(getattr(part, name)):
         return edited
     return _picked_anew(program, edited, where)
@@ -101,16 +101,16 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
     part = _part(program, where)
     field = _field(part, name)
     if value is None and name in ("choice", "coolant"):
-        return _with_part(program, where, changed(part, {name: None}))
+        return with_part(program, where, changed(part, {name: None}))
     if name == "choice":
         if not (isinstance(value, int) and 0 <= value <= MAX_CHOICE):
             return Refused("SOLUTION takes the number of a solution.")
-        return _with_part(program, where, changed(part, {name: value}))
+        return with_part(program, where, changed(part, {name: value}))
     if str(value) not in field.choices:
         return _takes(field)
     if name == "tangent":
-        return _picked_anew(program, _with_part(program, where, _tangent(part, tangent=str(value) == "YES")), where)
-    chosen = _with_part(program, where, changed(part, {name: _PICKED[name](value)}))
+        return _picked_anew(program, with_part(program, where, _tangent(part, tangent=str(value) == "YES")), where)
+    chosen = with_part(program, where, changed(part, {name: _PICKED[name](value)}))
     return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
 
 
@@ -135,7 +135,7 @@ def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
     if answer.pick is not None:
         at = (Number(from_mm(coordinate, program.unit)) for coordinate in answer.pick)
         values |= dict(zip(("pick_x", "pick_y"), at, strict=True))
-    return _with_part(program, first, changed(_part(program, first), values))
+    return with_part(program, first, changed(_part(program, first), values))
 
 
 def pick_joint(program: Program, where: FormPlace, x: float, y: float) -> Edited:
@@ -175,7 +175,7 @@ def _without_choice(program: Program, block: int, number: int) -> Program:
     part = segments[number - 1] if number <= len(segments) else None
     if part is None or isinstance(part, CornerSegment) or part.choice is None:
         return program
-    return _with_part(program, FormPlace(block, number), replace(part, choice=None))
+    return with_part(program, FormPlace(block, number), replace(part, choice=None))
 
 
 def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edited:
@@ -194,7 +194,7 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
         if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
             return Refused(f"A {form_of(segment)} cannot be next to {_another(form_of(segment), form_of(other))}.")
     after = tuple(_renumbered(following, where.segment, 1) for following in after)
-    whole = _with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
+    whole = with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
     return _run_picked_anew(whole, whole, where)
 
 
@@ -211,7 +211,7 @@ def delete_segment(program: Program, where: FormPlace) -> Edited:
     block = program.blocks[where.block - 1]
     after = (_renumbered(segment, where.segment, -1) for segment in block.segments[where.segment :])
     left = _run_picked_anew(program, program, where).blocks[where.block - 1].segments[: where.segment - 1]
-    whole = _with_part(program, FormPlace(where.block), replace(block, segments=(*left, *after)))
+    whole = with_part(program, FormPlace(where.block), replace(block, segments=(*left, *after)))
     return _run_picked_anew(whole, whole, where)
 
 
@@ -230,7 +230,7 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
     where = FormPlace(block)
     if refusal := _absent(program, where):
         return refusal
-    return _with_part(program, where, replace(program.blocks[block - 1], lookahead=None))
+    return with_part(program, where, replace(program.blocks[block - 1], lookahead=None))
 
 
 def new_block(program: Program) -> Block:
@@ -438,7 +438,7 @@ def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segme
     return edited
 
 
-def _with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:
+def with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:
     """The program with this part in its place."""
     index = where.block - 1
     if not isinstance(part, Block):

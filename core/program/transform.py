@@ -13,7 +13,7 @@ from math import dist, pi, radians
 from typing import Final
 
 from core.geometry.piece import Arc, Piece, Point, Turn
-from core.program.edit import Edited, Refused
+from core.program.edit import Edited, FormPlace, Refused, with_part
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -114,7 +114,7 @@ def transform_block(program: Program, number: int, motion: Motion) -> Edited:
         segments = tuple(_transformed(block.segments, solved.segments, motion, unit, explicit=explicit))
         made = replace(block, x_start=_typed(x, unit), y_start=_typed(y, unit), cutter_comp=side, segments=segments)
         if _follows(solve_block(made, program), solved.segments, motion):
-            return _with_block(program, number, made)
+            return with_part(program, FormPlace(number), made)
     return Refused("The block cannot be typed at its new place with six decimals.")
 
 
@@ -148,11 +148,7 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
         made += _transformed(kept, shapes, step, program.unit, explicit=True)
         end = step.point(_end(shapes[-1]))
     segments = (*block.segments[:last], *made, *block.segments[last:])
-    return _with_block(program, number, replace(block, segments=segments))
-
-
-def _with_block(program: Program, number: int, block: Block) -> Program:
-    return replace(program, blocks=(*program.blocks[: number - 1], block, *program.blocks[number:]))
+    return with_part(program, FormPlace(number), replace(block, segments=segments))
 
 
 def _undetermined(block: Block, solved: SolvedBlock) -> Refused | None:
