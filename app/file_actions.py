@@ -263,7 +263,7 @@ class FileActions(DerivationActions):
             self._ask_offer(opened.document, opened.offer)
 
     @work(group="offer", description="offer")
-    async def _ask_offer(self, document: ContourDocument | NcDocument, offer: Offer) -> None:
+    async def _ask_offer(self, document: AnyDocument, offer: Offer) -> None:
         """Ask, and work on what comes of the answer; where nothing does, the screen stays, HOME too."""
         word, service = await self.ask(offer.ask), self.service
         if service is None:

@@ -1,11 +1,11 @@
-"""What is open: a contour program or an NC text, each with its file, behind one protocol."""
+"""What is open: a contour program or an NC text, each with its file; both can do the same."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Final, Protocol, Self, TypeVar
+from typing import Final, Self, TypeVar
 
 from app.documents import contour_journal, nc_journal
 from app.documents.files import LARGEST_FILE, Stamp
@@ -42,84 +42,6 @@ class FileState:
     holder: Owner | None = None
     link_agreed: bool = False
     opening: object = field(default_factory=object)
-
-
-class Document(Protocol):
-    """What both kinds of document can do; a value, so that every edit makes a new one."""
-
-    @property
-    def kind(self) -> Kind:
-        """Which of the two it is."""
-        ...
-
-    @property
-    def file(self) -> FileState:
-        """Its file."""
-        ...
-
-    @property
-    def unsaved(self) -> bool:
-        """The file does not hold the document as it is now."""
-        ...
-
-    @property
-    def place(self) -> Place:
-        """Where the operator is, for the journal."""
-        ...
-
-    def data(self) -> bytes:
-        """The text of the file as it would be written."""
-        ...
-
-    def with_file(self, file: FileState) -> Self:
-        """The same work on another file."""
-        ...
-
-    def saved(self, file: FileState) -> Self:
-        """After the file was written with the document as it is now."""
-        ...
-
-    def after_saving(self, saved: Self) -> Self:
-        """This work, of which an earlier state was saved while it went on."""
-        ...
-
-    def same_edits(self, other: Self) -> bool:
-        """Whether nothing was edited, undone or redone between the two."""
-        ...
-
-    def whole_records(self) -> Iterator[Record]:
-        """All work, as the records of a journal that begins."""
-        ...
-
-    def records_since(self, before: Self) -> list[Record] | None:
-        """The edits since an earlier state; None where the one does not lead to the other."""
-        ...
-
-    def restored(self, journal: Journal) -> Self:
-        """The work of a journal in this one's place; ValueError where it is of the other kind."""
-        ...
-
-    def holds(self, journal: Journal) -> bool:
-        """Whether this is the work of a journal already."""
-        ...
-
-    def work_of(self, data: bytes) -> History | NcText | None:
-        """A file's content as one edit of this document; None where it is no content of this kind."""
-        ...
-
-    def differences(self, journal: Journal) -> tuple[str, ...]:
-        """What the work of a journal has otherwise, in an operator's words."""
-        ...
-
-    def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """What a file's content has otherwise than the file when it was opened, and what this has otherwise than it.
-
-        None where the content is no document of this kind.
-        """
-        ...
-
-
-AnyDocument = TypeVar("AnyDocument", bound=Document)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -188,20 +110,22 @@ class ContourDocument:
         """This work, of which an earlier state was saved while it went on."""
         return replace(self, file=saved.file, saved_program=saved.saved_program)
 
-    def same_edits(self, other: Self) -> bool:
+    def same_edits(self, other: Document) -> bool:
         """Whether nothing was edited, undone or redone between the two."""
-        return self.history is other.history
+        return isinstance(other, ContourDocument) and self.history is other.history
 
     def whole_records(self) -> Iterator[Record]:
         """All work, as the records of a journal that begins."""
         return contour_journal.whole_records(self.history)
 
-    def records_since(self, before: Self) -> list[Record] | None:
-        """The edits since an earlier state."""
+    def records_since(self, before: Document) -> list[Record] | None:
+        """The edits since an earlier state; None where the one does not lead to the other."""
+        if not isinstance(before, ContourDocument):
+            return None
         return contour_journal.records_between(before.history, self.history)
 
     def restored(self, journal: Journal) -> Self:
-        """The work of a journal, the cursor where it was."""
+        """The work of a journal, the cursor where it was; ValueError for one of an NC text."""
         history, place = _history_of(journal), journal.place
         match place:
             case (int(block), int(segment), str(name)):
@@ -214,7 +138,7 @@ class ContourDocument:
         return _history_of(journal).program == self.program
 
     def work_of(self, data: bytes) -> History | None:
-        """A file's program as one edit."""
+        """A file's program as one edit; None where it is no program."""
         try:
             return self.history.do(loads_bytes(data, ""), "SAVE")
         except StoreError:
@@ -228,7 +152,10 @@ class ContourDocument:
         return program_history.differences(mine, left)
 
     def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """What a file's program has otherwise than the saved one, and what this has otherwise than it."""
+        """What a file's program has otherwise than the saved one, and what this has otherwise than it.
+
+        None where it is no program.
+        """
         try:
             theirs = loads_bytes(data, "")
         except StoreError:
@@ -293,16 +220,19 @@ class NcDocument:
         text = replace(self.text, origin=saved.text.origin, saved=saved.text.saved)
         return replace(self, file=saved.file, text=text)
 
-    def same_edits(self, other: Self) -> bool:
+    def same_edits(self, other: Document) -> bool:
         """Whether nothing was edited, undone or redone between the two."""
-        return self.text.past is other.text.past and self.text.future is other.text.future
+        past, future = self.text.past, self.text.future
+        return isinstance(other, NcDocument) and past is other.text.past and future is other.text.future
 
     def whole_records(self) -> Iterator[Record]:
         """All work, as the records of a journal that begins."""
         return nc_journal.whole_records(self.text)
 
-    def records_since(self, before: Self) -> list[Record] | None:
-        """The edits since an earlier state."""
+    def records_since(self, before: Document) -> list[Record] | None:
+        """The edits since an earlier state; None where the one does not lead to the other."""
+        if not isinstance(before, NcDocument):
+            return None
         return nc_journal.records_between(before.text, self.text)
 
     def restored(self, journal: Journal) -> Self:
@@ -339,6 +269,10 @@ def _text_of(journal: Journal) -> NcText:
         raise ValueError("a journal of a contour program")
     return journal.work
 
+
+Document = ContourDocument | NcDocument
+"""Either kind; a value, so that every edit makes a new one."""
+AnyDocument = TypeVar("AnyDocument", ContourDocument, NcDocument)
 
 MAX_BYTES: Final = {Kind.CONTOUR: LARGEST_FILE, Kind.NC: MAX_NC_BYTES}
 """Bytes of the largest file of a kind."""
