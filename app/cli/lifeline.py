@@ -1,4 +1,4 @@
-"""A program that a server has started ends when that server ends, in whatever way, also where there is no prctl.
+"""A program that a server has started ends when that server ends, in whatever way.
 
 The server holds one end of a pipe and never writes.  The system closes that end with the server, and the program,
 which waits for this in a thread from its first line on, sees the end of the pipe.

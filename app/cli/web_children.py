@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-import ctypes
 import logging
 import os
 import shlex
-import signal
-import sys
-from collections.abc import Callable, Coroutine
+from collections.abc import Coroutine
 from contextlib import suppress
 from typing import Final
 
@@ -26,24 +23,7 @@ WIDTHS: Final = (20, 500)
 HEIGHTS: Final = (5, 200)
 """Cells of a page.  One that has not measured its type yet asks for any number, and a program that paints 100,000
 lines takes gigabytes."""
-PR_SET_PDEATHSIG: Final = 1
-"""From prctl(2): the signal a process gets when its parent ends."""
 log = logging.getLogger("cutcomp.serve")
-
-
-def dies_with_parent() -> Callable[[], None] | None:
-    """What a new child runs before its program, so that it is killed with its parent; None where there is no prctl."""
-    if sys.platform != "linux":
-        return None
-    prctl = ctypes.CDLL(None, use_errno=True).prctl
-    parent = os.getpid()
-
-    def bind() -> None:
-        prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
-        if os.getppid() != parent:  # the parent ended before the call
-            os._exit(1)
-
-    return bind
 
 
 def cells(width: int, height: int) -> tuple[int, int]:
@@ -101,7 +81,6 @@ class Service(AppService):
                 stderr=pipe,
                 env=self._build_environment(width=width, height=height) | {lifeline.VARIABLE: str(held)},
                 pass_fds=(held,),
-                preexec_fn=dies_with_parent(),
             )
         finally:
             os.close(held)

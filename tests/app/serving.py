@@ -52,15 +52,12 @@ async def some_children(process: int, others: Sequence[int] = ()) -> list[int]:
     raise AssertionError("no program was started")
 
 
-WITHOUT_PRCTL = "web_children.dies_with_parent = lambda: None"
-
-
 @asynccontextmanager
 async def server(
-    folder: Path, before: str = "pass", environment: dict[str, str] | None = None
+    folder: Path, environment: dict[str, str] | None = None
 ) -> AsyncIterator[tuple[subprocess.Popen[bytes], str]]:
     """`cutcomp serve` as a process of its own, and the address it has printed."""
-    code = f"from app.cli import web_children; {before}\nfrom app.__main__ import main; main(['serve', '--port', "
+    code = "from app.__main__ import main; main(['serve', '--port', "
     own = {"PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
     process = subprocess.Popen(
         [sys.executable, "-c", f"{code}'{free_port()}'])"],

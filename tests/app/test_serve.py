@@ -22,7 +22,7 @@ import aiohttp
 
 from app.cli import web_children
 from app.cli.web_server import FULL, SESSIONS, ScreenServer
-from tests.app.serving import WITHOUT_PRCTL, children, free_port, none_left, server, some_children
+from tests.app.serving import children, free_port, none_left, server, some_children
 
 SECRET = "a-secret-of-the-test"
 QUIET = [
@@ -213,18 +213,12 @@ def handshake(root: str) -> bytes:
 
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find the programs")
 @pytest.mark.parametrize(
-    ("before", "number", "painted"),
-    [
-        ("pass", signal.SIGKILL, False),
-        (WITHOUT_PRCTL, signal.SIGKILL, False),
-        (WITHOUT_PRCTL, signal.SIGKILL, True),
-        ("pass", signal.SIGTERM, True),
-        ("pass", signal.SIGINT, False),
-    ],
-    ids=["killed", "killed, no prctl", "killed when painted, no prctl", "ended when painted", "Ctrl+C"],
+    ("number", "painted"),
+    [(signal.SIGKILL, False), (signal.SIGKILL, True), (signal.SIGTERM, True), (signal.SIGINT, False)],
+    ids=["killed", "killed when painted", "ended when painted", "Ctrl+C"],
 )
-async def test_programs_end_with_their_server(before: str, number: int, *, painted: bool, tmp_path: Path) -> None:
-    async with server(tmp_path, before) as (process, address), aiohttp.ClientSession() as session:
+async def test_programs_end_with_their_server(number: int, *, painted: bool, tmp_path: Path) -> None:
+    async with server(tmp_path) as (process, address), aiohttp.ClientSession() as session:
         page = await session.ws_connect(f"{address}ws", origin=address.rsplit("/", 2)[0])
         started = await some_children(process.pid)
         if painted:
@@ -235,7 +229,7 @@ async def test_programs_end_with_their_server(before: str, number: int, *, paint
 
 
 async def test_a_program_ends_with_its_page(tmp_path: Path) -> None:
-    async with server(tmp_path, "pass") as (process, address), aiohttp.ClientSession() as session:
+    async with server(tmp_path) as (process, address), aiohttp.ClientSession() as session:
         for painted in (False, True):
             page = await session.ws_connect(f"{address}ws", origin=address.rsplit("/", 2)[0])
             started = await some_children(process.pid)
