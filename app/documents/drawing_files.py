@@ -118,32 +118,17 @@ class Worker(Generic[Result]):
         return message.value
 
 
-def drawing_lister(
-    data: bytes, name: str, program: Unit | None, *, damaged: bool = False
-) -> Worker[Drawing | ContourList]:
-    """Reads a drawing and lists its contours with the usual options of a program's unit, None for that of the drawing.
-
-    The result is the drawing alone where something is to be asked first: its unit, or the layers to take.
-    """
-    return Worker(_read_and_list, data, name, program, damaged)
-
-
-def _read_and_list(
-    data: bytes, name: str, program: Unit | None, damaged: bool, *, progress: ReportProgress
+def read_and_list(
+    data: bytes, name: str, program: Unit | None, *, damaged: bool = False, progress: ReportProgress
 ) -> Drawing | ContourList:
+    """A drawing's contours with the usual options of a program's unit, None for that of the drawing.
+
+    The drawing alone where something is to be asked first: its unit, or the layers to take.
+    """
     drawing = read_dxf(data, name, damaged=damaged, progress=progress)
     if drawing.unit is None or drawing.not_flat:
         return drawing
     return contours_of(drawing, ImportOptions.usual(drawing.unit, program), progress)
-
-
-def contour_finder(drawing: Drawing, options: ImportOptions) -> Worker[ContourList]:
-    """Makes the list of a drawing's contours; again after another unit, layer, tolerance or fit."""
-    return Worker(_find, drawing, options)
-
-
-def _find(drawing: Drawing, options: ImportOptions, *, progress: ReportProgress) -> ContourList:
-    return contours_of(drawing, options, progress)
 
 
 def _work(there: Connection, cache: str, function: Callable[..., object], arguments: tuple[object, ...]) -> None:

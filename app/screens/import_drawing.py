@@ -5,7 +5,7 @@ from __future__ import annotations
 from asyncio import CancelledError, to_thread
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import dist
 from pathlib import Path
 from typing import ClassVar, Final, TypeVar
@@ -22,10 +22,9 @@ from app.documents.drawing_files import (
     Done,
     Progress,
     Worker,
-    contour_finder,
     drawing_bytes,
-    drawing_lister,
     prepare_workers,
+    read_and_list,
 )
 from app.documents.programs import empty_program
 from app.documents.questions import GO_BACK, Answer
@@ -52,7 +51,7 @@ from core.importing.contour import (
     started_at_side,
     started_at_usual_place,
 )
-from core.importing.contours import FIT, MAX_TOLERANCE, Branch, ContourList, ImportOptions, with_joined
+from core.importing.contours import FIT, MAX_TOLERANCE, Branch, ContourList, ImportOptions, contours_of, with_joined
 from core.importing.drawing import Drawing as ReadDrawing
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import Row, matching, rows_of, sentences, unit_question
@@ -211,7 +210,7 @@ class ImportScreen(BaseScreen):
     async def _read_whole(self, data: bytes) -> ReadDrawing | ContourList | None:
         unit = None if self._fresh else self.current_session.program.unit
         try:
-            return await self._done(lambda: drawing_lister(data, self.path.name, unit))
+            return await self._done(lambda: Worker(read_and_list, data, self.path.name, unit))
         except DrawingError as error:
             if error.code != "DXF_DAMAGED" or not error.readable:
                 raise
@@ -219,7 +218,7 @@ class ImportScreen(BaseScreen):
             word = await self.app.push_screen_wait(Question("DAMAGED", [error.text, "Take it?"], answers, "NO"))
             if word != "YES":
                 return None
-        return await self._done(lambda: drawing_lister(data, self.path.name, unit, damaged=True))
+        return await self._done(lambda: Worker(partial(read_and_list, damaged=True), data, self.path.name, unit))
 
     async def _list_after_question(self, drawing: ReadDrawing) -> None:
         """Ask for the unit where the file names none; then the list, unless a layer cannot be taken."""
@@ -244,7 +243,7 @@ class ImportScreen(BaseScreen):
         drawing = self.drawing
         assert drawing is not None
         try:
-            self._take_list(await self._done(lambda: contour_finder(drawing, options)))
+            self._take_list(await self._done(lambda: Worker(contours_of, drawing, options)))
         except DrawingError as error:
             remedy = " F2 LAYERS leaves its layer out." if error.code == "NOT_FLAT" else ""
             self._fail(f"{error.text}{remedy}")

@@ -14,10 +14,10 @@ import pytest
 
 from app.__main__ import main
 from app.cli.drawing_list import Asked, list_drawing
-from app.documents.drawing_files import Worker, contour_finder, drawing_bytes, drawing_lister
+from app.documents.drawing_files import Worker, drawing_bytes, read_and_list
 from app.documents.files import load
 from app.documents.programs import example
-from core.importing.contours import ContourList
+from core.importing.contours import ContourList, contours_of
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
 from core.program.solve.block import solve_block
@@ -165,13 +165,13 @@ def test_a_drawing_that_is_not_there_is_told_before_the_screens(capsys: pytest.C
 
 def test_a_screen_reads_and_lists_a_drawing_in_workers() -> None:
     path = DATA / "d14-layers.dxf"
-    listed = drawing_lister(drawing_bytes(path), path.name, None).result()
+    listed = Worker(read_and_list, drawing_bytes(path), path.name, None).result()
     assert isinstance(listed, ContourList)
     assert [contour.kind.value for contour in listed.contours] == ["OUTSIDE", "HOLE"]
     holes = replace(listed.options, layers=frozenset(("HOLES",)))
-    assert len(contour_finder(listed.drawing, holes).result().contours) == 1
+    assert len(Worker(contours_of, listed.drawing, holes).result().contours) == 1
     with pytest.raises(DrawingError) as refused:
-        drawing_lister(drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf", None).result()
+        Worker(read_and_list, drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf", None).result()
     assert refused.value.readable == 1
 
 

@@ -61,7 +61,7 @@ def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noon of one day; drawings are read in this process."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
     monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
-    monkeypatch.setattr("app.documents.drawing_files.Worker", Here)
+    monkeypatch.setattr("app.screens.import_drawing.Worker", Here)
 
 
 @pytest.fixture

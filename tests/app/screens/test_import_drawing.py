@@ -54,7 +54,7 @@ REAL_WORKER = drawing_files.Worker
 
 @pytest.fixture(autouse=True)
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.documents.drawing_files.Worker", Here)
+    monkeypatch.setattr("app.screens.import_drawing.Worker", Here)
 
 
 class Importer(Operator):
@@ -456,8 +456,8 @@ async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
 
 
 async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatch):
-    monkeypatch.setattr("app.documents.drawing_files.Worker", REAL_WORKER)
-    monkeypatch.setattr("app.documents.drawing_files._read_and_list", wait_for_ever)
+    monkeypatch.setattr("app.screens.import_drawing.Worker", REAL_WORKER)
+    monkeypatch.setattr("app.screens.import_drawing.read_and_list", wait_for_ever)
     path = tmp_path / "slow.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
     async with opening(path) as one:
