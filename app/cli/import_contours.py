@@ -7,10 +7,9 @@ import sys
 from dataclasses import replace
 from math import isfinite, nan
 from pathlib import Path
-from typing import Final
 
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
-from app.cli.drawing_list import Asked, list_drawing
+from app.cli.drawing_list import UNITS, list_drawing
 from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
@@ -19,7 +18,7 @@ from app.session.words import counted
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import ContourList
-from core.importing.drawing import DrawingError, DrawingUnit
+from core.importing.drawing import DrawingError
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, NcProgram, nc_blocks
 from core.importing.segments import DoesNotFitError, comment, with_contours
@@ -28,14 +27,6 @@ from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from core.program.model import Program
 from core.units import Kind, Unit, from_mm, show, to_mm
-
-UNITS: Final = {
-    "in": DrawingUnit.IN,
-    "ft": DrawingUnit.FT,
-    "mm": DrawingUnit.MM,
-    "cm": DrawingUnit.CM,
-    "m": DrawingUnit.M,
-}
 
 
 def import_contours(arguments: list[str]) -> int:
@@ -130,15 +121,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _import(options: argparse.Namespace) -> None:
-    asked = Asked(
-        options.file.name,
-        options.damaged,
-        UNITS.get(options.units or ""),
-        options.tolerance,
-        options.fit,
-        tuple(options.layer),
-    )
-    listed = Worker(list_drawing, drawing_bytes(options.file), asked).result()
+    listed = Worker(list_drawing, drawing_bytes(options.file), options).result()
     unit = listed.unit
     if options.list or not listed.contours:
         _print_list(listed, unit)

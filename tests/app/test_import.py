@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.cli.drawing_list import Asked, list_drawing
+from app.cli.drawing_list import list_drawing
 from app.documents.drawing_files import Worker, drawing_bytes, read_and_list
 from app.documents.files import load
 from app.documents.programs import example
@@ -265,5 +266,5 @@ def test_a_drawing_without_a_contour_to_take_writes_no_file(
     assert not out.exists()
 
 
-def without_contours(data: bytes, asked: Asked, *, progress: Callable[..., None]) -> ContourList:
-    return replace(list_drawing(data, asked, progress=progress), contours=())
+def without_contours(data: bytes, options: Namespace, *, progress: Callable[..., None]) -> ContourList:
+    return replace(list_drawing(data, options, progress=progress), contours=())
