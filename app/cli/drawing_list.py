@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
-from typing import Final
 
 from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, Progress, contours_of
 from core.importing.drawing import Drawing, DrawingError, DrawingUnit
@@ -12,20 +11,11 @@ from core.importing.dxf import read_dxf
 from core.importing.listing import unit_question
 from core.units import from_mm, to_mm
 
-UNITS: Final = {
-    "in": DrawingUnit.IN,
-    "ft": DrawingUnit.FT,
-    "mm": DrawingUnit.MM,
-    "cm": DrawingUnit.CM,
-    "m": DrawingUnit.M,
-}
-"""The words for --units."""
-
 
 def list_drawing(data: bytes, options: argparse.Namespace, *, progress: Progress) -> ContourList:
     """The drawing and its contours; DrawingError UNITS or OPTION where the arguments do not fit the drawing."""
     drawing = read_dxf(data, options.file.name, damaged=options.damaged, progress=progress)
-    asked = UNITS.get(options.units or "")
+    asked = DrawingUnit(options.units.upper()) if options.units else None
     unit = asked or drawing.unit
     if unit is None:
         raise DrawingError("UNITS", f"{unit_question(drawing)}: add --units in or --units mm.")

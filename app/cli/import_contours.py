@@ -9,7 +9,7 @@ from math import isfinite, nan
 from pathlib import Path
 
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
-from app.cli.drawing_list import UNITS, list_drawing
+from app.cli.drawing_list import list_drawing
 from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
@@ -18,7 +18,7 @@ from app.session.words import counted
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import ContourList
-from core.importing.drawing import DrawingError
+from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, NcProgram, nc_blocks
 from core.importing.segments import DoesNotFitError, comment, with_contours
@@ -102,7 +102,8 @@ def _parser() -> argparse.ArgumentParser:
         "--chain", metavar="N|all", help="the contours to take by their numbers in the list: 1,3 or all"
     )
     parser.add_argument("--layer", action="append", default=[], metavar="L", help="of this layer only; may be repeated")
-    parser.add_argument("--units", choices=tuple(UNITS), type=str.lower, help="the unit of a drawing that names none")
+    units = tuple(unit.lower() for unit in DrawingUnit)
+    parser.add_argument("--units", choices=units, type=str.lower, help="the unit of a drawing that names none")
     parser.add_argument(
         "--tolerance", type=_length, metavar="T", help="ends so near are joined; usually 0.0005 in, 0.01 mm"
     )
