@@ -13,7 +13,7 @@ from app.cli.commands import DASH
 from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from app.documents import times
 from app.documents.files import load, save, write_output
-from app.documents.lock import Held, myself, release, take
+from app.documents.lock import Owner, myself, release, take
 from app.documents.questions import held_sentence
 from app.documents.tool_tables import merged, read_table, tool_line
 from core.finding import Finding
@@ -78,8 +78,8 @@ def tools(options: argparse.Namespace) -> int:
     with suppress(OSError):
         # where no lock can be written, the program cannot either, and says so
         lock = take(options.file, myself(now))
-    if isinstance(lock, Held):
-        say(f"nothing was imported: {held_sentence(lock.owner, now)} TOOL SETUP there imports a table, too.")
+    if isinstance(lock, Owner):
+        say(f"nothing was imported: {held_sentence(lock, now)} TOOL SETUP there imports a table, too.")
         return UNUSABLE
     try:
         return _imported(options)

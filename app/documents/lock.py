@@ -55,13 +55,6 @@ class Lock:
     owner: Owner
 
 
-@dataclass(frozen=True, slots=True)
-class Held:
-    """Somebody else has the program open."""
-
-    owner: Owner
-
-
 def myself(since: str) -> Owner:
     """This process."""
     return Owner(user(), gethostname(), os.getpid(), started(os.getpid()), since)
@@ -112,8 +105,8 @@ def lock_path(path: Path) -> Path:
     return target.with_name(f".{short_name(target.name)}{SUFFIX}")
 
 
-def take(path: Path, me: Owner) -> Lock | Held:
-    """Lock a program file, also one that does not exist yet; OSError where no lock can be written."""
+def take(path: Path, me: Owner) -> Lock | Owner:
+    """Lock a program file, also one that does not exist yet, or who has it; OSError where no lock can be written."""
     lock = Lock(lock_path(path), me)
     for _ in range(3):
         try:
@@ -121,11 +114,11 @@ def take(path: Path, me: Owner) -> Lock | Held:
         except FileExistsError:
             owner = _owner(lock.path)
             if owner is not None and alive(owner):
-                return Held(owner)
+                return owner
             _clear(lock.path)
         else:
             return lock
-    return Held(_owner(lock.path) or UNKNOWN)
+    return _owner(lock.path) or UNKNOWN
 
 
 def take_over(path: Path, me: Owner) -> Lock:

@@ -32,7 +32,7 @@ from app.documents.left_overs import (
     unreadable,
     wants_answer,
 )
-from app.documents.lock import Held, Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
+from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
 from app.documents.naming import as_program, is_folder
 from app.documents.patience import FILE, within
 from app.documents.programs import empty_program, example, examples
@@ -246,8 +246,8 @@ class DocumentService:
             return None
         with suppress(OSError):
             lock = take(path, self._from_now())
-            if isinstance(lock, Held):
-                return lock.owner
+            if isinstance(lock, Owner):
+                return lock
             kept.lock = lock
             # what a program that was killed has not put in its place
             new_path(journal_path(path)).unlink(missing_ok=True)

@@ -16,7 +16,6 @@ import pytest
 from app.documents.files import stamp_of
 from app.documents.lock import (
     UNKNOWN,
-    Held,
     Lock,
     Owner,
     alive,
@@ -54,7 +53,7 @@ def held(part: Path, owner: Owner) -> Lock:
 def test_the_second_opener_is_told_who_has_it(part: Path) -> None:
     assert held_by(part) is None
     held(part, ELSEWHERE)
-    assert take(part, ME) == Held(ELSEWHERE)
+    assert take(part, ME) == ELSEWHERE
     assert held_by(part) == ELSEWHERE
 
 
@@ -65,7 +64,7 @@ def test_a_lock_given_back_leaves_nothing(part: Path) -> None:
 
 def test_a_file_that_does_not_exist_yet_can_be_locked(tmp_path: Path) -> None:
     held(tmp_path / "new.toml", ELSEWHERE)
-    assert take(tmp_path / "new.toml", ME) == Held(ELSEWHERE)
+    assert take(tmp_path / "new.toml", ME) == ELSEWHERE
 
 
 def test_everybody_may_read_who_has_it_open(part: Path) -> None:
@@ -81,7 +80,7 @@ def test_the_same_file_by_another_name_is_the_same_lock(part: Path) -> None:
     link = part.with_name("link.toml")
     link.symlink_to(part)
     held(link, ELSEWHERE)
-    assert take(part, ME) == Held(ELSEWHERE)
+    assert take(part, ME) == ELSEWHERE
 
 
 def test_a_dead_process_of_this_host_holds_nothing(part: Path) -> None:
@@ -99,7 +98,7 @@ def test_a_living_process_of_this_host_holds_it(part: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
         owner = Owner("ann", ME.host, other.pid, started(other.pid), "earlier")
         held(part, owner)
-        assert take(part, ME) == Held(owner)
+        assert take(part, ME) == owner
         other.communicate(b"\n")
     assert isinstance(take(part, ME), Lock)
 
@@ -153,7 +152,7 @@ def test_a_lock_that_is_being_written_is_waited_for(part: Path, monkeypatch: pyt
     lock_path(part).write_text('{"user"')
     written = json.dumps(vars_of(ELSEWHERE))
     monkeypatch.setattr("app.documents.lock.sleep", lambda _: lock_path(part).write_text(written))
-    assert take(part, ME) == Held(ELSEWHERE)
+    assert take(part, ME) == ELSEWHERE
 
 
 def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -163,7 +162,7 @@ def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytes
         raise PermissionError(errno.EACCES, "hidden")
 
     monkeypatch.setattr("app.documents.lock.read_file", hidden)
-    assert take(part, ME) == Held(UNKNOWN)
+    assert take(part, ME) == UNKNOWN
     assert take_over(part, ME).owner == ME
 
 
