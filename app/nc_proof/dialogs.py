@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar
 
 from textual import on, work
 from textual.app import ComposeResult
@@ -20,15 +20,11 @@ if TYPE_CHECKING:
     from core.pipeline.checking import Answer
 
 
-class Chosen(NamedTuple):
-    """One of the controls compared, by its full name: the program runs on it, or its path is drawn `dotted`."""
+class CompareControls(Dialog["tuple[str, bool] | None"]):
+    """What every control does with a program; Enter takes one, Space draws its path dotted.
 
-    control: str
-    dotted: bool
-
-
-class CompareControls(Dialog["Chosen | None"]):
-    """What every control does with a program; Enter takes one, Space draws its path dotted; None for neither."""
+    The result is the control's full name, and whether its path is to be drawn dotted; None for neither.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "dotted", "Draw dotted", show=False)]
     NOTHING: ClassVar[None] = None
@@ -71,7 +67,7 @@ class CompareControls(Dialog["Chosen | None"]):
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:
-        self.dismiss(Chosen(event.option_id or "", dotted=False))
+        self.dismiss((event.option_id or "", False))
 
     def action_dotted(self) -> None:
         """Draw the path of the control with the cursor, unless it reads another language."""
@@ -84,4 +80,4 @@ class CompareControls(Dialog["Chosen | None"]):
             wait.update(f"{answer.name} reads another language and has no path of this program to draw.")
             wait.display = True
         else:
-            self.dismiss(Chosen(answer.control, dotted=True))
+            self.dismiss((answer.control, True))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
@@ -598,12 +598,13 @@ class ProofScreen(BaseScreen):
         chosen = await self.app.push_screen_wait(CompareControls(self.question))
         if chosen is None:
             return
-        if not chosen.dotted:
-            self._ask(replace(self.question, control=chosen.control))
-        elif chosen.control == self.question.control:
+        control, dotted = chosen
+        if not dotted:
+            self._ask(replace(self.question, control=control))
+        elif control == self.question.control:
             self.say("The program runs on this control already. Choose another one to be drawn dotted.")
         else:
-            self.dotted_control = chosen.control
+            self.dotted_control = control
             self._ask_dotted()
             self._show_titles()
             self._draw()
@@ -624,15 +625,15 @@ class ProofScreen(BaseScreen):
 
         def refusal(text: str) -> str:
             typed = read_tool(text, named, self.unit)
-            return typed.reason if isinstance(typed, NoTool) and text.strip() else ""
+            return typed.reason if isinstance(typed, Unreadable) and text.strip() else ""
 
         text = await self.app.push_screen_wait(Phrase("TOOL DIAMETER", lines, refusal))
         typed = read_tool(text, named, self.unit)
         if isinstance(typed, CutterTool):
             self._with_tool(typed)
-        elif typed.tool is not None:
-            self._with_tools(self.given.without(typed.tool), self.question.tools.without(typed.tool))
-            self.say(f"Tool {typed.tool} has no diameter any more.")
+        elif not isinstance(typed, Unreadable):
+            self._with_tools(self.given.without(typed), self.question.tools.without(typed))
+            self.say(f"Tool {typed} has no diameter any more.")
 
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool, typed = tool.number, ToolTable.of(tool)
@@ -680,22 +681,14 @@ class ProofScreen(BaseScreen):
         )
 
 
-@dataclass(frozen=True, slots=True)
-class NoTool:
-    """A tool that has no diameter any more, or why what was typed is no tool."""
-
-    tool: ToolId | None = None
-    reason: str = ""
-
-
-def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | NoTool:
-    """A tool as typed, `2=.5`, `ROUGH=10` or a diameter alone; `2=` takes one away."""
+def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unreadable:
+    """A tool as typed, `2=.5`, `ROUGH=10` or a diameter alone; after `2=` the tool that has none any more."""
     found = _NAMED.fullmatch(text)
     tool, size = (tool_id(found[1]), found[2]) if found else (tool, text)
     if found and not size.strip():
-        return NoTool(tool)
+        return tool
     value = parse(size, Kind.LENGTH, unit)
-    return NoTool(reason=value.reason) if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
+    return value if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
 
 
 def _while_wanted(worker: Worker[object]) -> Progress:
