@@ -5,7 +5,7 @@ from __future__ import annotations
 from asyncio import CancelledError, to_thread
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import lru_cache, partial
 from math import dist
 from pathlib import Path
 from typing import ClassVar, Final, TypeVar
@@ -38,7 +38,6 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from core.controls.program_text import quoted
 from core.draw.characters import Mode
-from core.draw.scene import Layer
 from core.draw.view import View
 from core.geometry.piece import Line, Side
 from core.importing.contour import (
@@ -88,30 +87,22 @@ STAGES: Final = {
 """What a worker does, in words."""
 
 
-class Backdrop:
-    """All contours of a list as one layer; made in the thread that draws it first."""
-
-    def __init__(self, contours: Sequence[Contour]) -> None:
-        self.contours = tuple(contours)
-
-    @cached_property
-    def layer(self) -> Layer:
-        """The layer."""
-        return background(self.contours)
+_layer_of: Final = lru_cache(1)(background)
+"""All contours of a list as one layer; made in the thread that draws it first."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picked:
     """What the drawing shows: all contours dim, the chosen ones full; `view` is what somebody zoomed to."""
 
-    backdrop: Backdrop
+    backdrop: tuple[Contour, ...]
     chosen: tuple[Contour, ...]
     unit: Unit
     view: View | None = None
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """The picture in columns x rows cells."""
-        scene = contours_scene(self.backdrop.layer, self.chosen, self.unit)
+        scene = contours_scene(_layer_of(self.backdrop), self.chosen, self.unit)
         return SceneSubject(scene, self.unit, self.view).drawn(columns, rows, mode)
 
 
@@ -159,7 +150,7 @@ class ImportScreen(BaseScreen):
         self.lines: dict[int, Contour] = {}
         """The contours as they were before FIT ARCS, by number."""
         self._unfolded: set[int] = set()
-        self._backdrop = Backdrop(())
+        self._backdrop: tuple[Contour, ...] = ()
         self._working, self._stopped = "", False
         self._timer: Timer | None = None
         self._failed = ""
@@ -291,7 +282,7 @@ class ImportScreen(BaseScreen):
         self.marked.clear()
         self.lines.clear()
         self._unfolded.clear()
-        self._backdrop = Backdrop(listed.contours)
+        self._backdrop = listed.contours
         self.quiet()
         self._show_rows(1)
         if not listed.contours:
@@ -360,7 +351,7 @@ class ImportScreen(BaseScreen):
         self.refresh_frame()
         if self._timer is not None:
             self._timer.stop()
-        many = sum(len(contour.pieces) for contour in self._backdrop.contours) > MAX_PIECES
+        many = sum(len(contour.pieces) for contour in self._backdrop) > MAX_PIECES
         if many:
             self._timer = self.set_timer(PAUSE, self._draw)
         else:
@@ -522,7 +513,7 @@ class ImportScreen(BaseScreen):
     def _after_fit(self, text: str) -> None:
         assert self.listed is not None
         contour = self.contour
-        self._backdrop = Backdrop(self.listed.contours)
+        self._backdrop = self.listed.contours
         self._show_rows(0 if contour is None else contour.number)
         self.call_after_refresh(self.say, text)
 
