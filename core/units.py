@@ -132,10 +132,15 @@ def decimals_shown(kind: Kind, unit: Unit) -> int:
             return 0
 
 
+def plain(text: str) -> str:
+    """A text with a question mark in place of each character that does not print."""
+    return "".join(character if character.isprintable() else "?" for character in text)
+
+
 def printable(text: str) -> str:
     """Somebody's text as it may stand in a message: on one line, short, and nothing that moves a terminal's cursor."""
-    plain = "".join(character if character.isprintable() else "?" for character in text.strip())
-    return plain if len(plain) <= MAX_QUOTED else f"{plain[:MAX_QUOTED]}..."
+    whole = plain(text.strip())
+    return whole if len(whole) <= MAX_QUOTED else f"{whole[:MAX_QUOTED]}..."
 
 
 def sentence(finding: Finding, unit: Unit) -> str:

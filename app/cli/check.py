@@ -19,16 +19,9 @@ from shlex import quote
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
-from app.cli.control_options import (
-    add_options,
-    bytes_of,
-    control_of,
-    name_of,
-    printable,
-    tools_of,
-    unit_of,
-)
+from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
 from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, Unusable, reported, say
+from app.documents.folders import printable_path
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
 from core.controls.control_tools import commented_size
@@ -95,9 +88,9 @@ def _programs(files: list[Path]) -> Iterator[Path]:
         found = sorted(one for one in every if _is_program(one))
         if found and len(found) < len(every):
             others = {one.suffix.lower() or one.name for one in every if not _is_program(one)}
-            names = " ".join(map(printable, sorted(others)[:MOST_NAMES]))
+            names = " ".join(map(printable_path, sorted(others)[:MOST_NAMES]))
             count = counted(len(every) - len(found), "file")
-            text = f"{name_of(path)}: {count} left out that are no programs by their names: {names}"
+            text = f"{printable_path(path)}: {count} left out that are no programs by their names: {names}"
             say(text)
         yield from found or [path]
 
@@ -120,7 +113,7 @@ class _Checked:
 def _one(path: Path, asked: Asked) -> _Checked:
     try:
         if path.is_dir():
-            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(sorted(NC_SUFFIXES))}).")
+            raise Unusable(f"{printable_path(path)} is a folder without programs ({' '.join(sorted(NC_SUFFIXES))}).")
         text = bytes_of(path)
     except Unusable as trouble:
         return _Checked(path, unusable=str(trouble))
@@ -256,7 +249,7 @@ def _as_summary(answers: Iterator[_Checked]) -> int:
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            print(f"{name_of(checked.path)}: {one.name}: {one.outcome_and_warnings}", flush=True)
+            print(f"{printable_path(checked.path)}: {one.name}: {one.outcome_and_warnings}", flush=True)
         warned += found == CLEAN and any(one.warnings for one in checked.answers)
     print(f"{sum(counts.values())} files: {counts[CLEAN] - warned} clean, {warned} with warnings, ", end="")
     print(f"{counts[FINDINGS]} with errors, {counts[UNUSABLE]} not readable.")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from app.cli.shell import Unusable
 from app.documents.files import read_file, why
+from app.documents.folders import printable_path
 from app.documents.nc_text import MAX_NC_BYTES
 from core.controls.control_tools import CutterTool, ToolTable, read_table, tool_id
 from core.controls.program_text import quoted
@@ -57,7 +58,7 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
     if options.tools is not None:
         table, findings = read_table(bytes_of(options.tools))
         if findings:
-            raise Unusable(table_faults(name_of(options.tools), findings))
+            raise Unusable(table_faults(printable_path(options.tools), findings))
     return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
 
 
@@ -81,14 +82,4 @@ def bytes_of(path: Path) -> bytes:
     try:
         return read_file(path, MAX_NC_BYTES)[0]
     except (OSError, ValueError) as error:
-        raise Unusable(f"{name_of(path)}: {why(error)}") from error
-
-
-def name_of(path: Path) -> str:
-    """A file's name fit for a terminal."""
-    return printable(str(path))
-
-
-def printable(text: str) -> str:
-    """A text fit for a terminal."""
-    return "".join(one if one.isprintable() else "?" for one in text)
+        raise Unusable(f"{printable_path(path)}: {why(error)}") from error

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.naming import is_folder
+from core.units import plain
 
 MAX_PATH_IN_SENTENCE: Final = 60
 """Characters of a path in a sentence."""
@@ -46,7 +47,7 @@ def written_at(path: Path) -> str:
 
 def printable_path(path: Path | str) -> str:
     """A whole path without control characters."""
-    return "".join(character if character.isprintable() else "?" for character in str(path))
+    return plain(str(path))
 
 
 def short_path(path: Path | str) -> str:

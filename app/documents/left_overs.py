@@ -18,6 +18,7 @@ from app.documents.files import NotAFileError, read_file
 from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, read_journal
 from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
+from core.units import plain
 
 MAX_KEPT_COPIES: Final = 20
 """So many kept copies are listed, the last ones; the folder holds the others."""
@@ -237,7 +238,7 @@ def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:
     dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
     of_kind = [(time, path) for time, path in dated if _may_be(path, kind, folder, state)]
     return [
-        KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of(time), _plain(_file_name(path)))
+        KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of(time), plain(_file_name(path)))
         for time, path in sorted(of_kind, reverse=True)[:MAX_KEPT_COPIES]
     ]
 
@@ -288,7 +289,3 @@ def _file_name(path: Path) -> str:
     if name.startswith("."):
         return name[1:]
     return UNNAMED if name.startswith("unnamed-") else name.rpartition("-")[0]
-
-
-def _plain(name: str) -> str:
-    return "".join(character if character.isprintable() else "?" for character in name)

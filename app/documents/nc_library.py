@@ -10,6 +10,7 @@ from typing import Final
 
 from app.documents.files import read_file, read_start
 from app.documents.nc_text import MAX_NC_BYTES, NC_SUFFIXES
+from core.units import plain
 
 PROGRAM_FILE_NAMES: Final = (
     *("O{0:04}", "O{0:04}.nc", "{0:04}.nc", "{0}.nc"),
@@ -43,7 +44,7 @@ class FolderLibrary:
             text = read_file(path, MAX_NC_BYTES)[0]
         except (OSError, ValueError):
             return None
-        return "".join(sign if sign.isprintable() else "?" for sign in path.name), text
+        return plain(path.name), text
 
     def _labeled(self, label: str) -> Path | None:
         """The file that has the label's name; one in another folder is none of them."""

@@ -11,7 +11,7 @@ from app.documents.files import TooLargeError, read_file, why
 from core.program.file.read import StoreError
 from core.program.model import Number, Program, Tool
 from core.program.tools import ImportedTools, decode_table, read_tool_table
-from core.units import Kind, Unit, show
+from core.units import Kind, Unit, plain, show
 
 MAX_TABLE_BYTES: Final = 1_000_000
 """Bytes of the largest tool table."""
@@ -37,5 +37,4 @@ def merged(program: Program, tools: Iterable[Tool]) -> Program:
 def tool_line(tool: Tool, unit: Unit) -> str:
     """One line of the table."""
     size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Number) else "no diameter"
-    kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
-    return f"T{tool.number:<5} {size:>11} {unit}  {kind}"
+    return f"T{tool.number:<5} {size:>11} {unit}  {plain(tool.type)}"
