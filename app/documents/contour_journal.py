@@ -143,12 +143,12 @@ class ContourReplay:
 def delta(old: Program, new: Program) -> dict[str, Any]:
     """What makes `new` of `old`, as values for JSON."""
     changes: dict[str, Any] = {} if old.unit is new.unit else {"unit": str(new.unit)}
-    for part in _PLAIN_PARTS:
+    for part in ("parameters", "setup"):
         before, after = getattr(old, part), getattr(new, part)
         if before is not after:
             changes[part] = difference(before, after)
     if old.tools is not new.tools:
-        changes["tools"] = _spliced(old.tools, new.tools, packed_tool)
+        changes["tools"] = _spliced(old.tools, new.tools, partial(difference, EMPTY_TOOL))
     return changes if old.blocks is new.blocks else changes | _blocks(old.blocks, new.blocks)
 
 
@@ -169,35 +169,27 @@ def _spliced(old: tuple[Item, ...], new: tuple[Item, ...], pack: Callable[[Item]
 
 def applied(program: Program, values: object) -> Program:
     """The program with a delta put in; DamagedError for anything that is none or does not fit."""
-    if not isinstance(values, dict) or not values.keys() <= _PARTS.keys():
+    if not isinstance(values, dict):
         raise DamagedError
     for name, value in values.items():
-        program = _PARTS[name](program, value)
+        program = _with_part(program, name, value)
     return program
 
 
-def _unit_put(program: Program, value: object) -> Program:
-    return replace(program, unit=_word_of(Unit, value))
-
-
-def _part_put(name: str, program: Program, value: object) -> Program:
-    return replace(program, **{name: altered(getattr(program, name), value)})
-
-
-def _tools_put(program: Program, value: object) -> Program:
-    tools = _put(program.tools, value, tool_of)
-    if len({tool.number for tool in tools}) < len(tools):
-        raise DamagedError
-    return replace(program, tools=tools)
-
-
-def _blocks_put(program: Program, value: object) -> Program:
-    return replace(program, blocks=_put(program.blocks, value, block_of))
-
-
-def _block_put(program: Program, value: object) -> Program:
-    match value:
-        case [int(at), dict(typed), list(segments)] if 0 <= at < len(program.blocks):
+def _with_part(program: Program, name: str, value: object) -> Program:
+    match name, value:
+        case "unit", _:
+            return replace(program, unit=_word_of(Unit, value))
+        case (("parameters" | "setup"), _):
+            return replace(program, **{name: altered(getattr(program, name), value)})
+        case "tools", _:
+            tools = _put(program.tools, value, partial(altered, EMPTY_TOOL))
+            if len({tool.number for tool in tools}) < len(tools):
+                raise DamagedError
+            return replace(program, tools=tools)
+        case "blocks", _:
+            return replace(program, blocks=_put(program.blocks, value, block_of))
+        case "block", [int(at), dict(typed), list(segments)] if 0 <= at < len(program.blocks):
             block = altered(program.blocks[at], typed)
             block = changed(block, {"segments": _put(block.segments, segments, segment_of)})
             return replace(program, blocks=(*program.blocks[:at], block, *program.blocks[at + 1 :]))
@@ -213,15 +205,7 @@ def _put(old: tuple[Item, ...], value: object, unpack: Callable[[object], Item])
             raise DamagedError
 
 
-_PLAIN_PARTS: Final = ("parameters", "setup")
-"""The parts of a program that are one record of fields each."""
-_PARTS: Final[Mapping[str, Callable[[Program, object], Program]]] = MappingProxyType(
-    {"unit": _unit_put, "tools": _tools_put, "blocks": _blocks_put, "block": _block_put}
-    | {name: partial(_part_put, name) for name in _PLAIN_PARTS}
-)
-
-
-# ---- blocks, segments, tools
+# ---- blocks, segments
 
 
 def packed_block(block: Block) -> list[Any]:
@@ -251,16 +235,6 @@ def segment_of(values: object) -> Segment:
             return altered(EMPTY[kind], typed)
         case _:
             raise DamagedError
-
-
-def packed_tool(tool: Tool) -> dict[str, Any]:
-    """A line of the tool table."""
-    return difference(EMPTY_TOOL, tool)
-
-
-def tool_of(values: object) -> Tool:
-    """The tool of `packed_tool`."""
-    return altered(EMPTY_TOOL, values)
 
 
 # ---- fields
