@@ -50,7 +50,6 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
 
     @on(Compared)
     def _compared(self, event: Compared) -> None:
-        event.stop()
         self.query_one("#compare-wait").display = False
         self.answers = event.answers
         rows = self.query_one("#compared", OptionList)

@@ -277,9 +277,8 @@ class ProofScreen(BaseScreen):
             self.host.close_nc(self.document)
 
     @on(Listing.SelectionChanged)
-    def _moved(self, event: Listing.SelectionChanged) -> None:
+    def _moved(self) -> None:
         """A line is taken when the cursor leaves it; the cutter goes to the line's end."""
-        event.stop()
         if self.query_one(Listing).row != self.document.row:
             self.quiet()
             self._follow_cursor()
@@ -337,7 +336,6 @@ class ProofScreen(BaseScreen):
 
     @on(Ran)
     def _ran(self, event: Ran) -> None:
-        event.stop()
         if not self.stands or event.result.question is not self.question:
             return
         held = self._finding_in_hand()
@@ -381,7 +379,6 @@ class ProofScreen(BaseScreen):
 
     @on(RanDotted)
     def _ran_dotted(self, event: RanDotted) -> None:
-        event.stop()
         other = event.dotted.result
         if self.stands and event.question is self.question and other.question.control == self.dotted_control:
             self._end_dotted()
@@ -515,13 +512,11 @@ class ProofScreen(BaseScreen):
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:
-        event.stop()
         if event.option_list.has_focus and event.option_index < len(self.result_findings):
             self._take_finding(event.option_index)
 
     @on(OptionList.OptionSelected, "#proof-findings")
-    def _finding_selected(self, event: OptionList.OptionSelected) -> None:
-        event.stop()
+    def _finding_selected(self) -> None:
         self.query_one(Listing).focus()
 
     def action_other_panel(self) -> None:

@@ -48,7 +48,6 @@ class Calculator(Dialog[str]):
 
     @on(Input.Changed)
     def _typing(self, event: Input.Changed) -> None:
-        event.stop()
         self.typed[event.input.name or ""] = event.value
         self._show()
 
@@ -80,7 +79,6 @@ class Calculator(Dialog[str]):
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
         """To the next number; after the last one to the answers, or to what is wrong."""
-        event.stop()
         inputs = list(self.query(Input))
         after = inputs[inputs.index(event.input) + 1 :]
         results = calculate(self.case, self.typed, self.unit)

@@ -331,7 +331,6 @@ class ContourScreen(FormScreen):
         """A click on the number of a finding takes it in hand, any other goes to the nearest segment."""
         from core.pipeline.plot import nearest_segment
 
-        event.stop()
         places = [entry for entry in self.entries if entry.at is not None]
         reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
         near = [at for at, entry in enumerate(places) if entry.at is not None and dist(entry.at, event.at) <= reach]
@@ -374,20 +373,17 @@ class ContourScreen(FormScreen):
     @on(DataTable.RowHighlighted)
     def _segment_highlighted(self, event: DataTable.RowHighlighted) -> None:
         """The row of the list and SEGMENT of the form are one cursor; rows it has left by now are passed over."""
-        event.stop()
         late = event.cursor_row != event.data_table.cursor_row
         if event.data_table.has_focus and not late and event.cursor_row != self.current_session.place.segment:
             place = FormPlace(self.current_session.place.block, event.cursor_row)
             self.host.move(place, None)
 
     @on(DataTable.RowSelected)
-    def _segment_selected(self, event: DataTable.RowSelected) -> None:
-        event.stop()
+    def _segment_selected(self) -> None:
         self.focus_field(self.names()[1])
 
     @on(FindingsList.Stepped)
     def _finding_stepped(self, message: FindingsList.Stepped) -> None:
-        message.stop()
         if not self.query_one(FindingsList).has_focus:
             return
         entry = self.entries[message.number]
@@ -398,7 +394,6 @@ class ContourScreen(FormScreen):
     @on(FindingsList.Chosen)
     def _finding_chosen(self, message: FindingsList.Chosen) -> None:
         """To the field that a finding is about."""
-        message.stop()
         entry = message.entry
         self.go(entry.segment or 0, entry.field or SEGMENT)
 
@@ -596,7 +591,6 @@ class ContourScreen(FormScreen):
     @on(NumberField.Letter)
     def _letter(self, message: NumberField.Letter) -> None:
         """A segment in which nothing is typed becomes one of another kind; after any other a new one is made."""
-        message.stop()
         session, kind = self.current_session, NEW_SEGMENTS[message.letter]
         segment = session.segment
         if segment is None or not is_empty(segment):
@@ -629,7 +623,6 @@ class ContourScreen(FormScreen):
     @on(ChoiceField.Blanked)
     def _blanked(self, event: ChoiceField.Blanked) -> None:
         """Del makes COOLANT blank again; all other choices always hold one."""
-        event.stop()
         field = self._field(event.name)
         if field is not None:
             self.quiet()

@@ -170,7 +170,6 @@ class Phrase(Dialog[str]):
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
-        event.stop()
         if self.refusal is not None and (refused := self.refusal(event.value)):
             self.query_one("#phrase-trouble", Static).update(refused)
         else:
@@ -233,7 +232,6 @@ class NumberForm(Dialog[tuple[float, ...]]):
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
-        event.stop()
         inputs = list(self.query(Input))
         here = inputs.index(event.input)
         value = self.entries[here].read(event.value, self.unit)

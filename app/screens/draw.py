@@ -291,7 +291,6 @@ class DrawScreen(BaseScreen):
         """A click chooses the nearest segment; with the cross shown it puts the cross there."""
         from core.pipeline.plot import nearest_segment
 
-        event.stop()
         if self.cross is not None:
             self._show_cross(event.at)
             return

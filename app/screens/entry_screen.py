@@ -75,10 +75,6 @@ class EntryScreen(BaseScreen):
             self.query_one("#entry", Input).select_all()
 
     @on(Input.Submitted, "#entry")
-    def _submitted(self, event: Input.Submitted) -> None:
-        event.stop()
-        self.action_enter()
-
     def action_enter(self) -> None:
         """Take the name."""
         if not self.text:

@@ -140,14 +140,12 @@ class FormScreen(BaseScreen):
         return True
 
     @on(Input.Submitted)
-    def _entered(self, event: Input.Submitted) -> None:
-        event.stop()
+    def _entered(self) -> None:
         self.action_accept()
 
     @on(Input.Changed)
     def _typing(self, event: Input.Changed) -> None:
         """Try a half-typed number out: the verdict and the drawings show what it would do."""
-        event.stop()
         widget, field = event.input, self._field(event.input.name or "")
         if widget is not self.current or not isinstance(widget, NumberField):
             return
@@ -163,7 +161,6 @@ class FormScreen(BaseScreen):
     @on(Input.Blurred)
     def _left(self, event: Input.Blurred) -> None:
         """A field that a click has left with something typed in it is taken all the same."""
-        event.stop()
         widget, field = event.input, self._field(event.input.name or "")
         if (
             isinstance(widget, NumberField)
@@ -175,7 +172,6 @@ class FormScreen(BaseScreen):
 
     @on(Select.Changed)
     def _picked(self, event: Select.Changed) -> None:
-        event.stop()
         field, text = self._field(event.select.name or ""), event.value if isinstance(event.value, str) else ""
         if field is None or text == self.picked_text(field):
             return
@@ -207,7 +203,6 @@ class FormScreen(BaseScreen):
 
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
-        event.stop()
         self.say(f"{event.letter} is not a choice: left and right change it.", Tone.ERROR)
 
     # ---- keys

@@ -170,7 +170,6 @@ class HomeScreen(BaseScreen):
 
     @on(Surveyed)
     def _surveyed(self, event: Surveyed) -> None:
-        event.stop()
         if not self.stands or self.facts.get(event.facts.path) == event.facts:
             return
         self.facts[event.facts.path] = event.facts
@@ -224,10 +223,6 @@ class HomeScreen(BaseScreen):
     # ---- keys
 
     @on(DataTable.RowSelected)
-    def _selected(self, event: DataTable.RowSelected) -> None:
-        event.stop()
-        self.action_open()
-
     def action_open(self) -> None:
         """Open the program with the cursor, or go into the folder."""
         each = self.chosen

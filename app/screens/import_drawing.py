@@ -391,16 +391,10 @@ class ImportScreen(BaseScreen):
         return Content(f" {len(contour.layers)} layers: {', '.join(contour.layers)}" if len(contour.layers) > 1 else "")
 
     @on(DataTable.RowHighlighted)
-    def _highlighted(self, event: DataTable.RowHighlighted) -> None:
-        event.stop()
+    def _highlighted(self) -> None:
         if not self._failed:
             self.quiet()
         self._show_row()
-
-    @on(DataTable.RowSelected)
-    def _selected(self, event: DataTable.RowSelected) -> None:
-        event.stop()
-        self.action_take()
 
     def action_mark(self) -> None:
         """Mark the row with the cursor, or take its mark off."""
@@ -438,14 +432,12 @@ class ImportScreen(BaseScreen):
         self.refresh_frame()
 
     @on(Input.Changed, "#filter")
-    def _filtered(self, event: Input.Changed) -> None:
-        event.stop()
+    def _filtered(self) -> None:
         contour = self.contour
         self._show_rows(0 if contour is None else contour.number)
 
     @on(Input.Submitted, "#filter")
     def _filter_done(self, event: Input.Submitted) -> None:
-        event.stop()
         self.table.focus()
         self.set_class(bool(event.value.strip()), "-filtering")
         self.refresh_frame()
@@ -621,6 +613,7 @@ class ImportScreen(BaseScreen):
 
     # ---- take
 
+    @on(DataTable.RowSelected)
     @work(exclusive=True, group="question")
     async def action_take(self) -> None:
         """Make a block of each contour that is chosen, in one edit."""

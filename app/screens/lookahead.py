@@ -106,9 +106,6 @@ class LookaheadScreen(BaseScreen):
         drawing.subject = Subject(session.derived_block, session.program.unit, row=row, near=near)
 
     @on(DataTable.RowSelected)
-    def _selected(self) -> None:
-        self.action_take()
-
     def action_take(self) -> None:
         """The value with the cursor becomes CUTCOMP LOOKAHEAD, typed."""
         row, session = self.row, self.current_session

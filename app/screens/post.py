@@ -97,14 +97,12 @@ class PostScreen(EntryScreen):
 
     @on(OptionList.OptionHighlighted, "#post-controls")
     def _control_chosen(self, event: OptionList.OptionHighlighted) -> None:
-        event.stop()
         if event.option_id is not None and event.option_id != self.choice:
             self.choice = event.option_id
             self._make(self.current_session.program)
 
     @on(OptionList.OptionSelected, "#post-controls")
-    def _control_taken(self, event: OptionList.OptionSelected) -> None:
-        event.stop()
+    def _control_taken(self) -> None:
         self.query_one("#entry").focus()
 
     def action_controls(self) -> None:
@@ -140,7 +138,6 @@ class PostScreen(EntryScreen):
 
     @on(NcMade)
     def _nc_made(self, event: NcMade) -> None:
-        event.stop()
         if not self.stands:
             return
         if event.program is self.current_session.program and event.choice == self.choice and not self.stopped:

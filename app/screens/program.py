@@ -106,7 +106,6 @@ class ProgramScreen(BaseScreen):
     @on(Timed)
     def _timed(self, event: Timed) -> None:
         """The times in the title of the drawing and at the number of blocks."""
-        event.stop()
         if not self.stands or event.derived is not self.current_session.derived:
             return
         self.times = event.blocks
@@ -162,7 +161,6 @@ class ProgramScreen(BaseScreen):
 
     @on(DataTable.RowSelected)
     def _edit_block(self, event: DataTable.RowSelected) -> None:
-        event.stop()
         self._edit(event.cursor_row + 1)
 
     def _edit(self, number: int) -> None:
