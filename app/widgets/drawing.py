@@ -6,6 +6,7 @@ waits for it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Final, Protocol
 
@@ -84,19 +85,18 @@ class Drawing(Widget):
     characters: reactive[str] = reactive("braille", repaint=False)
     heading: reactive[str] = reactive("", repaint=False)
 
+    @dataclass
     class Picked(Message):
         """A place of the drawing was clicked: its point in millimeters."""
 
-        def __init__(self, drawing: Drawing, at: Point) -> None:
-            super().__init__()
-            self.drawing, self.at = drawing, at
+        drawing: Drawing
+        at: Point
 
+    @dataclass
     class Wheel(Message):
         """The wheel was turned: `steps` is 1 to enlarge, -1 to shrink."""
 
-        def __init__(self, steps: int) -> None:
-            super().__init__()
-            self.steps = steps
+        steps: int
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)

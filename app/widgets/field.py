@@ -88,12 +88,11 @@ class NumberField(LineInput):
         self.letters = ""
         """Letters that are no part of a number: as the first character they are commands to the screen."""
 
+    @dataclass
     class Letter(Message):
         """A letter that is a command was typed."""
 
-        def __init__(self, letter: str) -> None:
-            super().__init__()
-            self.letter = letter
+        letter: str
 
     def on_key(self, event: events.Key) -> None:
         """A letter that is a command is not typed."""
@@ -172,19 +171,18 @@ class ChoiceField(Select[str], inherit_bindings=False):
         Binding("delete,backspace", "blank", "Blank again", show=False),
     ]
 
+    @dataclass
     class Blanked(Message):
         """The choice is to be blank again, which not every field can be."""
 
-        def __init__(self, name: str) -> None:
-            super().__init__()
-            self.name = name
+        name: str
 
+    @dataclass
     class Unknown(Message):
         """A letter was typed that no choice begins with."""
 
-        def __init__(self, name: str, letter: str) -> None:
-            super().__init__()
-            self.name, self.letter = name, letter
+        name: str
+        letter: str
 
     def __init__(
         self, name: str, choices: Sequence[str], text: str = "", *, prompt: str = "", blank: bool = False

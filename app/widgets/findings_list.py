@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from textwrap import fill
 from typing import ClassVar
 
@@ -56,19 +57,17 @@ class FindingsList(OptionRows):
     entries: reactive[tuple[Entry, ...]] = reactive((), repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
 
+    @dataclass
     class Chosen(Message):
         """A finding was chosen: the cursor is to go to its place."""
 
-        def __init__(self, entry: Entry) -> None:
-            super().__init__()
-            self.entry = entry
+        entry: Entry
 
+    @dataclass
     class Stepped(Message):
         """Another finding is in hand."""
 
-        def __init__(self, number: int) -> None:
-            super().__init__()
-            self.number = number
+        number: int
 
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)

@@ -50,12 +50,11 @@ class Softkey:
 class SoftkeyLabel(PlainText):
     """One softkey as it is shown; a click presses it."""
 
+    @dataclass
     class Pressed(Message):
         """A softkey was clicked."""
 
-        def __init__(self, number: int) -> None:
-            super().__init__()
-            self.number = number
+        number: int
 
     def __init__(self, number: int, key: Softkey | None) -> None:
         super().__init__(id=f"f{number}")
