@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
     from core.advice.lookahead_table import Table
-    from core.output.nc import Posted, Refusal
+    from core.output.nc import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
 DASH: Final = "-"
@@ -123,11 +123,14 @@ def post(options: argparse.Namespace) -> int:
     """`cutcomp post`: NC text, or the reasons why there is none."""
     from app.session.posting import refusals
     from core.output.nc import Posted
+    from core.pipeline.post import post_center_path, post_control_program
     from core.pipeline.unit_question import unit_question
 
-    control = _control(options)
-    derived = _derived(options.file)
-    result = _nc_text(derived, _name(options.file), options.override, control)
+    control, derived, name = _control(options), _derived(options.file), _name(options.file)
+    if control is None:
+        result = post_center_path(derived, name=name, override=options.override)
+    else:
+        result = post_control_program(derived, name=name, control=control)
     _report(derived, None)
     if question := unit_question(derived):
         say(f"{question.severity}: {sentence(question, derived.program.unit)}")
@@ -141,15 +144,6 @@ def post(options: argparse.Namespace) -> int:
         say(f"{note.severity}: {sentence(note, derived.program.unit)}")
     _deliver(result.text, options.output)
     return _status(derived, None)
-
-
-def _nc_text(derived: Derived, name: str, override: str | None, control: str | None) -> Posted | Refusal:
-    """The path of the tool's center, or the program of a control that compensates by itself, by its full name."""
-    from core.pipeline.post import post_center_path, post_control_program
-
-    if control is not None:
-        return post_control_program(derived, name=name, control=control)
-    return post_center_path(derived, name=name, override=override)
 
 
 def _words(result: Refusal, options: argparse.Namespace) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
@@ -16,7 +15,6 @@ from app.documents.files import load, save, write_output
 from app.documents.lock import Owner, myself, release, take
 from app.documents.questions import held_sentence
 from app.documents.tool_tables import merged, read_table, tool_line
-from core.finding import Finding
 from core.program.file.read import StoreError
 from core.program.model import Program
 from core.program.tools import table_faults
@@ -95,7 +93,8 @@ def _imported(options: argparse.Namespace) -> int:
         say(table_faults(str(options.table), table.errors))
         say("nothing was imported.")
         return UNUSABLE
-    _warn(options.table, table.findings)
+    for one in table.findings:
+        say(f"{options.table}, line {one.line}, column {one.column}: warning: {one.text}")
     program = merged(program, table.tools)
     save(program, options.file)
     return _listed(program)
@@ -105,11 +104,6 @@ def _listed(program: Program) -> int:
     for tool in program.tools:
         print(tool_line(tool, program.unit))
     return CLEAN
-
-
-def _warn(path: Path, findings: Iterable[Finding]) -> None:
-    for one in findings:
-        say(f"{path}, line {one.line}, column {one.column}: warning: {one.text}")
 
 
 def serve(options: argparse.Namespace) -> int:

@@ -74,8 +74,10 @@ class Journal:
 def beginning(kind: Kind, head: Head, work: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
     """The lines of a journal that begins with all of this work."""
     at: Record = {"at": place, "time": time}
+    stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
+    whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
     records = iter(work)
-    yield {"journal": FORMAT, "kind": kind, **_head_values(head), **next(records), **at}
+    yield {"journal": FORMAT, "kind": kind, **whose, **next(records), **at}
     for record in records:
         yield {**record, **at}
 
@@ -83,11 +85,6 @@ def beginning(kind: Kind, head: Head, work: Iterable[Record], place: Place, time
 def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
     """The lines of further edits."""
     return ({**record, "at": place, "time": time} for record in records)
-
-
-def _head_values(head: Head) -> Record:
-    stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
-    return {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
 
 
 def read_journal(data: bytes) -> Journal | None:

@@ -117,15 +117,12 @@ def leaving(title: str, documents: Sequence[Document]) -> Ask | None:
     unsaved = [document for document in documents if document.unsaved]
     if not unsaved:
         return None
-    lines = tuple(f"{name_of(document)} {_loss(document)}" for document in unsaved)
+    lines = tuple(
+        f"{name_of(document)} {'was never saved' if document.file.path is None else 'has changes that are not saved'}."
+        for document in unsaved
+    )
     answers = (Answer(DISCARD, "the changes are lost"), Answer(SAVE, "then go on"))
     return Ask(title, lines, answers)
-
-
-def _loss(document: Document) -> str:
-    if document.file.path is None:
-        return "was never saved."
-    return "has changes that are not saved."
 
 
 def not_answering() -> Ask:

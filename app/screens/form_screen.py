@@ -210,14 +210,8 @@ class FormScreen(BaseScreen):
     def action_step(self, by: int) -> None:
         """Take the field and go to the next one, or to the one before, round."""
         self.quiet()
-        if self.take():
-            self.step_from(self.current.name or "" if self.current is not None else "", by)
-
-    def step_from(self, name: str, by: int) -> None:
-        """The cursor to the field after or before this one."""
-        names = self.names()
-        here = names.index(name) if name in names else -1
-        if names:
+        if self.take() and (names := self.names()):
+            here = names.index(self.current.name) if self.current is not None and self.current.name in names else -1
             self.focus_field(names[(here + by) % len(names)])
 
     def action_accept(self) -> None:

@@ -108,7 +108,8 @@ class HomeScreen(BaseScreen):
         try:
             self.listed, self.trouble = programs_of(folder), ""
         except OSError as error:
-            self.trouble = f"{short_path(folder)} cannot be shown: {_why_not(error)}"
+            reason = f"{error}." if isinstance(error, TimeoutError) else why(error)
+            self.trouble = f"{short_path(folder)} cannot be shown: {reason}"
             self.listed = tuple(example_programs())
         self.folder = folder
         self.query_one("#folder", Static).update(
@@ -274,7 +275,3 @@ class HomeScreen(BaseScreen):
         facts = None if each is None else self.facts.get(each.path)
         trouble = self.trouble or ("" if facts is None else facts.trouble)
         return Sentence(trouble, Tone.WARNING) if trouble else Sentence(PROMPT)
-
-
-def _why_not(error: OSError) -> str:
-    return f"{error}." if isinstance(error, TimeoutError) else why(error)

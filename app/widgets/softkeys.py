@@ -74,10 +74,6 @@ class SoftkeyLabel(PlainText):
         self.post_message(self.Pressed(self.number))
 
 
-def _legend_line(sign: str, role: str, meaning: str) -> Content:
-    return Content.assemble("  ", (sign, role), f"  {meaning}")
-
-
 def _label(number: int, key: Softkey | None, acts: bool) -> Text:
     cap = (f" F{number} ", "reverse bold" if acts else "dim")
     if key is None:
@@ -113,7 +109,8 @@ class Softkeys(Vertical):
         yield from self._labels
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
         yield PlainText(Text("\n").join(more), id="more")
-        yield PlainText(Content("\n").join(_legend_line(*line) for line in LEGEND), id="legend")
+        legend = [Content.assemble("  ", (sign, role), f"  {meaning}") for sign, role, meaning in LEGEND]
+        yield PlainText(Content("\n").join(legend), id="legend")
 
     def on_mount(self) -> None:
         """Show the keys as they are."""
