@@ -25,8 +25,10 @@ class WorkActions(App[int]):
             self._work_timer = self.set_interval(SHOWN_AFTER, self.show_work)
         return work
 
-    def end_work(self, work: Work) -> None:
-        """It is done, or its result is not wanted any more: then its thread stops at its next word."""
+    def end_work(self, work: Work | None) -> None:
+        """It is done, or its result is not wanted any more: then its thread stops at its next word; None is no work."""
+        if work is None:
+            return
         work.stopped = True
         self._works = tuple(each for each in self._works if each is not work)
         if not self._works and self._work_timer is not None:

@@ -79,10 +79,8 @@ class ProofScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("enter", "edit", "Edit", show=False),
         Binding("escape", "leave", "Back", show=False),
-        Binding("n,N", "finding(1)", "Next finding", show=False),
-        Binding("p,P", "finding(-1)", "Finding before", show=False),
-        Binding("ctrl+n", "finding(1)", "Next finding", show=False),
-        Binding("ctrl+p", "finding(-1)", "Finding before", show=False),
+        Binding("n,N,ctrl+n", "finding(1)", "Next finding", show=False),
+        Binding("p,P,ctrl+p", "finding(-1)", "Finding before", show=False),
         Binding("c,C", "control", "Choose control", show=False),
         Binding("t,T", "tool", "Tool diameter", show=False),
         Binding("v,V", "compare", "Compare controls", show=False),
@@ -301,8 +299,7 @@ class ProofScreen(BaseScreen):
         if self.dotted_control == question.control:
             self.dotted_control = ""
         self._end_dotted()
-        if self._work is not None:
-            self.host.end_work(self._work)
+        self.host.end_work(self._work)
         self._work = self.host.begin_work(self._run_stopped)
         self._show_titles()
         self._run(question, self._work)
@@ -324,8 +321,7 @@ class ProofScreen(BaseScreen):
 
     def on_unmount(self) -> None:
         """Nobody waits for the result any more."""
-        if self._work is not None:
-            self.host.end_work(self._work)
+        self.host.end_work(self._work)
         self._end_dotted()
 
     def _run_stopped(self) -> None:
@@ -373,8 +369,7 @@ class ProofScreen(BaseScreen):
 
     def _end_dotted(self) -> None:
         """No path of another control is known, nor waited for."""
-        if self._dotted_work is not None:
-            self.host.end_work(self._dotted_work)
+        self.host.end_work(self._dotted_work)
         self._dotted_work = self.dotted = None
 
     @on(RanDotted)

@@ -91,8 +91,8 @@ class Host(Protocol):
     def begin_work(self, on_stop: Callable[[], None]) -> Work:
         """A piece of work begins in a thread; `on_stop` is called where Esc stops it."""
 
-    def end_work(self, work: Work) -> None:
-        """It is done, or its result is not wanted any more."""
+    def end_work(self, work: Work | None) -> None:
+        """It is done, or its result is not wanted any more; None is no work."""
 
     @property
     def guided(self) -> bool:

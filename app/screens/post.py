@@ -111,8 +111,7 @@ class PostScreen(EntryScreen):
 
     def _make(self, program: Program) -> None:
         self.made, self.stopped, self._program = None, False, program
-        if self._work is not None:
-            self.host.end_work(self._work)
+        self.host.end_work(self._work)
         self._work = self.host.begin_work(self._make_stopped)
         self._show()
         self._make_in_thread(program, self.choice, self._work)
@@ -128,8 +127,7 @@ class PostScreen(EntryScreen):
 
     def on_unmount(self) -> None:
         """Nobody waits for the result any more."""
-        if self._work is not None:
-            self.host.end_work(self._work)
+        self.host.end_work(self._work)
 
     def _make_stopped(self) -> None:
         """Esc has stopped it: Enter begins again."""
@@ -141,9 +139,8 @@ class PostScreen(EntryScreen):
         if not self.stands:
             return
         if event.program is self.current_session.program and event.choice == self.choice and not self.stopped:
-            if self._work is not None:
-                self.host.end_work(self._work)
-                self._work = None
+            self.host.end_work(self._work)
+            self._work = None
             self.made = event.made
             self._show()
 

@@ -55,10 +55,10 @@ class Session:
     look_only: bool = False
 
     @staticmethod
-    def of(program: Program, file: Path | None = None, *, saved: Program | None = None, title: str = "") -> Session:
+    def of(program: Program, title: str = "") -> Session:
         """A session that begins with this program, the cursor on START of block 1."""
-        held = program if saved is None else saved
-        return Session(History(program), held, outline(program), Cursor(field=_first_field(program)), file, title)
+        cursor = Cursor(field=_first_field(program))
+        return Session(History(program), program, outline(program), cursor, title=title)
 
     @staticmethod
     def of_history(

@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Final, Protocol
 
 from rich.segment import Segment
-from textual import events, work
+from textual import events, on, work
 from textual.binding import Binding, BindingType
 from textual.content import Content
 from textual.geometry import Region, Size
@@ -127,16 +127,10 @@ class Drawing(Widget):
         """Another title."""
         self._frame()
 
-    def on_resize(self) -> None:
-        """Another size."""
-        self.redraw()
-
-    def on_show(self) -> None:
-        """Hidden drawings are not made: now this one is needed."""
-        self.redraw()
-
+    @on(events.Resize)
+    @on(events.Show)
     def redraw(self) -> None:
-        """Make the picture in a worker unless it is there already, or nobody sees it."""
+        """Make the picture in a worker unless it is there already, or nobody sees it: hidden drawings are not made."""
         wanted = (self.subject, self.characters, self.size)
         if wanted == self._made or not self._seen:
             return
