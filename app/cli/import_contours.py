@@ -14,7 +14,7 @@ from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
-from app.session.words import counted
+from app.session.words import counted, length, place
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
 from core.importing.contours import ContourList
@@ -26,7 +26,7 @@ from core.pipeline.checking import with_tool_option
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from core.program.model import Program
-from core.units import Kind, Unit, from_mm, show, to_mm
+from core.units import Unit, to_mm
 
 
 def import_contours(arguments: list[str]) -> int:
@@ -190,10 +190,9 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
     for sentence in sentences(listed, unit):
         say(sentence)
     for block, contour in zip(made, contours, strict=True):
-        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in contour.start)
         way = f", {contour.turn.name}" if contour.closed else ""
         segments = counted(len(block.block.segments), "segment")
-        say(f"chain {contour.number}: {segments} from X {x} Y {y}{way}.")
+        say(f"chain {contour.number}: {segments} from {place(contour.start, unit)}{way}.")
         for note in block.notes:
             say(note)
 
@@ -273,9 +272,7 @@ def _nc_row(number: int, contour: NcContour, unit: Unit) -> str:
     first, last = contour.cuts[0].line, contour.cuts[-1].line
     kind = "closed" if contour.closed else "open"
     tool = "" if contour.tool is None else f"  tool {contour.tool}"
-    length = show(from_mm(sum(piece.length for piece in contour.pieces), unit), Kind.LENGTH, unit)
+    cut = length(sum(piece.length for piece in contour.pieces), unit)
     side = "ON" if contour.side is None else contour.side.value
     passes = f"  {len(contour.depths)} passes" if len(contour.depths) > 1 else ""
-    return (
-        f"{number:>4}  {side:<5}  {kind:<6}  {len(contour.cuts):>5}  {length:>10}  lines {first}-{last}{tool}{passes}"
-    )
+    return f"{number:>4}  {side:<5}  {kind:<6}  {len(contour.cuts):>5}  {cut:>10}  lines {first}-{last}{tool}{passes}"

@@ -9,6 +9,7 @@ from typing import Final
 
 from app.screens.values import cell_of
 from app.session.session import Session
+from app.session.words import counted, length
 from app.widgets.field import Cell, State
 from core.finding import Finding
 from core.pipeline.derived import DerivedBlock, Tag
@@ -16,7 +17,7 @@ from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.solution import Solution, solution_at
 from core.program.solve.solved import Solved, SolvedRun, SolvedSegment, Value
-from core.units import Kind, Unit, from_mm, show
+from core.units import Unit
 
 RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     {
@@ -145,7 +146,7 @@ def run_label(session: Session) -> str:
     run = run_here(session)
     if run is None or run.first == run.last:
         return ""
-    more = f"  {run.missing} more value{'' if run.missing == 1 else 's'}" if run.missing and run.taken is None else ""
+    more = f"  {counted(run.missing, 'more value')}" if run.missing and run.taken is None else ""
     return f"RUN {run.first}-{run.last}{more}"
 
 
@@ -160,25 +161,21 @@ def run_trouble(session: Session) -> Finding | None:
 
 def _tool_cells(block: DerivedBlock, unit: Unit) -> Iterator[Cell]:
     diameter = block.solved.tool_diameter
-    yield _read_only("TOOL DIAMETER", "" if diameter is None else _length(diameter, unit), 1)
+    yield _read_only("TOOL DIAMETER", "" if diameter is None else length(diameter, unit), 1)
     yield _read_only("TYPE", block.solved.tool_type, 1)
 
 
 def _end_cells(session: Session, form: Form, unit: Unit) -> Iterator[Cell]:
     """Where the segment starts, on the line that SOLUTION takes where there is a choice, and a corner's end."""
     solved = solved_segment(session)
-    start = "" if solved.start is None else f"{_length(solved.start[0], unit)} {_length(solved.start[1], unit)}"
+    start = "" if solved.start is None else f"{length(solved.start[0], unit)} {length(solved.start[1], unit)}"
     shown = bool(start) and solution_here(session) is None
     yield replace(_read_only("START", start, 0, visible=shown), folds=True)
     if form in (Form.BLEND, Form.CHAMFER):
         end = None if solved.piece is None else solved.piece.end
-        yield _read_only("X END", "" if end is None else _length(end[0], unit), 1, visible=end is not None)
-        yield _read_only("Y END", "" if end is None else _length(end[1], unit), 1, visible=end is not None)
+        yield _read_only("X END", "" if end is None else length(end[0], unit), 1, visible=end is not None)
+        yield _read_only("Y END", "" if end is None else length(end[1], unit), 1, visible=end is not None)
 
 
 def _read_only(label: str, text: str, column: int, *, visible: bool = True) -> Cell:
     return Cell(label, f"({label}", f"{text})", column, State.READ_ONLY, visible=visible)
-
-
-def _length(millimeters: float, unit: Unit) -> str:
-    return show(from_mm(millimeters, unit), Kind.LENGTH, unit)

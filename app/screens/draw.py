@@ -17,7 +17,7 @@ from app.screens.dialogs import NumberEntry, NumberForm
 from app.session.block_findings import Entry, block_findings
 from app.session.messages import Sentence, Tone
 from app.session.session import Session
-from app.session.words import place
+from app.session.words import length, place
 from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.findings_list import FindingsList, heading
 from app.widgets.plain import PlainLabel
@@ -26,7 +26,7 @@ from app.widgets.verdict import MARKS, Case, chips
 from core.program.edit import FormPlace, pick_joint
 from core.program.model import Number
 from core.program.solve.solved import SolvedRun
-from core.units import Kind, from_mm, sentence, show, to_mm
+from core.units import Kind, sentence, to_mm
 
 if TYPE_CHECKING:
     from core.draw.view import View
@@ -261,7 +261,7 @@ class DrawScreen(BaseScreen):
         if self.cross is None or run is None:
             self.action_edit_finding()
             return
-        x, y = (float(show(from_mm(each, unit), Kind.LENGTH, unit)) for each in self.cross)
+        x, y = (float(length(each, unit)) for each in self.cross)
         self._take_cross(run, x, y)
 
     def _take_cross(self, run: SolvedRun, x: float, y: float) -> None:

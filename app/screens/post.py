@@ -20,6 +20,7 @@ from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
 from app.session.posting import OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
+from app.session.words import counted
 from app.session.work import Work
 from app.widgets.option_rows import OptionRows, control_rows
 from app.widgets.plain import PlainLabel, PlainText
@@ -176,10 +177,10 @@ class PostScreen(EntryScreen):
             return Sentence("Up and down choose the control. Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
-        count = len(self.made.against)
-        what = f"{count} finding{'s' if count > 1 else ''} must be mended" if not self.made.overridable else "a gouge"
-        how = "." if not self.made.overridable else " must be mended or overridden."
-        return Sentence(f"NC file name. {what.capitalize()}{how}", Tone.WARNING)
+        what = f"{counted(len(self.made.against), 'finding')} must be mended."
+        if self.made.overridable:
+            what = "A gouge must be mended or overridden."
+        return Sentence(f"NC file name. {what}", Tone.WARNING)
 
     @work(exclusive=True, group="posting")
     async def entered(self, text: str) -> None:

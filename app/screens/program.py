@@ -19,6 +19,7 @@ from app.session.derivation import program_times
 from app.session.guide import on_program
 from app.session.messages import Sentence
 from app.session.session import Session
+from app.session.words import counted
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainLabel
 from app.widgets.softkeys import Softkey
@@ -92,8 +93,7 @@ class ProgramScreen(BaseScreen):
         for block in session.derived.blocks:
             table.add_row(*_row(block, marks))
         table.move_cursor(row=session.place.block - 1)
-        count = len(session.program.blocks)
-        self.query_one("#block-count", Label).update(f"{count} block{'s' if count != 1 else ''}")
+        self.query_one("#block-count", Label).update(counted(len(session.program.blocks), "block"))
         self.query_one("#program-file", Label).update(session.file_label)
         self._draw()
         if all(block.known for block in session.derived.blocks):
@@ -109,8 +109,7 @@ class ProgramScreen(BaseScreen):
         if not self.stands or event.derived is not self.current_session.derived:
             return
         self.times = event.blocks
-        count = len(event.derived.blocks)
-        words = f"{count} block{'s' if count != 1 else ''}   {event.total}"
+        words = f"{counted(len(event.derived.blocks), 'block')}   {event.total}"
         self.query_one("#block-count", Label).update(words)
         self._draw()
 

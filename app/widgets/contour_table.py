@@ -10,9 +10,10 @@ from textual.content import Content
 from textual.coordinate import Coordinate
 from textual.widgets import DataTable
 
+from app.session.words import length
 from core.importing.contour import Contour, ContourKind
 from core.importing.listing import Row, cells_of
-from core.units import Kind, Unit, from_mm, show
+from core.units import Unit
 
 COLUMNS: Final = (("chain", 6), ("kind", 10), ("layer", 8), ("pieces", 6), ("length", 9), ("size", 20))
 """Headings and widths; together 59, the desk of a terminal of 80 columns."""
@@ -83,8 +84,7 @@ def _cells(row: Row, unit: Unit, marked: Collection[int]) -> tuple[Content, ...]
 def _size(contour: Contour, size: str, more: str, unit: Unit) -> str:
     """Width and height, the diameter and how many circles, or to which chain an open one has a gap."""
     if contour.kind is ContourKind.OPEN and contour.open_gap is not None:
-        gap = show(from_mm(contour.open_gap, unit), Kind.LENGTH, unit)
-        return f" gap {gap} to {contour.open_gap_to or '-'}"
+        return f" gap {length(contour.open_gap, unit)} to {contour.open_gap_to or '-'}"
     if contour.circle is not None:
         size = size.replace("diameter", "dia.")
     return f" {size} {more}".rstrip()

@@ -10,12 +10,13 @@ from textual.reactive import reactive
 from textual.widgets import DataTable
 
 from app.session.session import Session
+from app.session.words import length
 from app.widgets.verdict import MARKS
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of
 from core.program.model import Number
 from core.program.solve.solved import Solved, SolvedSegment
-from core.units import Kind, Unit, from_mm, show
+from core.units import Kind, Unit, show
 
 COLUMNS = (
     ("number", "", 3),
@@ -109,7 +110,7 @@ def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, fate: str) -> S
     kind = "BLEND" if solved.values.keys() <= {"radius", "feed"} else str(form_of(segment))
     feed = segment.feed.value if isinstance(segment.feed, Number) else None
     end = None if solved.piece is None else solved.end or solved.piece.end
-    x, y = ("", "") if end is None else (show(from_mm(each, unit), Kind.LENGTH, unit) for each in end)
+    x, y = ("", "") if end is None else (length(each, unit) for each in end)
     return SegmentRow(
         str(solved.number),
         f"{kind} {direction}" if direction else kind,
