@@ -169,17 +169,12 @@ def _uninterrupted() -> Iterator[None]:
         signal(SIGINT, before)
 
 
-def _status(checked: _Checked) -> int:
-    if checked.unusable:
-        return UNUSABLE
-    return FINDINGS if any(one.errors for one in checked.answers) else CLEAN
-
-
 def _told(checked: _Checked) -> int:
     """A file's status; what could not be read is said on standard error."""
     if checked.unusable:
         say(checked.unusable)
-    return _status(checked)
+        return UNUSABLE
+    return FINDINGS if any(one.errors for one in checked.answers) else CLEAN
 
 
 def _contours(paths: list[Path], asked: Asked) -> int:

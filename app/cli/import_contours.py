@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite, nan
 from pathlib import Path
@@ -20,7 +21,7 @@ from core.importing.contour import Contour, fitted_contour, reversed_contour, st
 from core.importing.contours import ContourList
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
-from core.importing.nc_contour import CenterPathTool, NcContour, NcError, NcProgram, nc_blocks
+from core.importing.nc_contour import CenterPathTool, NcContour, NcError, nc_blocks
 from core.importing.segments import DoesNotFitError, comment, with_contours
 from core.pipeline.checking import with_tool_option
 from core.program.file.read import StoreError
@@ -123,39 +124,31 @@ def _parser() -> argparse.ArgumentParser:
 
 def _import(options: argparse.Namespace) -> None:
     listed = Worker(list_drawing, drawing_bytes(options.file), options).result()
-    unit = listed.unit
     if options.list or not listed.contours:
-        _print_list(listed, unit)
+        _print_list(listed)
         if not options.list:
             raise Unusable("The drawing has no contour to take.")
         return
-    contours = tuple(_changed(contour, options, unit) for contour in _chosen(listed, options.chain, unit))
-    _write(options, listed, contours)
+    wanted = _numbers(options.chain, len(listed.contours), "drawing", lambda: _print_list(listed))
+    chosen = (contour for contour in listed.contours if contour.number in wanted)
+    _write(options, listed, tuple(_changed(contour, options, listed.unit) for contour in chosen))
 
 
-def _print_list(listed: ContourList, unit: Unit) -> None:
+def _print_list(listed: ContourList) -> None:
     drawing = listed.drawing
     known = "" if drawing.unit is None else " ($INSUNITS)"
     print(f"{listed.options.unit}{known}, layers {', '.join(drawing.layers)}")
-    print(*table(rows_of(listed.contours), unit), sep="\n")
-    print(*sentences(listed, unit), sep="\n")
+    print(*table(rows_of(listed.contours), listed.unit), sep="\n")
+    print(*sentences(listed, listed.unit), sep="\n")
 
 
-def _chosen(listed: ContourList, chain: str | None, unit: Unit) -> tuple[Contour, ...]:
-    contours = listed.contours
-    if chain is None:
-        if len(contours) == 1:
-            return contours
-        _print_list(listed, unit)
-        raise Unusable(f"The drawing has {len(contours)} chains: add --chain N, --chain 1,2 or --chain all.")
-    if chain.strip().lower() == "all":
-        return contours
-    wanted = _numbers(chain, len(contours), "drawing")
-    return tuple(contour for contour in contours if contour.number in wanted)
-
-
-def _numbers(chain: str, count: int, what: str) -> set[int]:
-    """The numbers that --chain names."""
+def _numbers(chain: str | None, count: int, what: str, show: Callable[[], None]) -> set[int]:
+    """The numbers that --chain names; where it is needed and not typed, they are shown and asked for."""
+    if chain is None and count > 1:
+        show()
+        raise Unusable(f"The {what} has {count} chains: add --chain N, --chain 1,2 or --chain all.")
+    if chain is None or chain.strip().lower() == "all":
+        return set(range(1, count + 1))
     numbers = [part.strip() for part in chain.split(",")]
     wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= count), None)
     if wrong is not None:
@@ -220,11 +213,13 @@ def import_nc(options: argparse.Namespace) -> None:
 
     data, control = bytes_of(options.file), control_of(options.control)
     read = read_nc(data, control, tools_of(options), unit=unit, center=_center(options))
+    rows = "\n".join(_nc_row(number, contour, read.unit) for number, contour in enumerate(read.contours, 1))
     if options.list:
-        print(*_nc_rows(read), sep="\n")
-    chosen = _chosen_nc(read, options)
-    if chosen is None:
+        print(rows)
         return
+    wanted = _numbers(options.chain, len(read.contours), "program", lambda: print(rows))
+    contours = tuple(contour for number, contour in enumerate(read.contours, 1) if number in wanted)
+    chosen = replace(read, contours=contours)
     program, made = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
     _write_program(options, program, comment(options.file.name, ()))
     for number, block in enumerate(made, 1):
@@ -246,25 +241,6 @@ def _center(options: argparse.Namespace) -> CenterPathTool | None:
         raise Unusable("--side: add --diameter, the tool's in the program's unit.")
     side = {"left": Side.LEFT, "right": Side.RIGHT, "on": None}[options.side]
     return CenterPathTool(side, options.diameter or 0.0)
-
-
-def _chosen_nc(read: NcProgram, options: argparse.Namespace) -> NcProgram | None:
-    """The contours to take; None where they are only listed."""
-    count = len(read.contours)
-    if options.list or (options.chain is None and count > 1):
-        if not options.list:
-            print(*_nc_rows(read), sep="\n")
-            raise Unusable(f"The program has {count} chains: add --chain N, --chain 1,2 or --chain all.")
-        return None
-    if options.chain is None or options.chain.strip().lower() == "all":
-        return read
-    wanted = _numbers(options.chain, count, "program")
-    chosen = tuple(contour for number, contour in enumerate(read.contours, 1) if number in wanted)
-    return replace(read, contours=chosen)
-
-
-def _nc_rows(read: NcProgram) -> list[str]:
-    return [_nc_row(number, contour, read.unit) for number, contour in enumerate(read.contours, 1)]
 
 
 def _nc_row(number: int, contour: NcContour, unit: Unit) -> str:
