@@ -80,33 +80,6 @@ class NcText:
             return False
         return True
 
-    def changed(self, row: int, text: str) -> NcText:
-        """Another text in a line."""
-        if not self.lines:
-            return self.inserted(0, text)
-        old = self.lines[row]
-        mark = MARK if old.startswith(MARK) else ""
-        return self._do(Change(row, (old,), (mark + text + self._end_of(row),)))
-
-    def inserted(self, row: int, text: str = "") -> NcText:
-        """A new line before a line, or after the last."""
-        if row >= len(self.lines) and self.lines and not self._end_of(len(self.lines) - 1):
-            last = len(self.lines) - 1
-            return self._do(Change(last, self.lines[last:], (self.lines[last] + self._usual(), text)))
-        if row == 0 and self.lines and self.lines[0].startswith(MARK):
-            rest = tuple(line for line in (self.lines[0].removeprefix(MARK),) if line)
-            return self._do(Change(0, self.lines[:1], (MARK + text + self._usual(), *rest)))
-        return self._do(Change(row, (), (text + self._usual(),)))
-
-    def deleted(self, row: int) -> NcText:
-        """Without a line; the mark of the file's encoding stays in front."""
-        if not self.lines or self.lines == (MARK,):
-            return self
-        if self.lines[row].startswith(MARK):
-            after = "".join(self.lines[row + 1 : row + 2])
-            return self._do(Change(row, self.lines[row : row + 2], (MARK + after,)))
-        return self._do(Change(row, (self.lines[row],), ()))
-
     @property
     def texts(self) -> tuple[str, ...]:
         """The lines without their ends, as an editor shows them: after a last line end there is an empty one."""

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from app.documents.nc_text import NcText
 from app.documents.programs import is_nc
 from core.controls.program_text import lines_of
+from tests.app.nc_lines import changed, deleted, inserted
 
 DATA = (
     b"",
@@ -48,41 +49,41 @@ def test_lines_of_utf_16_are_those_the_controls_count() -> None:
     data = "\ufeffG1 X1\r\nG0".encode("utf-16-le")
     listing = NcText.read(data)
     assert [listing.text(row) for row in range(len(listing))] == lines_of(data) == ["G1 X1", "G0"]
-    assert listing.changed(1, "M30").data == "\ufeffG1 X1\r\nM30".encode("utf-16-le")
+    assert changed(listing, 1, "M30").data == "\ufeffG1 X1\r\nM30".encode("utf-16-le")
 
 
 def test_a_changed_line_keeps_its_end_and_its_neighbors() -> None:
-    listing = NcText.read(b"G1 X1\r\nG1 X2\rG1 X3").changed(1, "G0")
+    listing = changed(NcText.read(b"G1 X1\r\nG1 X2\rG1 X3"), 1, "G0")
     assert listing.data == b"G1 X1\r\nG0\rG1 X3"
     assert listing.unsaved
-    assert listing.changed(2, "M30").data == b"G1 X1\r\nG0\rM30"
+    assert changed(listing, 2, "M30").data == b"G1 X1\r\nG0\rM30"
 
 
 def test_the_mark_of_utf_8_stays_before_a_changed_first_line() -> None:
     listing = NcText.read(b"\xef\xbb\xbfG1\n")
     assert listing.text(0) == "G1"
-    assert listing.changed(0, "G0").data == b"\xef\xbb\xbfG0\n"
+    assert changed(listing, 0, "G0").data == b"\xef\xbb\xbfG0\n"
 
 
 def test_lines_are_inserted_with_the_end_the_file_has() -> None:
     listing = NcText.read(b"A\r\nB")
-    assert listing.inserted(0, "X").data == b"X\r\nA\r\nB"
-    assert listing.inserted(1, "X").data == b"A\r\nX\r\nB"
-    assert listing.inserted(2, "X").data == b"A\r\nB\r\nX"
-    assert NcText().inserted(0, "X").data == b"X\n"
+    assert inserted(listing, 0, "X").data == b"X\r\nA\r\nB"
+    assert inserted(listing, 1, "X").data == b"A\r\nX\r\nB"
+    assert inserted(listing, 2, "X").data == b"A\r\nB\r\nX"
+    assert inserted(NcText(), 0, "X").data == b"X\n"
 
 
 def test_deleting_ends_with_nothing() -> None:
-    listing = NcText.read(b"A\nB\n").deleted(0)
+    listing = deleted(NcText.read(b"A\nB\n"), 0)
     assert listing.data == b"B\n"
-    assert listing.deleted(0).deleted(0).data == b""
+    assert deleted(deleted(listing, 0), 0).data == b""
 
 
 def test_undo_and_redo_go_through_every_state() -> None:
     states = [NcText.read(b"A\nB\nC\n")]
-    states.append(states[-1].changed(1, "X"))
-    states.append(states[-1].inserted(0, "Y"))
-    states.append(states[-1].deleted(3))
+    states.append(changed(states[-1], 1, "X"))
+    states.append(inserted(states[-1], 0, "Y"))
+    states.append(deleted(states[-1], 3))
     back = states[-1]
     for state in reversed(states[:-1]):
         back = back.undone()
@@ -96,12 +97,12 @@ def test_undo_and_redo_go_through_every_state() -> None:
 
 
 def test_saved_is_what_was_written_wherever_undo_goes() -> None:
-    changed = NcText.read(b"A\n").changed(0, "B")
-    saved = changed.written(changed.data)
+    typed = changed(NcText.read(b"A\n"), 0, "B")
+    saved = typed.written(typed.data)
     assert not saved.unsaved
     assert saved.undone().unsaved
     assert not saved.undone().redone().unsaved
-    assert saved.undone().changed(0, "B").unsaved
+    assert changed(saved.undone(), 0, "B").unsaved
 
 
 def test_what_an_encoding_cannot_hold_is_known() -> None:
@@ -132,13 +133,13 @@ def test_what_is_no_file_is_no_nc_program(tmp_path: Path) -> None:
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig"])
 def test_the_mark_of_the_encoding_stays_in_front(encoding: str) -> None:
     listing = NcText.read("A\nB\n".encode(encoding))
-    first = listing.inserted(0, "X")
+    first = inserted(listing, 0, "X")
     assert first.data == "X\nA\nB\n".encode(encoding)
-    assert first.deleted(0).data == "A\nB\n".encode(encoding)
-    assert first.deleted(0).deleted(0).data == "B\n".encode(encoding)
-    empty = first.deleted(0).deleted(0).deleted(0)
+    assert deleted(first, 0).data == "A\nB\n".encode(encoding)
+    assert deleted(deleted(first, 0), 0).data == "B\n".encode(encoding)
+    empty = deleted(deleted(deleted(first, 0), 0), 0)
     assert empty.data == "".encode(encoding)
-    assert empty.deleted(0) is empty
-    assert empty.inserted(0, "C").data == "C\n".encode(encoding)
-    assert len(empty.inserted(0, "C")) == 1
+    assert deleted(empty, 0) is empty
+    assert inserted(empty, 0, "C").data == "C\n".encode(encoding)
+    assert len(inserted(empty, 0, "C")) == 1
     assert empty.undone().undone().undone().data == first.data

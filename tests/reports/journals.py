@@ -22,6 +22,7 @@ from app.documents.questions import RESTORE
 from app.documents.service import DocumentService, Opened
 from core.pipeline.outline import outline
 from tests.app.documents.typist import DEAD, TIME, started
+from tests.app.nc_lines import inserted
 
 SEED = 20_250_304
 WRONG: tuple[Any, ...] = (
@@ -145,7 +146,7 @@ def _used(documents: DocumentService, opened: Opened[Any]) -> None:
         documents.keep(document.edited(document.history.undo(), document.cursor, document.field_name))
     else:
         document.data()
-        documents.keep(document.edited(document.text.inserted(0, "M0"), 0))
+        documents.keep(document.edited(inserted(document.text, 0, "M0"), 0))
 
 
 def tried(folder: Path, wrong: int, random_count: int, seed: int = SEED) -> Counter[tuple[str, str]]:

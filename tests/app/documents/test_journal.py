@@ -20,6 +20,7 @@ from app.documents.nc_text import NcText
 from core.program.edit import FormPlace, type_field
 from core.program.history import History
 from core.program.model import Number, Program
+from tests.app.nc_lines import changed, deleted, inserted
 from tests.core.program.parts import line, program, programs
 
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))
@@ -187,11 +188,11 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
     row %= len(text) + 1
     match kind:
         case "c" if len(text) > row:
-            return text.changed(row, typed)
+            return changed(text, row, typed)
         case "i":
-            return text.inserted(row, typed)
+            return inserted(text, row, typed)
         case "d" if len(text) > row:
-            return text.deleted(row)
+            return deleted(text, row)
         case "u":
             return text.undone()
         case "r":

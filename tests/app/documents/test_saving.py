@@ -27,6 +27,7 @@ from tests.app.documents.typist import (
     started,
     words,
 )
+from tests.app.nc_lines import changed
 
 
 def ask(operator: Typist, path: Path | None = None, *answers: str) -> Ask:
@@ -331,7 +332,7 @@ def test_only_what_was_changed_is_written_in_an_nc_text(own: Path, tmp_path: Pat
     nc = tmp_path / "part.nc"
     nc.write_bytes(b"\xef\xbb\xbfG0 X1\r\nG1 \xb0\r(no end)")
     operator = started(own, nc)
-    operator.keep(operator.document.edited(operator.document.text.changed(1, "G1"), 1)).save()
+    operator.keep(operator.document.edited(changed(operator.document.text, 1, "G1"), 1)).save()
     assert nc.read_bytes() == b"\xef\xbb\xbfG0 X1\r\nG1\r(no end)"
 
 

@@ -12,6 +12,7 @@ from app.documents.questions import Ask
 from app.documents.service import DocumentService, Notice, Offer, Opened, Saved, Trouble
 from core.program.edit import FormPlace, type_field
 from core.program.model import Number, Program
+from tests.app.nc_lines import changed
 
 TIME = "2025-03-04T06:05:00+01:00"
 DEAD = Owner("ann", myself("").host, 2**22 + 17, "", "2025-03-04T06:00:00+01:00")
@@ -66,7 +67,7 @@ class Typist:
                 history = document.history.do(program, "TOOL")
                 self.keep(document.edited(history, FormPlace(1), "tool"))
             else:
-                self.keep(document.edited(document.text.changed(0, f"T{number:g}"), 0))
+                self.keep(document.edited(changed(document.text, 0, f"T{number:g}"), 0))
         return self
 
     def undo(self) -> Typist:
