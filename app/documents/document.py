@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Final, Self, TypeVar
+from typing import ClassVar, Final, Self, TypeVar
 
 from app.documents import contour_journal, nc_journal
 from app.documents.files import LARGEST_FILE, Stamp
@@ -48,6 +48,7 @@ class FileState:
 class ContourDocument:
     """A contour program with its undo and the cursor; `title` names the example that it began with."""
 
+    kind: ClassVar[Kind] = Kind.CONTOUR
     history: History
     saved_program: Program
     file: FileState = field(default_factory=FileState)
@@ -64,11 +65,6 @@ class ContourDocument:
     def read(cls, data: bytes, file: FileState) -> Self:
         """The program of a file's content; StoreError says what is wrong with it."""
         return cls.of(loads_bytes(data, str(file.path)), file)
-
-    @property
-    def kind(self) -> Kind:
-        """A contour program."""
-        return Kind.CONTOUR
 
     @property
     def program(self) -> Program:
@@ -97,10 +93,6 @@ class ContourDocument:
     def data(self) -> bytes:
         """The text of the program's file."""
         return dumps(self.program).encode()
-
-    def with_file(self, file: FileState) -> Self:
-        """The same work on another file."""
-        return replace(self, file=file)
 
     def saved(self, file: FileState) -> Self:
         """After the file was written."""
@@ -175,6 +167,7 @@ def _history_of(journal: Journal) -> History:
 class NcDocument:
     """An NC text with its undo, and the row of the cursor."""
 
+    kind: ClassVar[Kind] = Kind.NC
     text: NcText = field(default_factory=NcText)
     file: FileState = field(default_factory=FileState)
     row: int = 0
@@ -183,11 +176,6 @@ class NcDocument:
     def read(cls, data: bytes, file: FileState) -> Self:
         """The text of a file's content."""
         return cls(NcText.read(data), file)
-
-    @property
-    def kind(self) -> Kind:
-        """An NC text."""
-        return Kind.NC
 
     @property
     def unsaved(self) -> bool:
@@ -206,10 +194,6 @@ class NcDocument:
     def data(self) -> bytes:
         """The file's content: what nobody touched byte by byte."""
         return self.text.data
-
-    def with_file(self, file: FileState) -> Self:
-        """The same work on another file."""
-        return replace(self, file=file)
 
     def saved(self, file: FileState) -> Self:
         """After the file was written."""

@@ -230,7 +230,7 @@ class DocumentService:
         kept = self._open[document.file.opening] = _Kept(document)
         holder = self._lock(kept)
         if holder is not None:
-            document = self._put(kept, document.with_file(replace(document.file, holder=holder)))
+            document = self._put(kept, replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
@@ -360,7 +360,7 @@ class DocumentService:
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
         kept.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
-        taken = self._put(kept, fresh.with_file(state))
+        taken = self._put(kept, replace(fresh, file=state))
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
         return Opened(opened.document, notice, opened.offer)
@@ -370,7 +370,7 @@ class DocumentService:
         now = document.file
         stamp = journal.head.stamp if now.stamp is not None else None
         work = document.restored(journal)
-        work = self._put(kept, work.with_file(replace(now, stamp=stamp)))
+        work = self._put(kept, replace(work, file=replace(now, stamp=stamp)))
         try:
             aside = self._journal_of_restored(kept, work, path, journal)
         except (OSError, StoreError) as error:
@@ -687,7 +687,7 @@ class DocumentService:
             release(kept.lock)
         kept.warned = False
         holder = self._lock(kept)
-        return self._put(kept, document.with_file(replace(document.file, holder=holder)))
+        return self._put(kept, replace(document, file=replace(document.file, holder=holder)))
 
     # ---- leave
 

@@ -97,10 +97,7 @@ class SegmentField(NumberField):
         Binding("left", "screen.walk(-1)", "Segment before", show=False),
         Binding("right", "screen.walk(1)", "Next segment", show=False),
     ]
-
-    def __init__(self, name: str, text: str, *, id: str) -> None:
-        super().__init__(name, text, id=id)
-        self.letters = "".join(NEW_SEGMENTS)
+    letters = "".join(NEW_SEGMENTS)
 
     def on_key(self, event: events.Key) -> None:
         """Only digits are typed here, and letters are commands."""

@@ -75,6 +75,8 @@ class NumberField(LineInput):
     `resting` is what the program holds; the value differs from it only while something is being typed.
     """
 
+    letters: str = ""
+    """Letters that are no part of a number: as the first character they are commands to the screen."""
     virtual_size: Reactive[Size] = Reactive(Size(0, 0), repaint=False)
     """The width of the text: its room in the form is fixed, so that a digit lays out nothing."""
 
@@ -85,8 +87,6 @@ class NumberField(LineInput):
         self._untouched = False
         self.softkey_digits = False
         """Digits are softkeys and not typed."""
-        self.letters = ""
-        """Letters that are no part of a number: as the first character they are commands to the screen."""
 
     @dataclass
     class Letter(Message):
