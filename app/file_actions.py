@@ -499,33 +499,28 @@ class FileActions(DerivationActions):
             self.notify(result.notice.text, timeout=4)
         return isinstance(result, Saved)
 
-    async def output_named(self, text: str, suffix: str, file: Path | None) -> Path:
-        """The path that a typed name means for what is made of the program of `file`; only in a worker."""
-        return await self.on_disk(lambda: with_suffix(chosen(typed(text), file), suffix))
+    async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
+        """Write what is made of the program under a typed name: in words where it stands, and its text; None for none.
 
-    async def may_write(self, path: Path, file: Path | None) -> bool:
-        """Whether what is made of the program of `file` may be written there; only in a worker."""
+        Asks before a file is replaced; says what `make` and the disk refuse.  Only in a worker.
+        """
+        file = self.session.file
+        path = await self.on_disk(lambda: with_suffix(chosen(typed(text), file), suffix))
 
         def before() -> Ask | None:
             refuse_program(path)
             return before_output(path, file)
 
-        try:
-            ask = await self.on_disk(before)
-        except StoreError as error:
-            self.say(error.text, Tone.ERROR)
-            return False
-        return ask is None or await self.ask(ask) != GO_BACK
-
-    async def write(self, path: Path, text: str) -> str | None:
-        """Write what is made of the program; in words where it stands, None where it does not.  Only in a worker."""
-
-        def written() -> str:
-            write_output(path, text)
+        def written(made: str) -> str:
+            write_output(path, made)
             return written_at(path)
 
         try:
-            return await self.on_disk(written)
+            ask = await self.on_disk(before)
+            if ask is not None and await self.ask(ask) == GO_BACK:
+                return None
+            made = await asyncio.to_thread(make, path)
+            return await self.on_disk(partial(written, made)), made
         except StoreError as error:
             self.say(error.text, Tone.ERROR)
             return None

@@ -131,14 +131,8 @@ class Host(Protocol):
     def save_as(self, text: str) -> None:
         """Save the program under a typed name."""
 
-    async def output_named(self, text: str, suffix: str, file: Path | None) -> Path:
-        """The path that a typed name means for what is made of the program of `file`; only in a worker."""
-
-    async def may_write(self, path: Path, file: Path | None) -> bool:
-        """Whether what is made of the program of `file` may be written there; asks.  Only in a worker."""
-
-    async def write(self, path: Path, text: str) -> str | None:
-        """Write what is made of the program; in words where it stands, None where it does not.  Only in a worker."""
+    async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
+        """Write what is made of the program under a typed name; asks.  Only in a worker."""
 
     def close_nc(self, document: NcDocument) -> None:
         """Leave an NC text; changes that are not saved are asked about."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
@@ -27,6 +26,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
+from core.program.file.read import StoreError
 from core.progress import Stopped
 
 if TYPE_CHECKING:
@@ -206,20 +206,20 @@ class PostScreen(EntryScreen):
         await self._write(text, override)
 
     async def _write(self, text: str, override: str | None) -> None:
-        session = self.current_session
-        path = await self.host.output_named(text, ".nc", session.file)
-        if not await self.host.may_write(path, session.file):
-            return
-        # made again under the name that was typed; nothing stale is written
-        made = await asyncio.to_thread(nc_text, session.program, path.stem, self.choice, override)
-        if made.against and override is None:
-            self.say(f"NOT POSTED: {made.against[0]}", Tone.ERROR)
-            return
-        written = await self.host.write(path, made.text)
+        program, choice = self.current_session.program, self.choice
+
+        def make(path: Path) -> str:
+            """Made again under the name that was typed; nothing stale is written."""
+            made = nc_text(program, path.stem, choice, override)
+            if made.against and override is None:
+                raise StoreError(f"NOT POSTED: {made.against[0]}")
+            return made.text
+
+        written = await self.host.write_made(text, ".nc", make)
         if written is None:
             return
-        self.host.posted_for = self.choice
-        lines = made.text.count("\n")
-        self.notify(f"Posted: {written}, {lines} lines.", timeout=5)
+        self.host.posted_for = choice
+        where, lines = written[0], written[1].count("\n")
+        self.notify(f"Posted: {where}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

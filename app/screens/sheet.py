@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 from typing import ClassVar
 
@@ -70,15 +69,11 @@ class SheetScreen(EntryScreen):
     @work(exclusive=True, group="question")
     async def entered(self, text: str) -> None:
         """Write the sheet; asks before a file is replaced."""
-        session = self.current_session
-        path = await self.host.output_named(text, ".html", session.file)
-        if not await self.host.may_write(path, session.file):
-            return
-        made = await asyncio.to_thread(setup_sheet, session.program, path, self.host.now())
-        written = await self.host.write(path, made)
+        program, now = self.current_session.program, self.host.now()
+        written = await self.host.write_made(text, ".html", lambda path: setup_sheet(program, path, now))
         if written is None:
             return
-        self.notify(f"Setup sheet: {written}", timeout=4)
+        self.notify(f"Setup sheet: {written[0]}", timeout=4)
         self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:
