@@ -374,17 +374,6 @@ class CutcompApp(TransformActions):
         """The time of day, in its zone."""
         return datetime.now().astimezone()
 
-    # ---- what the actions on files need
-
-    def keep_control(self, control: str) -> None:
-        """NC programs are run on this control from now on."""
-        self.keep_settings(replace(self.settings, control=control))
-
-    def keep_tools(self, file: Path | None, text: str) -> None:
-        """An NC program has these tools from now on."""
-        if file is not None:
-            self.keep_settings(self.settings.with_tools(file, text))
-
 
 def _contour_document(session: Session, service: DocumentService | None, opened: Opened[Any] | None) -> ContourDocument:
     """The program to begin with: beside an NC text it is a new one, which the service has to know."""

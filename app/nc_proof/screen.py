@@ -577,7 +577,7 @@ class ProofScreen(BaseScreen):
         here = self.question.control
         control = await self.app.push_screen_wait(ChooseLine("CONTROL", rows, here, classes="wide-box"))
         if control and self.take_lines():
-            self.host.keep_control(control)
+            self.host.keep_settings(replace(self.host.settings, control=control))
             self._ask(replace(self.question, control=control))
 
     @work(exclusive=True, group="question")
@@ -632,7 +632,8 @@ class ProofScreen(BaseScreen):
 
     def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
         self.given = given
-        self.host.keep_tools(self.document.file.path, tools_text(given))
+        if (file := self.document.file.path) is not None:
+            self.host.keep_settings(self.host.settings.with_tools(file, tools_text(given)))
         self._ask(replace(self.question, tools=tools))
 
     def action_diameter(self, by: int) -> None:

@@ -32,6 +32,7 @@ from textual.widget import Widget
 from textual.widgets import Input
 
 from app.documents.document import NcDocument
+from app.documents.settings import Settings
 from app.session.block_findings import Entry as FindingEntry
 from app.session.guide import NOT_NEEDED
 from app.session.messages import Sentence, Tone
@@ -115,11 +116,11 @@ class Host(Protocol):
     def now(self) -> datetime:
         """The time of day, in its zone."""
 
-    def keep_control(self, control: str) -> None:
-        """NC programs are run on this control from now on."""
+    settings: Settings
+    """What this person has chosen."""
 
-    def keep_tools(self, file: Path | None, text: str) -> None:
-        """An NC program has these tools from now on."""
+    def keep_settings(self, settings: Settings) -> None:
+        """Settings as they are from now on."""
 
     @property
     def proofs(self) -> Sequence[Screen[None]]:
