@@ -75,7 +75,18 @@ _CENTER: Final = Topic(
     "The point the arc turns about. End and center, or end and RADIUS, or center and SWEEP fix an arc."
 )
 _POINT: Final = Topic("A point that the drawing gives on this line or on the arc's circle, not one of its ends.")
-_TANGENT: Final = Topic("YES where it goes on from the segment before without a corner and without turning back.")
+_LINE_AND_ARC: Final = {
+    "x_end": _END_X,
+    "y_end": _END_X,
+    "z_end": _END_Z,
+    "point_x": _POINT,
+    "point_y": _POINT,
+    "tangent": Topic("YES where it goes on from the segment before without a corner and without turning back."),
+    "choice": Topic(
+        "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
+    ),
+}
+"""The fields that a LINE and an ARC both have."""
 
 
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
@@ -113,44 +124,27 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
             "values, F3 goes back to CAL.",
             _AHEAD,
         ),
-        (Form.LINE, "x_end"): _END_X,
-        (Form.LINE, "y_end"): _END_X,
-        (Form.LINE, "z_end"): _END_Z,
         (Form.LINE, "length"): Topic(
             "Two of X END, Y END, XY LENGTH and XY ANGLE fix a line; the others are calculated."
         ),
         (Form.LINE, "angle"): Topic(
             "The direction of travel, not of the edge: the same edge the other way is 180 more.", _ANGLE
         ),
-        (Form.LINE, "feed"): _FEED,
-        (Form.LINE, "choice"): Topic(
-            "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
-        ),
         (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
-        (Form.ARC, "x_end"): _END_X,
-        (Form.ARC, "y_end"): _END_X,
-        (Form.ARC, "z_end"): _END_Z,
         (Form.ARC, "x_center"): _CENTER,
         (Form.ARC, "y_center"): _CENTER,
         (Form.ARC, "radius"): Topic(
             "From the center to the contour, not of the tool's path. With both ends, two arcs may fit."
         ),
         (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
-        (Form.ARC, "feed"): _FEED,
-        (Form.ARC, "choice"): Topic(
-            "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
-        ),
-        **{(form, "point_x"): _POINT for form in (Form.LINE, Form.ARC)},
-        **{(form, "point_y"): _POINT for form in (Form.LINE, Form.ARC)},
-        **{(form, "tangent"): _TANGENT for form in (Form.LINE, Form.ARC)},
+        **{(form, name): topic for form in (Form.LINE, Form.ARC) for name, topic in _LINE_AND_ARC.items()},
+        **{(form, "feed"): _FEED for form in (Form.LINE, Form.ARC, Form.BLEND, Form.CHAMFER)},
         (Form.LINE, "point_dist"): Topic("With POINT X and POINT Y: how far the line passes beside that point."),
         (Form.LINE, "parallel"): Topic("The line runs in the direction of that LINE, or the opposite one."),
         (Form.LINE, "offset"): Topic("With PARALLEL TO: how far apart the two lines are."),
         (Form.ARC, "start_angle"): Topic("The direction of travel where the arc starts.", _ANGLE),
         (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
-        (Form.BLEND, "feed"): _FEED,
         (Form.CHAMFER, "length"): Topic("The two segments are shortened by this length.", _CORNER),
-        (Form.CHAMFER, "feed"): _FEED,
         (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
         (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
         (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
