@@ -23,13 +23,9 @@ class Work:
     """
 
     on_stop: Callable[[], None]
-    clock: Callable[[], float] = monotonic
-    begun: float = field(init=False)
+    begun: float = field(default_factory=monotonic)
     done: float = 0.0
     stopped: bool = False
-
-    def __post_init__(self) -> None:
-        self.begun = self.clock()
 
     def __call__(self, done: float) -> None:
         """Tell the part that is done, 0 to 1; raises Stopped where nobody waits for the rest."""
@@ -40,12 +36,12 @@ class Work:
     @property
     def long(self) -> bool:
         """It takes long enough for it to be shown how far it is."""
-        return self.clock() - self.begun >= SHOWN_AFTER
+        return monotonic() - self.begun >= SHOWN_AFTER
 
     @property
     def stoppable(self) -> bool:
         """It takes so long that Esc stops it."""
-        return self.clock() - self.begun >= STOPS_AFTER
+        return monotonic() - self.begun >= STOPS_AFTER
 
     @property
     def text(self) -> str:
