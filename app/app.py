@@ -94,11 +94,14 @@ class CutcompApp(TransformActions):
     ) -> None:
         super().__init__(ansi_color=few_colors or None)
         self.surroundings = surroundings or Surroundings()
-        self.service, self._opened, self._home, self._asked = service, opened, home, asked
+        self.service = service or DocumentService()
+        self._opened, self._home, self._asked = opened, home, asked
         self.drawing: Path | None = None
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
-        self.document = _contour_document(session, service, opened)
+        document = None if opened is None else opened.document
+        # beside an NC text the program is a new one
+        self.document = document if isinstance(document, ContourDocument) else self.service.new().document
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self.posted_for = CENTER_PATH
@@ -373,10 +376,3 @@ class CutcompApp(TransformActions):
     def now(self) -> datetime:
         """The time of day, in its zone."""
         return datetime.now().astimezone()
-
-
-def _contour_document(session: Session, service: DocumentService | None, opened: Opened[Any] | None) -> ContourDocument:
-    """The program to begin with: beside an NC text it is a new one, which the service has to know."""
-    if opened is not None and isinstance(opened.document, ContourDocument):
-        return opened.document
-    return ContourDocument.of(session.program) if service is None else service.new().document

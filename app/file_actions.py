@@ -59,13 +59,13 @@ ANSWERS: Final = "The folder answers again: all work is on the disk."
 
 
 class FileActions(DerivationActions):
-    """The App's side of files; `service` is None where nothing is to be kept, as in a test of one screen.
+    """The App's side of files: all work on them is done by `disk`, one piece after the other.
 
-    All work on files is done by `disk`, one piece after the other.  The keys wait half a second for it; then they go
+    The keys wait half a second for it; then they go
     on, and what is edited meanwhile is kept when the folder answers.
     """
 
-    service: DocumentService | None
+    service: DocumentService
     document: ContourDocument
     settings: Settings
     settings_file: SettingsFile
@@ -123,13 +123,10 @@ class FileActions(DerivationActions):
 
     def keep_document(self, document: Document) -> None:
         """Put what was edited in a document on the disk."""
-        service = self.service
-        if service is None:
-            return
         if self.disk_is_behind():
             self._edited_meanwhile = True
             return
-        future = self._ask_disk(lambda: service.keep(document))
+        future = self._ask_disk(lambda: self.service.keep(document))
         if future.done():
             self._behind.discard(future)
             self.tell(future.result())
@@ -227,7 +224,7 @@ class FileActions(DerivationActions):
     def looking(self) -> str:
         """Why nothing may be changed: somebody else has the file open; empty where it may."""
         holder = self.document.file.holder
-        if holder is None or self.service is None:
+        if holder is None:
             return ""
         return f"{held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
 
@@ -265,10 +262,8 @@ class FileActions(DerivationActions):
     @work(group="offer", description="offer")
     async def _ask_offer(self, document: AnyDocument, offer: Offer) -> None:
         """Ask, and work on what comes of the answer; where nothing does, the screen stays, HOME too."""
-        word, service = await self.ask(offer.ask), self.service
-        if service is None:
-            return
-        opened = await self.on_disk(lambda: service.answer(document, offer, word))
+        word = await self.ask(offer.ask)
+        opened = await self.on_disk(lambda: self.service.answer(document, offer, word))
         if opened.document is not document:
             self.adopt(opened)
         else:
@@ -284,9 +279,9 @@ class FileActions(DerivationActions):
 
         What is not saved is asked about first.
         """
-        service, here = self.service, self.document.file.path
-        if service is None or self.disk_is_behind():
+        if self.disk_is_behind():
             return
+        service, here = self.service, self.document.file.path
 
         def opened() -> Opened[Any] | Trouble | Path:
             if not kept_copy:
@@ -322,11 +317,10 @@ class FileActions(DerivationActions):
 
     async def _begun(self, opened: Opened[Any]) -> None:
         """Work on what was opened; of programs there is only one."""
-        service, document = self.service, opened.document
-        assert service is not None
+        document = opened.document
         if isinstance(document, ContourDocument):
             if not await self.may_close("OPEN?", self._all_open()):
-                await self.on_disk(lambda: service.close(document))
+                await self.on_disk(lambda: self.service.close(document))
                 return
             await self.close_documents(self._all_open())
         self.adopt(opened)
@@ -335,10 +329,9 @@ class FileActions(DerivationActions):
         self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool
     ) -> None:
         """Show what is open; read it again where its file is another by now, or where a copy of it is wanted."""
-        service, document = self.service, trouble.open_already
-        assert service is not None
+        document = trouble.open_already
         assert document is not None
-        again = again or await self.on_disk(lambda: service.changed(document))
+        again = again or await self.on_disk(lambda: self.service.changed(document))
         if not again or document.kind is not self.document.kind:
             proof = next((proof for proof in self.proofs if proof.document.file.opening is document.file.opening), None)
             if proof is None:
@@ -349,7 +342,7 @@ class FileActions(DerivationActions):
         elif await self.may_close("OPEN AGAIN?", self._all_open()):
             await self.close_documents(self._all_open())
             result = await self.on_disk(opened)
-            self.adopt(result if isinstance(result, Opened) else service.new())
+            self.adopt(result if isinstance(result, Opened) else self.service.new())
             if isinstance(result, Trouble):
                 self.say(result.text, Tone.ERROR)
 
@@ -367,7 +360,7 @@ class FileActions(DerivationActions):
 
     async def _new(self, title: str, unit: Unit) -> bool:
         """Work on a new program where everything that is open may be closed; whether it may."""
-        if self.service is None or self.disk_is_behind() or not await self.may_close(title, self._all_open()):
+        if self.disk_is_behind() or not await self.may_close(title, self._all_open()):
             return False
         await self.close_documents(self._all_open())
         self.adopt(self.service.new(unit))
@@ -394,12 +387,11 @@ class FileActions(DerivationActions):
 
     async def close_documents(self, documents: Iterable[Document]) -> None:
         """Neither journal nor lock of these stays."""
-        service, closing = self.service, tuple(documents)
+        closing = tuple(documents)
 
         def close() -> None:
-            if service is not None:
-                for document in closing:
-                    service.close(document)
+            for document in closing:
+                self.service.close(document)
 
         await self.on_disk(close)
 
@@ -491,7 +483,7 @@ class FileActions(DerivationActions):
 
     async def saved_nc(self, proof: ProofScreen, path: Path | None) -> bool:
         """Save an NC text, asking what is to be asked; whether it was saved."""
-        if self.service is None or not proof.take_lines():
+        if not proof.take_lines():
             return False
         result = await self._written(proof.document, path)
         if isinstance(result, Saved):
@@ -541,8 +533,7 @@ class FileActions(DerivationActions):
 
     async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
         """Save a document, asking what is to be asked; None where it was not saved."""
-        service, agreed = self.service, frozenset[str]()
-        assert service is not None
+        agreed = frozenset[str]()
         if path is None and document.file.path is None:
             name = await self.push_screen_wait(
                 Phrase("SAVE AS", [f"{name_of(document)} needs a name. Enter saves it."])
@@ -550,7 +541,7 @@ class FileActions(DerivationActions):
             if not name.strip():
                 return None
             path = typed(name)
-        while isinstance(result := await self.on_disk(partial(service.save, document, path, agreed)), Ask):
+        while isinstance(result := await self.on_disk(partial(self.service.save, document, path, agreed)), Ask):
             word = await self.ask(result)
             if word == GO_BACK:
                 return None
@@ -574,8 +565,6 @@ class FileActions(DerivationActions):
 
     async def saved(self, path: Path | None) -> bool:
         """Save, asking what is to be asked; whether it was saved."""
-        if self.service is None:
-            return False
         self.drop_empty_segment()
         result = await self._written(self.document, path)
         if result is None:

@@ -31,6 +31,14 @@ def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.file_actions.DISK", 20.0)
 
 
+@pytest.fixture(autouse=True)
+def _own_state(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """What the program of a test keeps is nothing of the person who runs it, nor of another test."""
+    with TemporaryDirectory(prefix="cutcomp-", ignore_cleanup_errors=True) as folder:
+        monkeypatch.setenv("XDG_STATE_HOME", folder)
+        yield
+
+
 @pytest.fixture
 def own(tmp_path: Path) -> Path:
     """A person's folder for journals."""
