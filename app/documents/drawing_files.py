@@ -46,13 +46,6 @@ class Progress:
     whole: int
 
 
-@dataclass(frozen=True, slots=True)
-class Done(Generic[Result]):
-    """A worker's result."""
-
-    value: Result
-
-
 def prepare_workers() -> None:
     """Start what watches over processes, in the main thread: what stands in for stderr under Textual has no number."""
     with redirect_stderr(sys.__stderr__):
@@ -75,8 +68,8 @@ class Worker(Generic[Result]):
         self._process.start()
         there.close()
 
-    def poll(self, wait: float = 0.0) -> Progress | Done[Result] | None:
-        """The next message, None if there is none within `wait` seconds.
+    def poll(self, wait: float = 0.0) -> Progress | Result | None:
+        """How far it is, or the result; None if neither comes within `wait` seconds.
 
         Raises DrawingError: what the function raised, or that the limit is passed or the process has died.
         """
@@ -91,13 +84,13 @@ class Worker(Generic[Result]):
             raise DrawingError("TOO_MUCH", f"Reading the drawing takes longer than {self._limit:g} s.")
         return None
 
-    def _received(self, message: object) -> Progress | Done[Result]:
+    def _received(self, message: object) -> Progress | Result:
         if isinstance(message, Progress):
             return message
         self.cancel()
         if isinstance(message, DrawingError):
             raise message
-        return Done(cast("Result", message))
+        return cast("Result", message)
 
     def cancel(self) -> None:
         """End the process, whatever it does."""
@@ -110,12 +103,12 @@ class Worker(Generic[Result]):
     def result(self) -> Result:
         """Wait for the result."""
         try:
-            while not isinstance(message := self.poll(1.0), Done):
+            while (message := self.poll(1.0)) is None or isinstance(message, Progress):
                 pass
         except BaseException:
             self.cancel()
             raise
-        return message.value
+        return message
 
 
 def read_and_list(

@@ -19,7 +19,6 @@ from textual.timer import Timer
 from textual.widgets import DataTable, Input, Label, Static
 
 from app.documents.drawing_files import (
-    Done,
     Progress,
     Worker,
     drawing_bytes,
@@ -254,10 +253,10 @@ class ImportScreen(BaseScreen):
         try:
             while not self._stopped:
                 message = await self._in_thread(worker.poll, 0.1)
-                if isinstance(message, Done):
-                    return message.value
-                if message is not None:
+                if isinstance(message, Progress):
                     self._tell_progress(message)
+                elif message is not None:
+                    return message
             raise DrawingError("STOPPED", "Stopped. Nothing was changed.")
         finally:
             self._working = ""

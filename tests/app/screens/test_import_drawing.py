@@ -14,7 +14,6 @@ from textual.widgets import DataTable
 
 from app.app import CutcompApp
 from app.documents import drawing_files
-from app.documents.drawing_files import Done
 from app.documents.programs import empty_program
 from app.documents.service import DocumentService
 from app.documents.settings import Settings, SettingsFile
@@ -26,6 +25,7 @@ from app.session.session import Session
 from app.widgets.contour_table import ContourTable
 from app.widgets.prompt import Prompt
 from core.importing.contour import Contour
+from core.importing.contours import ContourList
 from core.program.edit import FormPlace
 from core.program.file.write import dumps
 from core.program.model import CutterComp
@@ -42,8 +42,8 @@ class Here:
     def __init__(self, function: Callable[..., object], *arguments: object) -> None:
         self.function, self.arguments = function, arguments
 
-    def poll(self, _wait: float = 0.0) -> Done[object]:
-        return Done(self.function(*self.arguments, progress=lambda *_: None))
+    def poll(self, _wait: float = 0.0) -> object:
+        return self.function(*self.arguments, progress=lambda *_: None)
 
     def cancel(self) -> None:
         pass
@@ -472,7 +472,7 @@ async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tm
 
     async def late(work: Callable[..., object], *arguments: object) -> object:
         result = await asyncio.to_thread(work, *arguments)
-        if isinstance(result, Done):
+        if isinstance(result, ContourList):
             listed.set()
             while importing.query(ContourTable):
                 await asyncio.sleep(0)
