@@ -11,7 +11,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
-from textual.widgets import DataTable, Label
+from textual.widgets import DataTable, Label, OptionList
 from textual.widgets.option_list import Option
 
 from app.documents.tool_tables import tool_line
@@ -379,19 +379,19 @@ class ContourScreen(FormScreen):
     def _segment_selected(self) -> None:
         self.focus_field(self.names()[1])
 
-    @on(FindingsList.Stepped)
-    def _finding_stepped(self, message: FindingsList.Stepped) -> None:
-        if not self.query_one(FindingsList).has_focus:
+    @on(OptionList.OptionHighlighted, "#findings")
+    def _finding_stepped(self, event: OptionList.OptionHighlighted) -> None:
+        if not event.option_list.has_focus:
             return
-        entry = self.entries[message.number]
+        entry = self.entries[event.option_index]
         places = [each for each in self.entries if each.at is not None]
         self.in_hand = places.index(entry) if entry in places else None
         self._show_picture(self.host.shown)
 
-    @on(FindingsList.Chosen)
-    def _finding_chosen(self, message: FindingsList.Chosen) -> None:
+    @on(OptionList.OptionSelected, "#findings")
+    def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
         """To the field that a finding is about."""
-        entry = message.entry
+        entry = self.entries[event.option_index]
         self.go(entry.segment or 0, entry.field or SEGMENT)
 
     # ---- the fields

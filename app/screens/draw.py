@@ -9,7 +9,7 @@ from textual import on, work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.widgets import Label
+from textual.widgets import Label, OptionList
 
 from app.screens.base import BaseScreen
 from app.screens.contour_cells import run_here, run_trouble
@@ -57,6 +57,14 @@ class FullDrawing(Drawing, can_focus=True):
         Binding("shift+down", "screen.move_cross(0, -8)", "Cross down", show=False),
         Binding("x,X", "screen.type_cross", "Type X and Y of the pick", show=False),
     ]
+
+    async def on_mouse_scroll_up(self) -> None:
+        """Enlarge."""
+        await self.run_action("screen.zoom(1)")
+
+    async def on_mouse_scroll_down(self) -> None:
+        """Shrink."""
+        await self.run_action("screen.zoom(-1)")
 
 
 class DrawScreen(BaseScreen):
@@ -151,14 +159,14 @@ class DrawScreen(BaseScreen):
         self.query_one(FindingsList).highlighted = number
         self.say(entry.text)
 
-    @on(FindingsList.Stepped)
-    def _stepped(self, event: FindingsList.Stepped) -> None:
-        if self.query_one(FindingsList).has_focus and event.number != self.at:
-            self._take(event.number)
+    @on(OptionList.OptionHighlighted)
+    def _stepped(self, event: OptionList.OptionHighlighted) -> None:
+        if event.option_list.has_focus and event.option_index != self.at:
+            self._take(event.option_index)
 
-    @on(FindingsList.Chosen)
-    def _chosen(self, event: FindingsList.Chosen) -> None:
-        self.host.go_to(event.entry)
+    @on(OptionList.OptionSelected)
+    def _chosen(self, event: OptionList.OptionSelected) -> None:
+        self.host.go_to(self.entries[event.option_index])
 
     def action_edit_finding(self) -> None:
         """The form, with the cursor on the place of the finding in hand; without one on the segment it is on."""
@@ -297,10 +305,6 @@ class DrawScreen(BaseScreen):
         session = self.current_session
         if (segment := nearest_segment(session.derived_block, event.at)) is not None:
             self.host.move(FormPlace(session.place.block, segment))
-
-    @on(Drawing.Wheel)
-    def _wheel(self, event: Drawing.Wheel) -> None:
-        self.action_zoom(event.steps)
 
     def prompt_text(self) -> Sentence:
         """What the keys do; of the cross also where it is."""

@@ -92,12 +92,6 @@ class Drawing(Widget):
         drawing: Drawing
         at: Point
 
-    @dataclass
-    class Wheel(Message):
-        """The wheel was turned: `steps` is 1 to enlarge, -1 to shrink."""
-
-        steps: int
-
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
         self.drawn: Drawn | None = None
@@ -210,11 +204,3 @@ class Drawing(Widget):
         if self.drawn is not None and (at := event.get_content_offset(self)) is not None:
             point = self.drawn.view.at(at.x + 0.5, at.y + 0.5, *self.size)
             self.post_message(self.Picked(self, point))
-
-    def on_mouse_scroll_up(self) -> None:
-        """Enlarge."""
-        self.post_message(self.Wheel(1))
-
-    def on_mouse_scroll_down(self) -> None:
-        """Shrink."""
-        self.post_message(self.Wheel(-1))

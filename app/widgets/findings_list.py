@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from textwrap import fill
 from typing import ClassVar
 
-from textual import on
 from textual.binding import Binding, BindingType
 from textual.content import Content
-from textual.message import Message
 from textual.reactive import reactive
-from textual.widgets import OptionList
 from textual.widgets.option_list import Option
 
 from app.session.block_findings import Entry, Kind
@@ -57,18 +53,6 @@ class FindingsList(OptionRows):
     entries: reactive[tuple[Entry, ...]] = reactive((), repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
 
-    @dataclass
-    class Chosen(Message):
-        """A finding was chosen: the cursor is to go to its place."""
-
-        entry: Entry
-
-    @dataclass
-    class Stepped(Message):
-        """Another finding is in hand."""
-
-        number: int
-
     def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(id=id, classes=classes)
         self._width = 0
@@ -110,13 +94,3 @@ class FindingsList(OptionRows):
         """A text in lines of the list's width; the further ones are indented."""
         indent = " " * 4
         return fill(text, max(self._width, MIN_WIDTH), subsequent_indent=indent, drop_whitespace=True)
-
-    @on(OptionList.OptionHighlighted)
-    def _highlighted(self, event: OptionList.OptionHighlighted) -> None:
-        event.stop()
-        self.post_message(self.Stepped(event.option_index))
-
-    @on(OptionList.OptionSelected)
-    def _selected(self, event: OptionList.OptionSelected) -> None:
-        event.stop()
-        self.post_message(self.Chosen(self.entries[event.option_index]))
