@@ -69,20 +69,13 @@ class Ran(Message):
     result: Result
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Dotted:
-    """The judged run of the same text on another control, and its path as it lies dotted under that of the first."""
-
-    result: Result
-    path: tuple[Layer, ...]
-
-
-@dataclass
+@dataclass(eq=False)
 class RanDotted(Message):
-    """A worker has run the text of a question on another control."""
+    """A worker has run and judged the text of a question on another control, whose path lies dotted under the first."""
 
     question: Question
-    dotted: Dotted
+    result: Result
+    path: tuple[Layer, ...]
 
 
 @dataclass
@@ -119,13 +112,13 @@ def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
     return replace(result, answer=answer)
 
 
-def run_dotted(own: Result, control: str, progress: Progress = silent) -> Dotted:
+def run_dotted(own: Result, control: str, progress: Progress = silent) -> RanDotted:
     """The text of a result on another control, judged, with its path on the plane of that result."""
     from core.pipeline.nc_proof import dotted_path
 
     other = replace(own.question, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
-    return Dotted(result, dotted_path(result.proof, own.proof.plane))
+    return RanDotted(own.question, result, dotted_path(result.proof, own.proof.plane))
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:

@@ -22,7 +22,6 @@ from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,
-    Dotted,
     Question,
     Ran,
     RanDotted,
@@ -129,7 +128,7 @@ class ProofScreen(BaseScreen):
         self.result: Result | None = None
         self.dotted_control = ""
         """Another control whose path is drawn dotted, empty for none."""
-        self.dotted: Dotted | None = None
+        self.dotted: RanDotted | None = None
         """Its run of the same text, as far as it is known."""
         self.view_of: View | None = None
         self.stopped = self.half_typed = False
@@ -362,7 +361,7 @@ class ProofScreen(BaseScreen):
     @work(thread=True, exclusive=True, group="dotted", description="dotted")
     def _run_dotted(self, own: Result, control: str, work: Work) -> None:
         try:
-            self.post_message(RanDotted(own.question, run_dotted(own, control, work)))
+            self.post_message(run_dotted(own, control, work))
         except Stopped:
             # whoever stopped it shows so
             return
@@ -374,10 +373,10 @@ class ProofScreen(BaseScreen):
 
     @on(RanDotted)
     def _ran_dotted(self, event: RanDotted) -> None:
-        other = event.dotted.result
+        other = event.result
         if self.stands and event.question is self.question and other.question.control == self.dotted_control:
             self._end_dotted()
-            self.dotted = event.dotted
+            self.dotted = event
             self._draw()
             self.say(f"Dotted: {shown_control(other.question.control)} {other.answer.outcome}. B takes it away.")
 

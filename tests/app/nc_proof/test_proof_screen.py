@@ -18,8 +18,8 @@ from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
-from app.nc_proof.runs import Dotted, Result, first_tool, likely_control, read_tools, run
 from app.nc_proof.runs import Question as Asking
+from app.nc_proof.runs import RanDotted, Result, first_tool, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
@@ -339,7 +339,7 @@ async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict
         await with_tool(one, "1=.75")
         before, begun = one.outcome, Event()
 
-        def endless(*asked: Any) -> Dotted:
+        def endless(*asked: Any) -> RanDotted:
             begun.set()
             while True:
                 asked[-1](0.5)
