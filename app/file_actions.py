@@ -171,31 +171,25 @@ class FileActions(DerivationActions):
 
     def action_undo(self) -> None:
         """Take one edit back; what is half-typed is forgotten."""
-        if isinstance(self.screen, BaseScreen) and self.screen.take_over("undo"):
-            return
-        self._forget_typed()
         label = self.session.history.undo_label
-        if label is None:
-            self.say("There is nothing to undo.")
-            return
-        self._change(self.session.undone())
-        self.say(f"Undone: {label}. Ctrl+Y brings it back.")
+        self._turn("undo", label, self.session.undone, f"Undone: {label}. Ctrl+Y brings it back.")
 
     def action_redo(self) -> None:
         """Make one undone edit again; what is half-typed is forgotten."""
-        if isinstance(self.screen, BaseScreen) and self.screen.take_over("redo"):
-            return
-        self._forget_typed()
         label = self.session.history.redo_label
-        if label is None:
-            self.say("There is nothing to redo.")
-            return
-        self._change(self.session.redone())
-        self.say(f"Done again: {label}.")
+        self._turn("redo", label, self.session.redone, f"Done again: {label}.")
 
-    def _forget_typed(self) -> None:
+    def _turn(self, action: str, label: str | None, turned: Callable[[], Session], done: str) -> None:
+        """Undo or redo, on a screen with a document of its own that document's."""
         if isinstance(self.screen, BaseScreen):
+            if self.screen.take_over(action):
+                return
             self.screen.forget_typed()
+        if label is None:
+            self.say(f"There is nothing to {action}.")
+            return
+        self._change(turned())
+        self.say(done)
 
     def _change(self, session: Session) -> None:
         """The journal first, then the session, then what follows from it."""
