@@ -146,8 +146,6 @@ class ContourScreen(FormScreen):
     )
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("F9", "SEGMENTS"), ("F10", "FINDINGS"), ("?", "KEYS, HELP"))
 
-    FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset({"lookahead"})
-
     def __init__(self) -> None:
         super().__init__()
         self._followed: Session | None = None

@@ -49,9 +49,6 @@ class FormScreen(BaseScreen):
         Binding("equals_sign", "calculator", "Calculator", show=False, priority=True),
     ]
 
-    FORGETS_REFUSED: ClassVar[frozenset[str]] = frozenset()
-    """Fields whose old value comes back where a text is refused; in all others the text stays to be mended."""
-
     def __init__(self) -> None:
         super().__init__()
         self._armed: Widget | None = None
@@ -125,7 +122,8 @@ class FormScreen(BaseScreen):
         text = widget.value
         outcome = self.edited(field, text)
         if isinstance(outcome, Refused):
-            if field.name in self.FORGETS_REFUSED:
+            if field.name == "lookahead":
+                # in all others the text stays to be mended
                 widget.restore()
             self.say(outcome.text, Tone.ERROR)
             return False
