@@ -46,6 +46,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import Status
 from app.widgets.verdict import MARKS
+from core.controls.control_names import shown_name
 from core.controls.control_tools import CutterTool, ToolId, ToolTable, commented_size, tool_id
 from core.controls.registry import choices
 from core.finding import Finding, Severity
@@ -378,7 +379,7 @@ class ProofScreen(BaseScreen):
             self._end_dotted()
             self.dotted = event
             self._draw()
-            self.say(f"Dotted: {shown_control(other.question.control)} {other.answer.outcome}. B takes it away.")
+            self.say(f"Dotted: {shown_name(other.question.control)} {other.answer.outcome}. B takes it away.")
 
     def _dotted_stopped(self) -> None:
         """Esc has stopped the run on the other control."""
@@ -405,8 +406,8 @@ class ProofScreen(BaseScreen):
 
     def _show_titles(self) -> None:
         tools = "  ".join(map(self._shown_tool, self.question.tools.tools.values()))
-        dotted = f", dotted {shown_control(self.dotted_control)}" if self.dotted_control else ""
-        self.query_one("#proof-control", Label).update(f"{shown_control(self.question.control)}{dotted}")
+        dotted = f", dotted {shown_name(self.dotted_control)}" if self.dotted_control else ""
+        self.query_one("#proof-control", Label).update(f"{shown_name(self.question.control)}{dotted}")
         self.query_one("#proof-tools", Label).update(f"tools {tools or 'none given'}")
         path = self.document.file.path
         name = "NO NAME" if path is None else path.name
@@ -534,7 +535,7 @@ class ProofScreen(BaseScreen):
             scene = replace(scene, layers=(*dotted.path, *scene.layers))
             other = dotted.result
             second = self.query_one("#proof-dotted", Drawing)
-            second.heading = f"{shown_control(other.question.control)}: {other.answer.outcome}"
+            second.heading = f"{shown_name(other.question.control)}: {other.answer.outcome}"
             second.subject = SceneSubject(scene_at_line(other.scene, other.proof, line), self.unit, self.view_of)
         self.set_class(dotted is not None, "-dotted")
         drawing = self.query_one("#proof-drawing", Drawing)
@@ -689,10 +690,3 @@ def _while_wanted(worker: Worker[object]) -> Progress:
             raise Stopped
 
     return going_on
-
-
-def shown_control(control: str) -> str:
-    """A control's name as people know it."""
-    from core.controls.control_names import shown_name
-
-    return shown_name(control)
