@@ -42,7 +42,7 @@ from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
 from app.widgets.prompt import Prompt
 from app.widgets.segment_list import SegmentList
-from app.widgets.softkeys import Softkey, SoftkeyLabel, Softkeys
+from app.widgets.softkeys import Softkey, Softkeys
 from app.widgets.status import Status, Surroundings
 from app.widgets.verdict import Verdict
 from core.program.edit import Edited, FormPlace
@@ -373,10 +373,6 @@ class BaseScreen(Screen[None]):
     def _fit_frame(self) -> None:
         """The prompt says whether the terminal is too small, and the softkeys have longer or shorter names."""
         self.call_after_refresh(self.refresh_frame)
-
-    @on(SoftkeyLabel.Pressed)
-    async def _softkey_clicked(self, event: SoftkeyLabel.Pressed) -> None:
-        await self.action_softkey(event.number)
 
     async def action_softkey(self, number: int) -> None:
         """Press a softkey."""

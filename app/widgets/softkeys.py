@@ -11,7 +11,6 @@ from textual import events
 from textual.app import ComposeResult
 from textual.containers import Vertical
 from textual.content import Content
-from textual.message import Message
 
 from app.widgets.plain import PlainText
 
@@ -50,12 +49,6 @@ class Softkey:
 class SoftkeyLabel(PlainText):
     """One softkey as it is shown; a click presses it."""
 
-    @dataclass
-    class Pressed(Message):
-        """A softkey was clicked."""
-
-        number: int
-
     def __init__(self, number: int, key: Softkey | None) -> None:
         super().__init__(id=f"f{number}")
         self.number, self.key = number, key
@@ -71,7 +64,7 @@ class SoftkeyLabel(PlainText):
     def on_click(self, event: events.Click) -> None:
         """Press the key."""
         event.stop()
-        self.post_message(self.Pressed(self.number))
+        self.screen.call_later(self.screen.run_action, f"softkey({self.number})")
 
 
 def _label(number: int, key: Softkey | None, acts: bool) -> Text:
