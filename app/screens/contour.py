@@ -157,6 +157,8 @@ class ContourScreen(FormScreen):
         """Which of the findings with a place the loupe is on; None for the segment with the cursor."""
         self._tried = False
         """Whether the other fields show what a half-typed number would make of them."""
+        self._left_field: tuple[FormPlace, str] | None = None
+        """The field that the cursor left for a list, and where the form stood then."""
 
     # ---- what is shown
 
@@ -339,18 +341,28 @@ class ContourScreen(FormScreen):
     # ---- panels
 
     def action_panel(self, name: str) -> None:
-        """Show a list in place of the drawing, or the drawing again; on wide terminals the cursor goes there."""
+        """Show a list in place of the drawing, or the drawing again; on wide terminals the cursor goes there.
+
+        Behind the list the cursor goes on where it was.
+        """
         if not self.take():
             return
         self.quiet()
+        if self.current is not None:
+            self._left_field = (self.current_session.place, self.current.name or SEGMENT)
         shown = self.has_class(f"-{name}")
         for panel in PANELS:
             self.set_class(panel == name and not shown, f"-{panel}")
         target = self.query_one(f"#{name}")
         if shown or not isinstance(target, Widget):
-            self.focus_field(SEGMENT)
+            self._focus_left_field()
         else:
             self.call_after_refresh(self._into_panel, target)
+
+    def _focus_left_field(self) -> None:
+        """Back to the field that the cursor left for a list; to SEGMENT where another segment was chosen there."""
+        place, name = self._left_field or (None, SEGMENT)
+        self.focus_field(name if place == self.current_session.place else SEGMENT)
 
     def _into_panel(self, target: Widget) -> None:
         self._show_lists(self.host.shown)
@@ -362,7 +374,7 @@ class ContourScreen(FormScreen):
             for panel in PANELS:
                 self.remove_class(f"-{panel}")
             if self.current is None:
-                self.focus_field(SEGMENT)
+                self._focus_left_field()
         super().action_restore()
 
     @on(DataTable.RowHighlighted)
@@ -605,7 +617,9 @@ class ContourScreen(FormScreen):
         session = self.current_session
         if session.segment is not None and is_empty(session.segment) and number > session.place.segment:
             self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS}.")
-            self.focus_field(self.names()[1])
+            first = self.names()[1]
+            # a letter in a choice is one of its own
+            self.focus_field(first if isinstance(self.widget(first), NumberField) else SEGMENT)
             return
         place = FormPlace(session.place.block, number)
         if number == 1 and not session.block.segments:

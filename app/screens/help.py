@@ -48,7 +48,7 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Space", "the list of this field: tools, choices, look-ahead values"),
     ("left, right", "edit the text; step a choice; on SEGMENT walk over the segments"),
     ("=", "on a length or an angle: the calculator, whose answer goes into the field"),
-    ("Esc", "one step back: the old value, out of a panel, a dialog, a screen"),
+    ("Esc", "one step back: the old number, out of a panel, a dialog, a screen"),
     ("Del, Backspace", "empty the field; Enter makes it blank"),
     ("Page Up, Page Down", "segment before, next segment"),
     ("Ctrl+Home, Ctrl+End", "START, the last segment"),

@@ -19,7 +19,7 @@ from app.widgets.findings_list import FindingsList
 from app.widgets.verdict import Verdict
 from core.pipeline.derived import Derived
 from core.program.edit import FormPlace
-from core.program.model import Number, Unread
+from core.program.model import LineSegment, Number, Unread
 from tests.app.widget_pilot import operator
 
 
@@ -176,6 +176,29 @@ async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
         assert one.prompt.startswith("Up and down show the places of the findings.")
         shown = "".join(str(option.prompt) for option in one.screen.query_one("#findings", OptionList).options)
         assert shown.count("Corner too tight") == 1
+
+
+@pytest.mark.parametrize("key", ["f9", "f10"])
+@pytest.mark.parametrize("close", ["again", "escape"])
+async def test_behind_a_list_the_cursor_goes_on_where_it_was(key: str, close: str):
+    async with operator("notch") as one:
+        await one.press(*["down"] * 3)
+        field = one.at
+        await one.press(key)
+        await one.press(key if close == "again" else close)
+        assert one.at == field
+        await one.press("f9", "down", "f9")
+        assert one.at == "segment"
+
+
+async def test_letters_that_a_message_offers_are_taken():
+    async with operator("notch") as one:
+        await one.press("ctrl+end", "pagedown", "a")
+        assert one.at == "direction"
+        await one.press("pagedown")
+        assert "L LINE" in one.prompt
+        await one.press("l")
+        assert isinstance(one.session.segment, LineSegment)
 
 
 async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
