@@ -26,7 +26,8 @@ from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
-from core.program.model import Number
+from core.program.model import Number, Program
+from core.units import Kind, show
 
 COLUMNS = (("BLOCK", 5), ("KIND", 12), ("CUTTER COMP.", 13), ("TOOL", 4), ("SEG", 3), ("VERDICT", 11))
 
@@ -171,6 +172,7 @@ class ProgramScreen(BaseScreen):
         at = self.chosen + 1
         if self.host.apply(insert_block(self.current_session.program, at), f"INSERT BLOCK {at}"):
             self._edit(at)
+            self.notify(depths_kept(self.current_session.program, at), timeout=6)
 
     def action_delete_block(self) -> None:
         """Delete the block with the cursor."""
@@ -200,3 +202,11 @@ def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
     texts = (str(block.number), "MILL CONTOUR", str(block.block.cutter_comp), tool, str(len(block.block.segments)))
     verdict = verdict_word(outcome_of(block), marks) if block.known else Content("...")
     return (*(Content(text) for text in texts), verdict)
+
+
+def depths_kept(program: Program, at: int) -> str:
+    """What the new block `at` has of the block before it, with the depths as numbers: a cut may be meant less deep."""
+    block, unit = program.blocks[at - 1], program.unit
+    fields = (("Z BOTTOM", block.z_bottom), ("PECK DEPTH", block.peck_depth))
+    depths = [f"{name} {show(typed.value, Kind.LENGTH, unit)}" for name, typed in fields if isinstance(typed, Number)]
+    return f"Tool, feeds and depths as in block {at - 1}{': ' if depths else ''}{', '.join(depths)}."

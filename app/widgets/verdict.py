@@ -23,6 +23,7 @@ from app.session.block_findings import TO_TYPE
 from app.session.posting import deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
+from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit, sentence
 
@@ -34,6 +35,8 @@ HIGHEST: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """Cells of the chips' line on the narrowest screens."""
+SHORTEST_CHIP: Final = 20
+"""What stands before a colon is shown alone from this length on: a field's name says too little."""
 
 
 OUTCOME_ROLES: Final = {
@@ -220,7 +223,10 @@ def chips(case: Case, marks: Marks) -> Content:
     uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if whole else (f"{marks.good} UNCUT none", "$c-good")
     gone = deleted_segments(case.block)
     deleted = (f"{marks.deleted} DELETED {gone}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
-    return _row((gouge, uncut, deleted))
+    warned = any(finding.severity is Severity.WARNING for finding in case.block.findings)
+    # what is uncut or deleted stands here, and the findings list says the rest
+    others = ((f"{marks.warning} see F10", "$c-warn"),) if warned and not judgment.gouges else ()
+    return _row((gouge, uncut, deleted, *others))
 
 
 def _stopped_short(case: Case) -> bool:
@@ -241,8 +247,8 @@ def _in_the_way(case: Case, marks: Marks) -> Content:
     # the prompt and F10 say what follows
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
         text = f"{text.partition('. ')[0]}."
-    elif len(text) > CHIPS_WIDTH and ":" in text[:CHIPS_WIDTH]:
-        text = f"{text.partition(':')[0]}."
+    elif len(text) > CHIPS_WIDTH and ": " in text[SHORTEST_CHIP:CHIPS_WIDTH]:
+        text = f"{text[: text.index(': ', SHORTEST_CHIP)]}."
     return Content.styled(shortened(text, CHIPS_WIDTH), f"bold {role}")
 
 
@@ -265,8 +271,8 @@ def first_step(block: DerivedBlock) -> str:
     if block.block.segments or any(finding.code not in TO_TYPE for finding in block.errors):
         return ""
     if any(finding.code == "MISSING" for finding in block.errors):
-        return "Type START, then right arrow for segment 1."
-    return "START is complete: right arrow on SEGMENT for segment 1."
+        return "Fill in START, then Page Down for segment 1."
+    return "START is complete: Page Down for segment 1."
 
 
 def verdict_word(outcome: Outcome, marks: Marks) -> Content:

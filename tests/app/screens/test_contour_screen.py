@@ -11,6 +11,7 @@ from textual.widgets import DataTable, OptionList
 from app.screens.contour import ContourScreen
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
+from app.screens.program import depths_kept
 from app.session.block_findings import block_findings
 from app.session.derivation import Request, derived
 from app.session.work import Work
@@ -149,6 +150,8 @@ async def test_a_block_is_left_and_a_new_one_begun():
         assert type(one.screen).__name__ == "ProgramScreen"
         await one.press("f2")
         assert one.session.place == FormPlace(2, 0)
+        said = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
+        assert depths_kept(one.session.program, 2) == said
         assert type(one.screen).__name__ == "ContourScreen"
         await one.press("tab", "'3", "enter")
         assert one.session.block.tool == Number(3.0)

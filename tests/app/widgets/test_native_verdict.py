@@ -10,6 +10,7 @@ from app.documents.files import load
 from app.documents.programs import empty_program, example
 from app.session.words import segment_numbers
 from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
+from core.finding import Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Number, Unread, changed
@@ -76,10 +77,20 @@ def test_an_error_behind_a_clean_beginning_is_told_in_place_of_three_times_none(
     assert "GOUGE none" in chips(Case(derive(waiting).block(1), None, program.unit), MARKS["braille"]).plain
 
 
+def test_a_clean_path_with_a_warning_points_to_the_findings(pocket):
+    program = load(example("pocket"))
+    changed_block = replace(program.blocks[0], lookahead=Number(3.0))
+    typed = replace(program, blocks=(changed_block,))
+    block = derive(typed).block(1)
+    assert any(one.severity is Severity.WARNING for one in block.findings)
+    assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("▲ see F10")
+    assert "F10" not in chips(pocket, MARKS["braille"]).plain
+
+
 def test_an_empty_block_says_what_to_type_first():
     program = empty_program()
     block: DerivedBlock = derive(program).block(1)
-    assert chips(Case(block, None, Unit.IN), MARKS["braille"]).plain == " Type START, then right arrow for segment 1."
+    assert chips(Case(block, None, Unit.IN), MARKS["braille"]).plain == " Fill in START, then Page Down for segment 1."
 
 
 def test_runs_of_segment_numbers_are_joined():
