@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from textual import on, work
@@ -255,13 +256,15 @@ class DerivationActions(WorkActions):
     @property
     def proof(self) -> ProofScreen | None:
         """NC PROOF, where it is in front."""
-        from app.nc_proof.screen import ProofScreen
-
-        return self.screen if isinstance(self.screen, ProofScreen) else None
+        proofs = self.proofs
+        return proofs[-1] if proofs and proofs[-1] is self.screen else None
 
     @property
     def proofs(self) -> list[ProofScreen]:
         """Every NC PROOF that is open."""
+        if "app.nc_proof.screen" not in sys.modules:
+            # to ask loads no control and no numpy before the first paint
+            return []
         from app.nc_proof.screen import ProofScreen
 
         return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]

@@ -19,7 +19,7 @@ out = Path(sys.argv.pop())
 write = TerminalDriver.write
 
 def writing(driver, data):
-    if "MILL CONTOUR" in data and not out.exists():
+    if ("MILL CONTOUR" in data or "\u2500" in data) and not out.exists():
         out.write_text("\\n".join(sys.modules))
     write(driver, data)
 
@@ -98,6 +98,13 @@ def test_a_file_loads_the_form_alone(tmp_path: Path, part: str) -> None:
     modules = loaded(tmp_path, part)
     assert screens(modules) == FORM
     assert modules & LATER == set()
+
+
+def test_home_loads_no_other_screen(tmp_path: Path) -> None:
+    """Its workers, which look through the folder meanwhile, may be faster than the paint."""
+    modules = loaded(tmp_path)
+    assert screens(modules) == {*FORM, "home"}
+    assert "app.nc_proof.screen" not in modules
 
 
 def test_no_more_than_the_lock_is_forced_to_the_disk_before_the_first_paint(tmp_path: Path, part: str) -> None:
