@@ -771,7 +771,7 @@ def _kept_for(user: str, time: str, path: Path, today: str) -> str:
 
 
 def _marked(document: Document) -> str:
-    """That what cannot be used is in the file too."""
+    """Says that what cannot be used is in the file too."""
     if isinstance(document, ContourDocument) and any(unread_texts(document.program)):
         return ", what is marked ERR as it was typed."
     return ""

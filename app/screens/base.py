@@ -321,7 +321,7 @@ class BaseScreen(Screen[None]):
             self.query_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:
-        """That the terminal is smaller than any screen is made for; all keys act all the same."""
+        """Says that the terminal is smaller than any screen is made for; all keys act all the same."""
         width, height = self.app.size
         if width >= SMALLEST[0] and height >= SMALLEST[1]:
             return None

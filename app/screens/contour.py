@@ -457,7 +457,7 @@ class ContourScreen(FormScreen):
         return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
 
     def _or_later(self, finding: Finding) -> str:
-        """That a segment in which something is typed may be determined by one that is still to come."""
+        """Says that a segment in which something is typed may be determined by one that is still to come."""
         session = self.current_session
         last = session.segment is not None and session.place.segment == len(session.block.segments)
         waits = finding.code == "MISSING" and last and not run_stops(session)

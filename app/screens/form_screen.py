@@ -323,7 +323,7 @@ class FormScreen(BaseScreen):
         return self.trouble(field) or Sentence(prompt_of(field))
 
     def _half_typed(self, widget: NumberField, field: Field) -> Sentence | None:
-        """That a text is no number yet, and which one counts until it is."""
+        """Says that a text is no number yet, and which one counts until it is."""
         typed = None if field.kind is Kind.TEXT else read_typed(widget.value, field, self.current_session.program.unit)
         if not isinstance(typed, Unread):
             return None

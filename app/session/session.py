@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.session.changes import changed
 from core.pipeline.derived import Derived, DerivedBlock
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.program.edit import FormPlace, is_empty
 from core.program.history import History
 from core.program.model import Block, Program, Segment
@@ -41,7 +41,7 @@ class Session:
     """What is being worked on.
 
     `file` is None until the program has a name, `saved` is the program as the file holds it.  `derived` always belongs
-    to `program`: an outline at first, in full once the worker is done.  `title` names the example part it began with.
+    to `program`: without paths at first, in full once the worker is done.  `title` names the example part it began with.
     `table` is the look-ahead table of the block that it was made of.  `look_only`: somebody else has the file open.
     """
 
@@ -58,7 +58,7 @@ class Session:
     def of(program: Program, title: str = "") -> Session:
         """A session that begins with this program, the cursor on START of block 1."""
         cursor = Cursor(field=_first_field(program))
-        return Session(History(program), program, outline(program), cursor, title=title)
+        return Session(History(program), program, solve_fields(program), cursor, title=title)
 
     @staticmethod
     def of_history(
@@ -75,7 +75,7 @@ class Session:
         if field == SEGMENT and not history.past:
             field = _first_field(history.program)
         cursor = Cursor(nearest_place(history.program, place), field)
-        derived = outline(history.program)
+        derived = solve_fields(history.program)
         return Session(history, saved, derived, cursor, file, title, look_only=look_only)
 
     def like(self, before: Session) -> Session:
@@ -177,7 +177,7 @@ class Session:
         place = nearest_place(history.program, self.place)
         same_form = place == self.place and _kind(history.program, place) is _kind(self.program, place)
         cursor = self.cursor if same_form else Cursor(place)
-        return replace(self, history=history, derived=outline(history.program), cursor=cursor)
+        return replace(self, history=history, derived=solve_fields(history.program), cursor=cursor)
 
 
 def _first_field(program: Program) -> str:

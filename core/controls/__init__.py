@@ -4,8 +4,9 @@
 `compared_controls` compares all controls on one program, `compared_contours` two programs of any language.
 
 Word-address controls share the reader, the modal machine and the macros of `iso` and the joints of `compensation`;
-`makers` holds what each control does differently.  `klartext` reads its own language.  All give the moves, findings
-and stretches of `control_run`.  `write` writes a compensated contour as a control's own program.
+`makers` holds what each control does differently, and says how to add one.  `klartext` reads its own language.  All
+give the moves, findings and stretches of `control_run`.  `write` writes a compensated contour as a control's own
+program.
 
 Where a maker's manual does not say, cutcomp makes a choice and says so in a finding, or it is listed here:
 

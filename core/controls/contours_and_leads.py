@@ -33,7 +33,7 @@ RowRange = tuple[int, int]
 
 
 def contours_of(path: Path) -> tuple[RowRange, ...]:
-    """The contours as rows of their pieces, rising; pieces in none of them are leads.
+    """The contours as ranges of their pieces' rows, ascending; rows in none of them are leads.
 
     A closed run of pieces is a contour, the longest one before all others.  What is before, between and after closed
     ones is a contour too where it has more than MAX_LEAD_MOVES pieces, an open one: nothing says that it is no surface.

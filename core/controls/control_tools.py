@@ -108,7 +108,7 @@ _COMMENTED: Final = re.compile(
 
 
 def missing_tool(number: int | None) -> str:
-    """That a table has no tool of a number, and what to do; None stands for one that is not a whole number."""
+    """Says that a table has no tool of a number, and what to do; None stands for one that is not a whole number."""
     which = "of this number" if number is None else str(number)
     return f"The tool table has no tool {which}. Enter it, or write the number of a tool in the table."
 

@@ -1,4 +1,6 @@
-"""Corner loops: moves that go on beyond an outside corner, turn around in the open, and come back along the next wall.
+"""Corner loops, found and taken out of a contour before it is judged.
+
+A loop goes on beyond an outside corner, turns around in the open, and comes back along the next wall.
 
 So a corner stays sharp where a control would round it.  The loop is no wall: it begins on the cutter's side of both
 walls, and as it crosses nothing else it stays there.

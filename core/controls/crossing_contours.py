@@ -25,7 +25,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.iso.modal_state import TAKEN_AS_ZERO
 from core.controls.moves import Moves, Plane
 from core.controls.rapids_at_depth import CutContour
-from core.controls.repeated_passes import Shape, shape
+from core.controls.repeated_passes import Shape, path_key
 from core.finding import Severity
 from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
@@ -144,7 +144,7 @@ def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
     walls, setup = dict[tuple[Shape, int], _Wall](), _setups(run)
     for contour in contours:
         if contour.stretch.plane is Plane.XY and len(contour.path):
-            key = (shape(contour.path), bisect(setup, _line(contour.stretch)))
+            key = (path_key(contour.path), bisect(setup, _line(contour.stretch)))
             if key not in walls or contour.top > walls[key].contour.top:
                 walls[key] = _Wall(contour, *key)
     return list(walls.values())
@@ -154,11 +154,11 @@ def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
     """The compensated moves of a run in XY, by stretch and radius; of those that are alike the lowest."""
     passes, setups = dict[tuple[Shape, float, int], _Pass](), _setups(run)
     for stretch in run.stretches:
-        own = frozenset(shape(one.path) for one in contours if stretch.first <= one.stretch.first < stretch.last)
+        own = frozenset(path_key(one.path) for one in contours if stretch.first <= one.stretch.first < stretch.last)
         setup = bisect(setups, _line(stretch))
         for part in stretch.parts() if stretch.plane is Plane.XY else ():
             moves = run.moves.part(part.first, part.last)
-            key = (shape(moves.path()), part.radius, setup)
+            key = (path_key(moves.path()), part.radius, setup)
             lowest = passes[key].moves.points[:, 2].min() if key in passes else np.inf
             if part.radius > LEAST and len(moves.path()) and moves.points[:, 2].min() < lowest:
                 passes[key] = _Pass(moves, part.radius, own, setup)

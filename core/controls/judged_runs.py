@@ -24,8 +24,8 @@ from core.controls.crossing_contours import ContourCut, cuts_of_other_contours
 from core.controls.moves import Moves, Plane
 from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
-from core.controls.registry import arc_radii
-from core.controls.repeated_passes import shape, without_repeats
+from core.controls.registry import arc_tolerance
+from core.controls.repeated_passes import path_key, without_repeats
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows, joined
@@ -207,12 +207,12 @@ def _count_gouges(results: Sequence[Judged]) -> int:
 def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Judged]:
     """The verdicts on the pieces of a stretch, each with what it cuts of the others."""
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
-    surfaces = {shape(result.surface): result.surface for results in judged for result in results}
+    surfaces = {path_key(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
     unjudged: list[Judged] = []
     for results in judged:
-        own, center = {shape(result.surface) for result in results}, results[0].center
-        others = [contour for contour in contours.near(center, stretch.radius) if shape(contour) not in own]
+        own, center = {path_key(result.surface) for result in results}, results[0].center
+        others = [contour for contour in contours.near(center, stretch.radius) if path_key(contour) not in own]
         more, unknown, slack = _cuts_of(run, stretch, center, others)
         results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
@@ -382,7 +382,7 @@ def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: floa
 def _accepted_difference(run: ControlRun, *paths: Path) -> float:
     """Millimeters by which the control that made this run lets the radii of an arc of this size differ."""
     radii = [float(path.radii[path.turns != 0].max(initial=0.0)) for path in paths]
-    return max(ARC_RADII, arc_radii(run.control).largest_difference(max(radii), run.unit) + GOUGE)
+    return max(ARC_RADII, arc_tolerance(run.control).largest_difference(max(radii), run.unit) + GOUGE)
 
 
 def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
@@ -466,7 +466,7 @@ def _first_line(path: Path) -> int | None:
 
 
 def _by_itself(result: Judged) -> Iterator[Finding]:
-    """That a part is judged by itself."""
+    """Says that a part is judged by itself."""
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
     if result.by_itself:
         yield Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))
@@ -510,7 +510,7 @@ def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
 
 
 def _above(result: Judged) -> Iterator[Finding]:
-    """That moves above the part pass over it and are not judged: no program says how high it is."""
+    """Says that moves above the part pass over it and are not judged: no program says how high it is."""
     above = result.above
     if above is None:
         return
@@ -528,7 +528,7 @@ def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
 
 
 def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
-    """That an arc has two radii, which the control accepts, and how it is judged; a warning beyond CAM_ROUNDING."""
+    """Says that an arc has two radii, which the control accepts, and how it is judged; warns beyond CAM_ROUNDING."""
     if arc is None:
         return []
     text = "Arc radius {0} at its start, {1} at its end: judged at a radius between them, with {value} extra tolerance."
@@ -594,7 +594,7 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
 
 
 def _leads(result: Judged) -> Iterator[Finding]:
-    """That moves are treated as leads, and what is cut of them."""
+    """Says that moves are treated as leads, and what is cut of them."""
     if not result.leads:
         return
     text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
@@ -617,7 +617,7 @@ def _leads(result: Judged) -> Iterator[Finding]:
 
 
 def _corner_loops(result: Judged) -> Iterator[Finding]:
-    """That a contour crosses itself to go around an outside corner."""
+    """Says that a contour crosses itself to go around an outside corner."""
     for loop in result.loops:
         lines = enumerated("line", loop.numbers)
         text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
@@ -673,7 +673,7 @@ def _uncut(result: Judged) -> list[Finding]:
 
 
 def _crossing(result: Judged) -> list[Finding]:
-    """That the contour's ends run past its corner, or that it crosses itself."""
+    """Says that the contour's ends run past its corner, or that it crosses itself."""
     verdict, line = result.verdict, _first_line(result.surface)
     if verdict.over_run is not None:
         return [_over_run(verdict.over_run, result.surface)]
@@ -685,7 +685,7 @@ def _crossing(result: Judged) -> list[Finding]:
 
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
-    """That the contour's ends are leads; a warning where the first or the last point may be wrong."""
+    """Says that the contour's ends are leads; a warning where the first or the last point may be wrong."""
     if not over_run.doubtful and over_run.lead_numbers:
         which = enumerated("line", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."

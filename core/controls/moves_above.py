@@ -1,4 +1,4 @@
-"""Moves above: what a compensated stretch runs higher than anything was cut, such as a rapid between two contours.
+"""Moves above the part, such as a rapid between two contours: taken out of a stretch before it is judged.
 
 Nothing in a program says how high a part is.  A move counts as above it when it is higher than all cuts so far and not
 below zero, where the top of a part usually is.  Such a move cuts nothing, and a rapid there is no contour.
@@ -20,7 +20,7 @@ from core.tolerance import ON_PATH
 
 Z: Final = 2
 
-RowRange = tuple[int, int]
+MoveSpan = tuple[int, int]
 """The row of the point where moves start, and the row of the last of them."""
 
 
@@ -107,11 +107,11 @@ def surface_rows(stretch: Stretch) -> Flags:
     return rows
 
 
-def _between(moves: Moves, high: Flags) -> list[RowRange]:
+def _between(moves: Moves, high: Flags) -> list[MoveSpan]:
     """The parts of the moves between high ones; each has moves in the plane, all of them low."""
     in_plane = moves.moving_in(Plane.XY)
     low, above = np.flatnonzero(in_plane & ~high), np.flatnonzero(in_plane & high)
-    parts = list[RowRange]()
+    parts = list[MoveSpan]()
     for group in np.split(low, np.flatnonzero(np.diff(np.searchsorted(above, low))) + 1) if len(low) else ():
         before, behind = above[above < group[0]], above[above > group[-1]]
         first = int(before[-1]) if len(before) else 0
@@ -119,12 +119,12 @@ def _between(moves: Moves, high: Flags) -> list[RowRange]:
     return parts
 
 
-def _gaps(parts: list[RowRange], count: int) -> list[RowRange]:
+def _gaps(parts: list[MoveSpan], count: int) -> list[MoveSpan]:
     """What of so many rows lies before, between and behind parts; without any the whole."""
     return list(pairwise([0, *(row for part in parts for row in part), count - 1]))[::2]
 
 
-def _lines(moves: Moves, gap: RowRange) -> frozenset[int]:
+def _lines(moves: Moves, gap: MoveSpan) -> frozenset[int]:
     """The lines of the moves of a gap that run in the plane."""
     part = moves.part(gap[0], gap[1] + 1)
     return frozenset(part.lines[part.moving_in(Plane.XY)].tolist())

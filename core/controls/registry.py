@@ -14,12 +14,12 @@ from typing import Final
 from core.controls.control_names import CONTROL_NAMES, ControlChoice, inside_name, shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
-from core.controls.iso.arcs import ArcRadii
+from core.controls.iso.arcs import ArcTolerance
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.execute import NO_LIBRARY, execute
 from core.controls.iso.flow import MakeControl, ProgramLibrary
 from core.controls.klartext import control as klartext
-from core.controls.klartext.path_functions import KLARTEXT_RADII
+from core.controls.klartext.path_functions import KLARTEXT_ARC_TOLERANCE
 from core.controls.klartext.reader import is_klartext_text
 from core.controls.makers import fanuc, haas, linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
@@ -72,10 +72,10 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
 """The controls, in the order a comparison shows them."""
 
 
-def arc_radii(control: str) -> ArcRadii:
-    """How far the radii of an arc may differ on a control, by its full or short name."""
+def arc_tolerance(control: str) -> ArcTolerance:
+    """How far the radii of an arc may differ on a control, by its full or short name; KeyError for an unknown one."""
     dialect = CONTROLS[inside_name(control).partition(":")[0]].dialect
-    return dialect.arc_radii if dialect else KLARTEXT_RADII
+    return dialect.arc_tolerance if dialect else KLARTEXT_ARC_TOLERANCE
 
 
 def is_klartext(control: str) -> bool:

@@ -24,7 +24,7 @@ MIN_SHARE: Final = 4
 Shape = tuple[bytes, ...]
 
 
-def shape(path: Path) -> Shape:
+def path_key(path: Path) -> Shape:
     """The same for paths that are the same to GOUGE, whatever their lines."""
     grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
     return (*(grid.tobytes() for grid in grids), path.turns.tobytes())

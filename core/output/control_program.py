@@ -84,7 +84,7 @@ def _for_the_operator(
 
 
 def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
-    """That a smaller tool would not cut what was typed: what the look-ahead deleted is not in the program."""
+    """Says that a smaller tool would not cut what was typed: what the look-ahead deleted is not in the program."""
     diameters = [cut.diameter for cut in cuts if isinstance(cut, CompensatedPass) and len(cut.compensated.deleted)]
     if not diameters:
         return ()

@@ -31,8 +31,8 @@ from core.output.grid import Grid
 from core.output.objections import OVERRIDABLE, job_errors
 from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.fields_stage import solve_block_fields
 from core.pipeline.jobs import job
-from core.pipeline.outline import outline_block
 from core.pipeline.parameters import parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
@@ -54,7 +54,7 @@ def derive(program: Program, progress: Progress = silent) -> Derived:
 
 def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:
     """Everything that follows for block `number`, counted from 1."""
-    block = outline_block(program, number)
+    block = solve_block_fields(program, number)
     progress(OUTLINED)
     if not block.solved.pieces or block.radius is None:
         return replace(block, known=True)

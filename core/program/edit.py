@@ -92,9 +92,10 @@ def is_empty(segment: Segment) -> bool:
 
 
 def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
-    """Pick CUTTER COMP. or COOLANT of START, DIRECTION of an ARC, or the solution of a LINE or an ARC.
+    """Set a choice: CUTTER COMP. or COOLANT of START, DIRECTION of an ARC, TANGENT (YES or NO) of a LINE or an ARC.
 
-    None blanks COOLANT, and takes the picked solution back.
+    `choice` is the picked solution, an int from 0; any other value is one of the field's words.  None blanks COOLANT
+    and takes the picked solution back.  Any other value is Refused; KeyError for a field that there is not.
     """
     if refusal := _absent(program, where):
         return refusal

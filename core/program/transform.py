@@ -10,7 +10,7 @@ from cmath import exp, phase
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import dist, pi, radians
-from typing import Final
+from typing import Final, assert_never
 
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.program.edit import Edited, FormPlace, Refused, with_part
@@ -185,8 +185,10 @@ def _transformed(
                 yield _line(segment, shape, motion, unit, explicit=explicit)
             case ArcSegment():
                 yield _arc(segment, shape, motion, unit, explicit=explicit)
-            case _:
+            case BlendSegment() | ChamferSegment():
                 yield segment
+            case _:
+                assert_never(segment)
 
 
 def _line(segment: LineSegment, shape: SolvedSegment, motion: Motion, unit: Unit, *, explicit: bool) -> LineSegment:

@@ -25,7 +25,7 @@ def judge(
     side: Side,
     radius: float,
     center: Path,
-    arc_radii: float = ARC_RADII,
+    arc_tolerance: float = ARC_RADII,
     *,
     leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
@@ -34,10 +34,10 @@ def judge(
     Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
-    `arc_radii`, or at all with both ends on one ray from the center, give a verdict that is not `judged` and so never
-    clean.  `leads` says what of the surface's ends may belong to an over-run.
+    `arc_tolerance` (mm), or at all with both ends on one ray from the center, give a verdict that is not `judged` and
+    so never clean.  `leads` says what of the surface's ends may belong to an over-run.
     """
-    return judge_together(surface, side, radius, (center,), arc_radii, leads=leads)
+    return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads)
 
 
 def judge_together(
@@ -45,7 +45,7 @@ def judge_together(
     side: Side,
     radius: float,
     centers: Sequence[Path],
-    arc_radii: float = ARC_RADII,
+    arc_tolerance: float = ARC_RADII,
     *,
     leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
@@ -57,10 +57,12 @@ def judge_together(
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, None, (), NOTHING, 0.0, crosses_itself=False)
-    return judge_prepared(Surface.prepare(surface, side, leads=leads), radius, centers, arc_radii)
+    return judge_prepared(Surface.prepare(surface, side, leads=leads), radius, centers, arc_tolerance)
 
 
-def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc_radii: float = ARC_RADII) -> Verdict:
+def judge_prepared(
+    surface: Surface, radius: float, centers: Sequence[Path], arc_tolerance: float = ARC_RADII
+) -> Verdict:
     """The verdict of `judge_together` on a surface that is prepared."""
     if not measurable(radius, *centers):
         return _unjudged(radius)
@@ -69,7 +71,7 @@ def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc
         numbers = np.concatenate((np.empty(0), *(center.numbers for center in centers)))
         for pieces, known in ((surface.walls, surface.path.numbers), (moves, numbers)):
             worst = int(pieces.slack.argmax()) if len(pieces) else 0
-            if len(pieces) and not pieces.slack[worst] <= arc_radii:
+            if len(pieces) and not pieces.slack[worst] <= arc_tolerance:
                 return _unjudged(radius, _uneven(pieces, worst, known, on_surface=pieces is surface.walls))
         try:
             return _judged(surface, radius, moves, numbers)

@@ -152,7 +152,7 @@ def enumerated(what: str, numbers: Sequence[float]) -> str:
 
 
 def _over_run(over_run: OverRun) -> Finding:
-    """That the contour's ends are leads; a warning where START or the last end may be mistyped."""
+    """Says that the contour's ends are leads; a warning where START or the last end may be mistyped."""
     if not over_run.doubtful and over_run.lead_numbers:
         which = enumerated("segment", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."

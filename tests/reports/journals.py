@@ -20,7 +20,7 @@ from app.documents.journal_file import journal_path, lines
 from app.documents.left_overs import file_of_copy
 from app.documents.questions import RESTORE
 from app.documents.service import DocumentService, Opened
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from tests.app.documents.typist import DEAD, TIME, started
 from tests.app.nc_lines import inserted
 
@@ -140,8 +140,8 @@ def _used(documents: DocumentService, opened: Opened[Any]) -> None:
     document = opened.document
     if isinstance(document, ContourDocument):
         for step in document.history.past:
-            outline(step.program)
-        outline(document.program)
+            solve_fields(step.program)
+        solve_fields(document.program)
         document.data()
         documents.keep(document.edited(document.history.undo(), document.cursor, document.field_name))
     else:

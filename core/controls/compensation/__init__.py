@@ -1,4 +1,4 @@
-"""Compensation as controls do it, block by block: the one scalar form of joining offset elements.
+"""G41, G42, RL and RR block by block: offset elements, the rules at corners, the look-ahead, the moves.
 
 `elements` has the elements and their offset points, `corner_rules` the rules by which two of them are joined,
 `element_queue` the look-ahead, `recorder` the moves and the compensated stretches.  One corner by itself:

@@ -193,15 +193,16 @@ def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Po
     return Joint(leaving if not first.turn else end, start if second.turn else coming, through)
 
 
-def entry_joint(first: Element, second: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
-    """The entry move against the first element: `direct` (type A) goes straight to E2, type B around outside corners.
+def entry_joint(entering: Element, first: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
+    """How the entry move joins the contour's first element.
 
-    The polylines of type B are read from figures and agree with those of other makers; the text does not give them.
+    `direct` (type A) goes straight to E2; type B goes around outside corners by `rule`.  The manual shows the polylines
+    of type B in figures alone; they agree with those of other makers.
     """
-    start = offset_start(second, offset)
-    if direct or inward_turn(first, second, offset) >= 0.0:
+    start = offset_start(first, offset)
+    if direct or inward_turn(entering, first, offset) >= 0.0:
         return Joint(start, start)
-    return _around_lead(first, second, offset, rule, second)._replace(start=start)
+    return _around_lead(entering, first, offset, rule, first)._replace(start=start)
 
 
 def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:

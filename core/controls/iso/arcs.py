@@ -32,7 +32,7 @@ class NoArc:
 
 
 @dataclass(frozen=True, slots=True)
-class ArcRadii:
+class ArcTolerance:
     """How far the radii of an arc at its start and at its end may differ on a control.
 
     The control accepts a difference up to `inch` or `mm`, by the unit in force, and beyond it up to `share` of the
@@ -65,7 +65,7 @@ class ArcRadii:
         return NoArc(text + limit, (first, last), "ARC-RADII")
 
 
-USUAL_RADII: Final = ArcRadii()
+USUAL_ARC_TOLERANCE: Final = ArcTolerance()
 """What is assumed where a maker's manual does not say.
 
 Never more than 0.003 in, 0.0762 mm: start, end and center rounded to three decimals of an inch part the radii by 0.0028

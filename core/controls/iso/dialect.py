@@ -11,8 +11,8 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.iso.arcs import USUAL_RADII, ArcRadii
-from core.controls.iso.macro import ParameterStore
+from core.controls.iso.arcs import USUAL_ARC_TOLERANCE, ArcTolerance
+from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.reader import PLAIN_SYNTAX, SWITCHES, Block, Syntax
 from core.controls.moves import Plane
 from core.units import Unit
@@ -133,7 +133,7 @@ class Dialect:
     unit: Unit
     mode: int | None = 0
     absolute_centers: bool = False
-    arc_radii: ArcRadii = USUAL_RADII
+    arc_tolerance: ArcTolerance = USUAL_ARC_TOLERANCE
     syntax: Syntax = PLAIN_SYNTAX
     moves_alone: bool = False
     feed_needed: bool = False

@@ -10,11 +10,11 @@ import numpy as np
 from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
+from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import Flow, MakeControl, ProgramLibrary
 from core.controls.iso.machine import Machine
-from core.controls.iso.macro import ParameterStore
-from core.controls.iso.macro_flow import MacroFlow
-from core.controls.iso.macro_machine import MacroMachine
+from core.controls.iso.macro_b_flow import MacroFlow
+from core.controls.iso.macro_b_machine import MacroMachine
 from core.controls.moves import Moves
 from core.controls.program_text import BYTE_ORDER_MARKS, lines_of
 from core.progress import Progress, silent

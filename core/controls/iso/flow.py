@@ -1,4 +1,4 @@
-"""Program flow: which line runs next by subprograms and LinuxCNC's O-words; `macro_flow` is that of Fanuc and Haas.
+"""Program flow: which line runs next by subprograms and LinuxCNC's O-words; `macro_b_flow` is that of Fanuc and Haas.
 
 LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
 `endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a
@@ -14,10 +14,9 @@ from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
+from core.controls.iso.code_support import JUMPS, only_on
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.elsewhere import JUMPS, only_on
-from core.controls.iso.machine import Control, Machine
-from core.controls.iso.macro import (
+from core.controls.iso.expressions import (
     CompactText,
     ExpressionReader,
     FaultError,
@@ -25,6 +24,7 @@ from core.controls.iso.macro import (
     ParameterStore,
     tell_unset,
 )
+from core.controls.iso.machine import Control, Machine
 from core.controls.iso.reader import Block, has_words, is_plain, read_line, whole, without_comments
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity

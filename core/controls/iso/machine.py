@@ -15,8 +15,8 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_center
+from core.controls.iso.code_support import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
-from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat
@@ -381,7 +381,7 @@ class Machine(ModalState):
         center = given_center(block.words, self.plane, start, self.scale, origin)
         if isinstance(center, NoArc):
             return center
-        return self.dialect.arc_radii.refused(start, end, center, self.unit) or center
+        return self.dialect.arc_tolerance.refused(start, end, center, self.unit) or center
 
     def _fits_otherwise(self, block: Block, start: Point, end: Point) -> str:
         """What to write where the center is right counted in the other way; nothing where it is wrong in both.

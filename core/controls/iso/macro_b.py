@@ -15,7 +15,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.macro import (
+from core.controls.iso.expressions import (
     GAP,
     CompactText,
     ExpressionReader,

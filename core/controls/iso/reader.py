@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.elsewhere import EXPRESSIONS, JUMPS, only_on
-from core.controls.iso.macro import GAP, CompactText, MacroParameters, evaluated_line
+from core.controls.iso.code_support import EXPRESSIONS, JUMPS, only_on
+from core.controls.iso.expressions import GAP, CompactText, MacroParameters, evaluated_line
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST

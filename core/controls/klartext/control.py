@@ -10,9 +10,9 @@ from typing import Final
 
 from core.controls.control_run import NOT_RUN_TEXT, AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
-from core.controls.klartext import cycles, leads, m_functions, path_functions, settings
+from core.controls.klartext import cycles, leads, m_functions, path_functions, setup_blocks
 from core.controls.klartext.center_path import CenterPathRecorder, Record
-from core.controls.klartext.corner_rounding import WaitingElement
+from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
 from core.controls.program_text import lines_of, quoted
@@ -50,7 +50,7 @@ def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Pr
     log = Log()
     center = CenterPathRecorder(log, Record(share))
     blocks = tuple(read_blocks(lines_of(text)))
-    state = State(log, WaitingElement(center), tools, blocks, _labels(blocks), share)
+    state = State(log, CornerBuffer(center), tools, blocks, _labels(blocks), share)
     stopped_at = None
     try:
         _run_blocks(state, progress)
@@ -78,7 +78,7 @@ def _run_blocks(state: State, progress: Progress) -> None:
             state.stop("LIMIT", text, block)
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
-        HEADS.get(block.head, settings.unknown)(state, block)
+        HEADS.get(block.head, setup_blocks.unknown)(state, block)
         if state.cycle_due:
             state.cycle_due = False
             cycles.call(state, block)
@@ -124,7 +124,7 @@ def _call(state: State, block: Block) -> None:
     """CALL LBL n runs a subprogram; with REP m the part from LBL n to here is run m times more."""
     call = _CALL.match(block.body)
     if call is None:
-        settings.unknown(state, block)
+        setup_blocks.unknown(state, block)
     elif call[2]:
         left = state.repeats.pop(state.next, int(call[2]))
         if left > 0:
@@ -166,7 +166,7 @@ def _function(state: State, block: Block) -> None:
     elif number in _PASSED_OVER:
         _pass_over(state, block, number, rest)
     else:
-        settings.unknown(state, block)
+        setup_blocks.unknown(state, block)
 
 
 def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
@@ -185,7 +185,7 @@ def _condition(state: State, block: Block) -> None:
     question, _, goal = block.body.strip().removeprefix("IF").partition("GOTO")
     sign, label = _COMPARISON.search(question), _GOAL.match(goal)
     if sign is None or label is None:
-        settings.unknown(state, block)
+        setup_blocks.unknown(state, block)
     first = state.value(question[: sign.start()], block)
     second = state.value(question[sign.end() :], block)
     equal = isclose(first, second, rel_tol=0.0, abs_tol=1e-9)
@@ -208,18 +208,18 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
         "CTP": path_functions.polar_tangent,
         "APPR": leads.approach,
         "DEP": leads.depart,
-        "BEGIN": settings.begin,
-        "END": settings.end,
-        "BLK": settings.ignored,
-        "TOOL": settings.tool,
+        "BEGIN": setup_blocks.begin,
+        "END": setup_blocks.end,
+        "BLK": setup_blocks.ignored,
+        "TOOL": setup_blocks.tool,
         "CYCL": cycles.cycle,
-        "TRANS": settings.transformation,
-        "PLANE": settings.plane,
-        "*": settings.structure,
-        "(": settings.bracketed,
-        "FUNCTION": settings.function,
-        "DECLARE": settings.text_parameter,
-        "QS": settings.text_parameter,
+        "TRANS": setup_blocks.transformation,
+        "PLANE": setup_blocks.plane,
+        "*": setup_blocks.structure,
+        "(": setup_blocks.bracketed,
+        "FUNCTION": setup_blocks.function,
+        "DECLARE": setup_blocks.text_parameter,
+        "QS": setup_blocks.text_parameter,
         "STOP": m_functions.only_functions,
         "M": m_functions.only_functions,
         "LBL": _label,

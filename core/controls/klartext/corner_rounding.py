@@ -17,61 +17,61 @@ NO_LEAD: Final = "cutcomp follows RND only directly between two contour elements
 
 
 @dataclass(frozen=True, slots=True)
-class Blend:
-    """A rounding (its radius) or chamfer (its leg) that waits for the element after it."""
+class PendingCorner:
+    """An RND (`size` its radius) or CHF (its leg) that waits for the element after it."""
 
     line: int
     column: int
     size: float
-    round: bool
+    rounded: bool
     feed: float
 
 
 @dataclass(slots=True)
-class WaitingElement:
-    """Hands steps on to the center path; a contour element waits here until no RND or CHF can follow it."""
+class CornerBuffer:
+    """Holds the last contour element until no RND or CHF can follow it, then hands it on to the center path."""
 
     center: CenterPathRecorder
     step: ProgrammedStep | None = None
-    blend: Blend | None = None
+    pending: PendingCorner | None = None
 
     def push(self, step: ProgrammedStep) -> None:
         """The next step."""
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
-            if self.blend and self.blend.round:
-                self._stop("BEYOND", self.blend, NO_LEAD)
+            if self.pending and self.pending.rounded:
+                self._stop("BEYOND", self.pending, NO_LEAD)
             self.flush()
             self.center.push(step)
             return
-        if self.blend:
-            step = self._blended(self.blend, step)
+        if self.pending:
+            step = self._blended(self.pending, step)
         elif self.step:
             self.center.push(self.step)
         self.step = step
 
     def flush(self) -> None:
         """Hand on the element that waits: what follows does not round it."""
-        if self.blend:
-            self._stop("CORNER", self.blend, NOT_BETWEEN)
+        if self.pending:
+            self._stop("CORNER", self.pending, NOT_BETWEEN)
         step, self.step = self.step, None
         if step:
             self.center.push(step)
 
-    def _blended(self, blend: Blend, second: ProgrammedStep) -> ProgrammedStep:
+    def _blended(self, pending: PendingCorner, second: ProgrammedStep) -> ProgrammedStep:
         """Hand on the waiting element and what joins it to the next; the next one cut short."""
-        first, self.step, self.blend = self.step, None, None
+        first, self.step, self.pending = self.step, None, None
         if first is None or first.role is not second.role or first.plane is not second.plane:
-            self._stop("CORNER", blend, NOT_BETWEEN)
-        parts = (rounding if blend.round else chamfer)(first.element, second.element, blend.size)
+            self._stop("CORNER", pending, NOT_BETWEEN)
+        parts = (rounding if pending.rounded else chamfer)(first.element, second.element, pending.size)
         if isinstance(parts, str):
-            self._stop("CORNER", blend, parts)
-        between = parts[1]._replace(line=blend.line, column=blend.column, rapid=False, feed=blend.feed)
+            self._stop("CORNER", pending, parts)
+        between = parts[1]._replace(line=pending.line, column=pending.column, rapid=False, feed=pending.feed)
         self.center.push(first._replace(element=parts[0], corner=KLARTEXT_CORNERS))
         self.center.push(first._replace(element=between, corner=KLARTEXT_CORNERS))
         return second._replace(element=parts[2])
 
-    def _stop(self, code: str, blend: Blend, text: str) -> NoReturn:
-        self.center.log.stop(code, text, blend.line, blend.column)
+    def _stop(self, code: str, pending: PendingCorner, text: str) -> NoReturn:
+        self.center.log.stop(code, text, pending.line, pending.column)
 
 
 Blended = tuple[Element, Element, Element]

@@ -13,7 +13,7 @@ from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.path_functions import straight_element
 from core.controls.klartext.reader import Block
-from core.controls.klartext.settings import shift
+from core.controls.klartext.setup_blocks import shift
 from core.controls.klartext.state import AXES, COMMON_WORDS, State
 from core.finding import Severity
 from core.units import to_mm

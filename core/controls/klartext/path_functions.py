@@ -7,9 +7,9 @@ from typing import Final
 
 from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
-from core.controls.iso.arcs import ArcRadii, NoArc, center_by_radius
+from core.controls.iso.arcs import ArcTolerance, NoArc, center_by_radius
 from core.controls.klartext.center_path import ProgrammedStep, Role
-from core.controls.klartext.corner_rounding import NO_LEAD, Blend
+from core.controls.klartext.corner_rounding import NO_LEAD, PendingCorner
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON_WORDS, SIDES, State, Words
@@ -21,7 +21,7 @@ from core.tolerance import JOINED
 POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
 """The words of a polar point, and those of the axes, of which only the tool axis's may stand with them."""
 
-KLARTEXT_RADII: Final = ArcRadii(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
+KLARTEXT_ARC_TOLERANCE: Final = ArcTolerance(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
 """How far the radii at the start and the end of an arc about the pole may differ."""
 
 MAX_HELIX: Final = 5400.0
@@ -144,7 +144,7 @@ def polar_target(state: State, block: Block, words: Words) -> tuple[list[float],
 
 
 def check_pole_plane(state: State, block: Block) -> None:
-    """Stops a block that needs the pole in the working plane."""
+    """Stop the run unless the last CC lies in the working plane."""
     if state.pole_plane is not state.plane:
         text = f"{block.head} needs its CC in the working plane; the last CC names other axes. Write a new CC before."
         state.stop("ARC", text, block)
@@ -222,7 +222,7 @@ def polar_tangent(state: State, block: Block) -> None:
 
 def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> None:
     """The arc to a position that sets off in the direction of the element before it."""
-    if state.last is None or state.waiting.blend:
+    if state.last is None or state.waiting.pending:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
         state.stop("HE6", text, block)
     start, goal, way = state.flat(state.position)[0], state.flat(end)[0], state.last.end_direction
@@ -245,7 +245,7 @@ def _about_pole(state: State, block: Block, words: Words, end: list[float], turn
 def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None:
     start = state.flat(state.position, state.pole_plane)[0]
     first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
-    if abs(first - last) > KLARTEXT_RADII.mm or min(first, last) <= JOINED:
+    if abs(first - last) > KLARTEXT_ARC_TOLERANCE.mm or min(first, last) <= JOINED:
         text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
         state.stop("ARC", text, block, "", first, last)
 
@@ -331,7 +331,7 @@ def corner(state: State, block: Block) -> None:
         state.stop("CORNER", f"The size of {block.head} must be above 0.", block)
     if block.head == "RND" and state.waiting.step is None and state.side:
         state.stop("BEYOND", NO_LEAD, block)
-    if state.waiting.step is None or state.last is None or state.waiting.blend:
+    if state.waiting.step is None or state.last is None or state.waiting.pending:
         state.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
     feed = state.length(block, words, "F") if "F" in words else state.feed
-    state.waiting.blend = Blend(block.line, start, size, block.head == "RND", feed)
+    state.waiting.pending = PendingCorner(block.line, start, size, block.head == "RND", feed)

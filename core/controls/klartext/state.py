@@ -15,7 +15,7 @@ from core.controls.compensation.elements import Element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
-from core.controls.klartext.corner_rounding import WaitingElement
+from core.controls.klartext.corner_rounding import CornerBuffer
 from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.reader import WORD, Block, joined_name
 from core.controls.moves import Plane
@@ -54,7 +54,7 @@ class State:
     """
 
     log: Log
-    waiting: WaitingElement
+    waiting: CornerBuffer
     tools: ToolTable
     blocks: Sequence[Block]
     labels: Mapping[str, int]

@@ -16,10 +16,10 @@ from core.controls.compensation.elements import Element, line_element
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
+from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
-from core.controls.iso.macro import ParameterStore
-from core.controls.iso.macro_machine import HAAS_SYSTEMS, MacroMachine
+from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting

@@ -15,7 +15,7 @@ from typing import Final
 from core.controls.compensation.corner_rules import Outside
 from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
-from core.controls.iso.macro_machine import HAAS_SYSTEMS
+from core.controls.iso.macro_b_machine import HAAS_SYSTEMS
 from core.controls.iso.reader import Block
 from core.controls.makers import fanuc
 from core.controls.makers.fanuc_vectors import Alarms, VectorRules

@@ -15,11 +15,11 @@ from typing import Final
 from core.controls.compensation.element_queue import OneMoveQueue
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
-from core.controls.iso.arcs import ArcRadii
+from core.controls.iso.arcs import ArcTolerance
+from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
-from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
+from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
-from core.controls.iso.macro import ParameterStore
 from core.controls.iso.modal_state import OUTLINE_JUDGED, system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane, flat, solid
@@ -48,7 +48,7 @@ DIALECT: Final = Dialect(
     Unit.MM,
     mode=None,
     syntax=Syntax(blanks=False, strict=True),
-    arc_radii=ArcRadii(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
+    arc_tolerance=ArcTolerance(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
     moves_alone=True,
     feed_needed=True,
     table_needed=True,

@@ -18,10 +18,10 @@ from core.controls.compensation.element_queue import AlarmCodes, ElementQueue, O
 from core.controls.compensation.elements import Element, fits, offset_end, offset_start
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
+from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
-from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
+from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
-from core.controls.iso.macro import ParameterStore
 from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, whole
 from core.controls.moves import Plane

@@ -16,8 +16,8 @@ from core.controls.compensation.corner_rules import CornerKind, CornerRules, Joi
 from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
+from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import CodeAction, Dialect, codes
-from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import SWITCHES, Block, Syntax
 from core.controls.moves import Plane

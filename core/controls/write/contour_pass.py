@@ -114,7 +114,7 @@ class PassWithLeads:
     start: Point
     to: Point
     out: Point
-    offset: int
+    offset_number: int
 
 
 @dataclass(frozen=True, slots=True)

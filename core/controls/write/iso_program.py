@@ -184,8 +184,8 @@ class _Writer:
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
         if cut.stock and self.style.radius is Radius.REDUCED:
-            return code, f"D{run.offset}", f"I{self.length(-cut.stock)}"
-        return code, f"D{run.offset}"
+            return code, f"D{run.offset_number}", f"I{self.length(-cut.stock)}"
+        return code, f"D{run.offset_number}"
 
     def element(self, element: Element, feed: float, segment: float) -> Iterator[WrittenLine]:
         """One element; what is no move as written is left out."""

@@ -97,7 +97,7 @@ def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding], 
     """A cut with the leads that all cuts of its contour have."""
     run = led[cut.compensated]
     assert isinstance(run, PassWithLeads)
-    return replace(run, contour_pass=cut, offset=offset)
+    return replace(run, contour_pass=cut, offset_number=offset)
 
 
 def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:

@@ -268,7 +268,7 @@ def circle_finding(arc: Arc, given: Given) -> Finding | None:
 
 
 def _full_circle_finding(given: Given) -> Finding | None:
-    """That the numbers typed make the full circle though they are not exactly those of one."""
+    """Says that the numbers typed make the full circle though they are not exactly those of one."""
     known, (x, y) = given.known, given.start
     sweep, gap = known.get("sweep"), dist(given.start, (known.get("x_end", x), known.get("y_end", y)))
     if sweep is not None and sweep != tau:
@@ -287,7 +287,7 @@ def _full_circle_finding(given: Given) -> Finding | None:
 
 
 def adjustment(arc: Arc, given: Given) -> Finding | None:
-    """That an arc is fitted to typed numbers which are not exactly those of one arc; `value` is what they differ by."""
+    """Says that an arc is fitted to typed numbers that are not exactly those of one arc; `value` is the difference."""
     known = given.known
     if not given.back and arc.start != arc.end:
         center = known.get("x_center", arc.center[0]), known.get("y_center", arc.center[1])

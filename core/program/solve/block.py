@@ -211,7 +211,7 @@ def _coolant(block: Block, program: Program) -> tuple[Coolant, Origin | None]:
 
 
 def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
-    """That the finish tool cuts with the block's speed, feeds and coolant where TOOL SETUP has others for it."""
+    """Says that the finish tool cuts with the block's speed, feeds and coolant where TOOL SETUP has others for it."""
     called = [typed.value for typed in (block.tool, block.finish_tool) if isinstance(typed, Number)]
     if len(called) < 2 or called[1] in (0.0, called[0]):
         return ()

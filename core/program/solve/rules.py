@@ -98,7 +98,7 @@ def _complaint(task: Task, piece: Piece, others: list[str], known: Known) -> Fin
 
 
 def more_needed(missing: tuple[str, ...], advice: str) -> Outcome:
-    """That the fields `missing` are needed, with the advice what to type."""
+    """Says that the fields `missing` are needed, with the advice what to type."""
     field = missing[0] if missing else None
     return Outcome(missing=missing, finding=fault("MISSING", f"More data needed: {advice}", field))
 
@@ -123,5 +123,5 @@ def fault(code: str, text: str, field: str | None, *lengths: float) -> Finding:
 
 
 def contradiction(text: str, field: str, *lengths: float) -> Outcome:
-    """That what is typed cannot be."""
+    """The error on `field` that what is typed cannot be; `{0}` ... of the text are `lengths` (mm)."""
     return Outcome(finding=fault("CONTRADICTION", text, field, *lengths))

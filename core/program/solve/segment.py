@@ -22,8 +22,8 @@ _ENDS: Final = ("x_end", "y_end")
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
-    """A segment's part of the surface, or what is to be said of it instead."""
+class SegmentResult:
+    """What solving one segment gives: its piece, what is missing, or the answers to choose from."""
 
     piece: Piece | None = None
     end: Point | None = None
@@ -32,7 +32,7 @@ class Shape:
     sketch: Piece | None = None
     findings: tuple[Finding, ...] = ()
     adjustment: Finding | None = None
-    """That an arc was fitted to its numbers; a contour says it once."""
+    """Says that an arc was fitted to its numbers; a contour says it once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Draft:
     """A segment solved by itself, before blending, with what it takes over and what it hands on."""
 
     reading: Reading
-    shape: Shape
+    shape: SegmentResult
     before: Carried
     after: Carried
 
@@ -71,7 +71,7 @@ def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Dr
     return drafted(segment, reading, before, _shape(segment, reading, before, unit), unit)
 
 
-def drafted(segment: Segment, reading: Reading, before: Carried, shape: Shape, unit: Unit) -> Draft:
+def drafted(segment: Segment, reading: Reading, before: Carried, shape: SegmentResult, unit: Unit) -> Draft:
     """A segment of a known shape, which takes over Z and feed where its own are blank, and what it hands on."""
     known = reading.known
     origin = Origin.CALCULATED if "feed" in known else before.feed_origin
@@ -119,12 +119,12 @@ def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: 
         reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
 
 
-def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:
+def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> SegmentResult:
     match segment:
         case BlendSegment() | ChamferSegment():
             return _corner(segment, reading, before.point)
         case _ if before.point is None:
-            return Shape()
+            return SegmentResult()
         case LineSegment():
             given = Given(before.point, own_data(LINE_TASK, reading, before.point))
             return _solved(LINE_TASK, reading, given, segment.choice, unit)
@@ -146,41 +146,41 @@ def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, fl
     )
 
 
-def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> Shape:
+def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> SegmentResult:
     size = TABLES[form_of(segment)][0]
     if reading.values[size.name] is not None:
-        return Shape(end=corner)
+        return SegmentResult(end=corner)
     missing = Finding("MISSING", Severity.ERROR, f"More data needed: type {size.label}.", field=size.name)
-    return Shape(end=corner, missing=(size.name,), findings=(missing,))
+    return SegmentResult(end=corner, missing=(size.name,), findings=(missing,))
 
 
-def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> Shape:
+def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> SegmentResult:
     """A line or an arc: one solution, the picked one, or none with the reason."""
     outcome = solve(task, given)
     pieces = outcome.pieces
     if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
         pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one on SOLUTION.", field="choice")
-        return Shape(choices=pieces, sketch=pieces[0], findings=(pick,))
+        return SegmentResult(choices=pieces, sketch=pieces[0], findings=(pick,))
     if not pieces:
         return _unsolved(task, outcome, reading, given.start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
     if _too_far(piece):
         text = "This segment's end or center is beyond any machine's travel. Check its numbers."
-        return Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
+        return SegmentResult(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     calculate(reading, piece, unit)
     if piece.length <= JOINED:
         text = "No length: skipped. Type its end, or F1 deletes it."
-        return Shape(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+        return SegmentResult(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
     return _whole(piece, given, pieces if len(pieces) > 1 else ())
 
 
-def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> Shape:
+def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> SegmentResult:
     """A determined line or arc, with what is to be said of an arc's numbers."""
     if isinstance(piece, Line):
-        return Shape(piece, piece.end, choices=choices)
+        return SegmentResult(piece, piece.end, choices=choices)
     finding = circle_finding(piece, given)
     findings = () if finding is None else (finding,)
-    return Shape(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, given))
+    return SegmentResult(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, given))
 
 
 def _too_far(piece: Piece) -> bool:
@@ -191,13 +191,13 @@ def _too_far(piece: Piece) -> bool:
     return isinstance(piece, Arc) and max(map(abs, piece.center)) > LARGEST
 
 
-def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> Shape:
+def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> SegmentResult:
     """Nothing fits yet; what is missing is not said while a typed field of the shape is itself at fault."""
     faulty = any(finding.field in task.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
     sketch = line_sketch if task is LINE_TASK else arc_sketch
     known = own_data(task, reading, start)
-    return Shape(missing=outcome.missing, sketch=sketch(start, known), findings=findings)
+    return SegmentResult(missing=outcome.missing, sketch=sketch(start, known), findings=findings)
 
 
 def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:

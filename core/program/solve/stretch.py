@@ -1,4 +1,4 @@
-"""A stretch of a block whose segments are calculated together: which they are, what is known, and what comes out.
+"""Stretch: which segments of a block are solved together as a run, what is known of them, and what comes out.
 
 It begins at the first segment whose end its own fields do not give, and is the shortest one that the run's solver
 determines; where several solutions are left and the next segment is tied to the last one (TANGENT, a relative angle),
@@ -22,11 +22,11 @@ from core.program.solve.line import heading
 from core.program.solve.reading import Reading
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
-from core.program.solve.run.element import LONGEST, Element, Parallel, Run
-from core.program.solve.run.limits import with_fitting_number
-from core.program.solve.run.newton import Picked, picked_answers
+from core.program.solve.run.fitting_number import with_fitting_number
+from core.program.solve.run.from_pick import Picked, picked_answers
 from core.program.solve.run.search import Answer, Search, search
-from core.program.solve.segment import Carried, Draft, Shape, axis_kept_from, calculate, draft, drafted
+from core.program.solve.run.typed_run import LONGEST, Element, Parallel, Run
+from core.program.solve.segment import Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit, from_mm
@@ -76,7 +76,7 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
         return None
     if _tied(contour, index) and own.before.heading is None:
         # nothing can be said before the segment to which it is tied is determined
-        return (drafted(segment, contour.readings[index], own.before, Shape(), contour.unit),), None
+        return (drafted(segment, contour.readings[index], own.before, SegmentResult(), contour.unit),), None
     attempt = _solved(contour, index, own.before, 1 if tied else 2)
     if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own)):
         return None
@@ -417,7 +417,7 @@ def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], b
                 value = from_mm(piece.end[kept], contour.unit)
                 reading.fill(KEPT[kept].removesuffix("_inc"), value, Origin.SAME)
             calculate(reading, piece, contour.unit)
-            drafts.append(drafted(segment, reading, before, Shape(piece, piece.end), contour.unit))
+            drafts.append(drafted(segment, reading, before, SegmentResult(piece, piece.end), contour.unit))
         before = drafts[-1].after
     return tuple(drafts)
 
@@ -431,7 +431,7 @@ def _waiting(contour: Contour, attempt: _Attempt, own: Draft, finding: Finding) 
         if isinstance(segment, CornerSegment):
             drafts.append(draft(segment, reading, before, contour.unit))
         else:
-            shape = Shape(sketch=sketches[index])
+            shape = SegmentResult(sketch=sketches[index])
             if finding.segment == index + 1:
                 faulty = finding.code in ("MISSING", "NOT_YET") and bool(reading.findings)
                 missing = (finding.field,) if finding.code == "MISSING" and finding.field else ()

@@ -7,7 +7,7 @@ from dataclasses import replace
 from app.documents.programs import empty_program
 from app.session.changes import changed
 from app.session.session import SEGMENT, Session
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.program.edit import FormPlace
 from core.program.model import LineSegment, Number, Program
 
@@ -64,7 +64,7 @@ def test_what_is_no_blocks_matter_leaves_the_cursor_and_equal_programs_differ_no
 
 def test_what_was_worked_out_for_another_program_is_dropped():
     begun = session()
-    late = outline(begun.program)
+    late = solve_fields(begun.program)
     edited = begun.with_program(with_start(begun.program, 1.0), "X START")
     assert edited.knowing(late).derived is edited.derived
-    assert edited.knowing(known := outline(edited.program)).derived is known
+    assert edited.knowing(known := solve_fields(edited.program)).derived is known

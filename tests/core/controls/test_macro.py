@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.controls.iso.expressions import ExpressionReader, FaultError, MacroParameters, ParameterStore
 from core.controls.iso.flow import o_words_of
-from core.controls.iso.macro import ExpressionReader, FaultError, MacroParameters, ParameterStore
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome

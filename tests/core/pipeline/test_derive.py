@@ -11,7 +11,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.pipeline.derive import better_path, derive, derive_block, with_better_paths
 from core.pipeline.derived import Tag
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.pipeline.parameters import stocks
 from core.program.edit import set_unit
 from core.program.model import CutterComp, LineSegment, Number, PathChoice, ProgramParameters, Unread, changed
@@ -70,7 +70,7 @@ def test_every_block_has_its_place_in_the_program_as_its_number():
 
 
 def test_an_outline_knows_the_look_ahead_but_no_path():
-    (found,) = outline(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
+    (found,) = solve_fields(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
     assert found.lookahead.value == 3
     assert found.paths is None
     assert not found.known

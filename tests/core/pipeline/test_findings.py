@@ -9,7 +9,7 @@ import pytest
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.pipeline.parameters import stocks
 from core.program.model import BlendSegment, CutterComp, LineSegment, Number, ProgramParameters, Segment, Unread
 from core.units import Unit, sentence
@@ -148,7 +148,7 @@ def profiled(comp, offset, finish_xy=None, **changes):
 def test_one_pass_is_told_exactly_where_there_is_one(offset, finish):
     changes = {} if finish is None else {"finish_tool": Number(2)}
     part = profiled(CutterComp.PROFILE_LEFT, Number(offset), None if finish is None else Number(finish), **changes)
-    (found,) = outline(part).blocks
+    (found,) = solve_fields(part).blocks
     passes = len(stocks(found, part)) - (finish is not None)
     assert ("ONE_PASS" in [finding.code for finding in found.findings]) is (passes == 0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.documents.files import load
 from core.pipeline.derive import derive
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.program.edit import new_block
 from core.program.model import Program
@@ -24,6 +24,6 @@ def test_every_example_has_a_sheet_with_a_drawing_a_block():
 def test_a_program_that_is_only_begun_is_not_ready():
     program = Program()
     program = Program(blocks=(new_block(program),))
-    for derived in (outline(program), derive(program)):
+    for derived in (solve_fields(program), derive(program)):
         assert "DO NOT RUN" in sheet_text(derived, name="new", day="")
         assert "DO NOT RUN" in sheet_page(derived, name="new", day="")

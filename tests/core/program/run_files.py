@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from core.pipeline.command_output import path_document
-from core.pipeline.outline import outline
+from core.pipeline.fields_stage import solve_fields
 from core.program.file.read import loads
 from core.program.model import Program
 from core.program.solve.block import solve_block
@@ -65,7 +65,7 @@ def solved(case: Case, choices: Mapping[int, int] | None = None) -> SolvedBlock:
 
 def document(case: Case, choices: Mapping[int, int] | None = None) -> dict[str, Any]:
     """What `path --json` says of the block."""
-    blocks = path_document(outline(program_of(case, choices)))["blocks"]
+    blocks = path_document(solve_fields(program_of(case, choices)))["blocks"]
     assert isinstance(blocks, list)
     block: dict[str, Any] = blocks[0]
     return block

@@ -252,10 +252,10 @@ def test_the_difference_of_an_uneven_arc_is_granted_once_to_its_offset(sweep: fl
 
     for offset, side in ((-4.0, Side.LEFT), (4.0, Side.RIGHT)):
         wall, center = spiral(10.0), spiral(10.0 + offset)
-        verdict = judge(wall, side, 4.0, center, arc_radii=0.1)
+        verdict = judge(wall, side, 4.0, center, arc_tolerance=0.1)
         assert not verdict.gouges
         assert verdict.radius_slack == pytest.approx(abs(difference))
-        deep = judge(wall, side, 4.0 + 1.3 * abs(difference), center, arc_radii=0.1)
+        deep = judge(wall, side, 4.0 + 1.3 * abs(difference), center, arc_tolerance=0.1)
         assert deep.depth == pytest.approx(1.3 * abs(difference), rel=0.2)
 
 
@@ -273,10 +273,10 @@ def test_an_arc_of_two_radii_is_judged_up_to_the_difference_that_is_accepted() -
     assert refused.uneven_arc is not None
     assert refused.uneven_arc.difference == pytest.approx(0.01)
     assert not refused.uneven_arc.on_surface
-    accepted = judge(wall, Side.LEFT, 1.0, spiral, arc_radii=0.0127)
+    accepted = judge(wall, Side.LEFT, 1.0, spiral, arc_tolerance=0.0127)
     assert accepted.clean
     assert accepted.radius_slack == pytest.approx(0.01)
-    deep = judge(wall, Side.LEFT, 1.02, spiral, arc_radii=0.0127)
+    deep = judge(wall, Side.LEFT, 1.02, spiral, arc_tolerance=0.0127)
     assert deep.depth == pytest.approx(0.02, abs=0.0101)
 
 

@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 from core.finding import Finding
 from core.geometry.oriented import Circle, Locus, OrientedLine, direction, line_through, meeting, normal, touch_point
 from core.geometry.piece import Point
-from core.program.solve.run.element import Run
+from core.program.solve.run.typed_run import Run
 from core.tolerance import JOINED
 
 Numbers = list[float | None]

@@ -138,7 +138,7 @@ def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], l
 def _at_joint(
     branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor], origin: Point
 ) -> Iterator[Row | Quadric]:  # fmt: skip
-    """That the circle passes a joint."""
+    """Says that the circle passes a joint."""
     if heading is None:
         yield from (_cone(anchor, origin) for anchor in anchors)
         return

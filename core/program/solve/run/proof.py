@@ -18,7 +18,7 @@ from core.program.fields import FARTHEST
 from core.program.solve.line import heading_at
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
-from core.program.solve.run.element import Element, Run
+from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST
 
 

@@ -13,7 +13,7 @@ from core.geometry.piece import Point, Turn
 from core.program.fields import Form, field_of
 from core.program.solve.line import shown_angle
 from core.program.solve.run.branch import Branch
-from core.program.solve.run.element import Element, Run
+from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import ARC_RADII
 
 
@@ -251,7 +251,7 @@ def _touched(branch: Branch, index: int, center: Point) -> Element | None:
 
 
 def no_circle(branch: Branch, index: int) -> Finding:
-    """No circle meets the conditions; what RADIUS would is looked for by `limits`."""
+    """No circle meets the conditions; what RADIUS would is looked for by `fitting_number`."""
     element = branch.run.elements[index]
     if "radius" in element.known:
         text = f"RADIUS {{0}} fits nowhere between the segments before and after segment {element.number}."

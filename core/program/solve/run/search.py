@@ -10,10 +10,10 @@ from typing import Final
 from core.finding import Finding
 from core.geometry.piece import Piece, Point
 from core.program.solve.run.branch import Branch, DeadEnd
-from core.program.solve.run.element import Run
-from core.program.solve.run.problem import polished
+from core.program.solve.run.newton import polished
 from core.program.solve.run.proof import Chain, chain_of
 from core.program.solve.run.steps import next_branches
+from core.program.solve.run.typed_run import Run
 
 SAME: Final = 1e-6
 """Millimeters within which two answers are one."""

@@ -1,4 +1,4 @@
-"""A run as typed: its elements in millimeters and radians, where it starts, and how many data are missing."""
+"""The input of a run: its elements in millimeters and radians, where it starts, and how many data are missing."""
 
 from __future__ import annotations
 

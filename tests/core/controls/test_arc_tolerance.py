@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from core.controls.iso.arcs import center_by_radius
-from core.controls.registry import arc_radii
+from core.controls.registry import arc_tolerance
 from core.finding import Finding, Severity
 from core.units import Unit
 from tests.core.controls.hand import ran, told
@@ -39,7 +39,7 @@ def program(control: str, unit: Unit, radius: float, difference: float) -> str:
 def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     control: str, unit: Unit, radius: float
 ) -> None:
-    limit = arc_radii(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    limit = arc_tolerance(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
     assert within.stopped_at is None
     assert not told(within, "ARC")
@@ -95,20 +95,20 @@ def quarter_turn(control: str, start: str, center: str) -> Finding:
 def test_linuxcnc_s_limit_is_that_of_the_interpreter_itself(
     unit: Unit, radius: float, share: float, tmp_path: Path
 ) -> None:
-    limit = arc_radii("linuxcnc").largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    limit = arc_tolerance("linuxcnc").largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     text = program("linuxcnc", unit, radius, share * limit)
     assert bool(witness(text, tmp_path, {1: 0.5}, unit).refusal) is (share > 1.0)
 
 
 def test_the_limit_of_linuxcnc_is_its_own_figure() -> None:
-    limit = arc_radii("linuxcnc")
+    limit = arc_tolerance("linuxcnc")
     assert limit.largest_difference(1.0, Unit.MM) == pytest.approx(0.01 * 2 * sqrt(2))
     assert limit.largest_difference(1.0, Unit.IN) == pytest.approx(0.001 * 2 * sqrt(2) * 25.4)
     assert limit.largest_difference(100.0, Unit.MM) == pytest.approx(0.1)
 
 
 def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
-    limit = arc_radii("klartext")
+    limit = arc_tolerance("klartext")
     assert [limit.largest_difference(radius, unit) for radius in (1.0, 1e4) for unit in Unit] == pytest.approx(
         [0.016] * 4
     )
@@ -118,7 +118,7 @@ def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
 def test_where_papers_are_silent_no_radius_lets_the_radii_differ_more_than_three_decimals_of_an_inch(
     control: str,
 ) -> None:
-    limit = arc_radii(control)
+    limit = arc_tolerance(control)
     for unit in Unit:
         allowed = [limit.largest_difference(radius, unit) for radius in (1.0, 50.0, 100.0, 3000.0)]
         assert allowed == pytest.approx([0.0127, 0.05, 0.0762, 0.0762])

@@ -17,8 +17,8 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import Code, CodeAction, Dialect
+from core.controls.iso.expressions import FaultError
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.macro import FaultError
 from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL, G54, TAKEN_AS_ZERO, ZERO
 from core.controls.iso.reader import Block, whole

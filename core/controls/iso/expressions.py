@@ -15,7 +15,7 @@ from math import log as natural_log
 from typing import Final, NamedTuple
 
 from core.controls.control_run import Log
-from core.controls.iso.elsewhere import FREE_ASSIGNMENT, HIGH_PARAMETERS, only_on
+from core.controls.iso.code_support import FREE_ASSIGNMENT, HIGH_PARAMETERS, only_on
 from core.controls.program_text import quoted
 from core.finding import Severity
 
@@ -40,7 +40,7 @@ _HIGH: Final = 10_000
 
 
 def _no_parameter(index: int, last: int) -> str:
-    """That a control has no parameter of a number, and which control has."""
+    """Says that a control has no parameter of a number, and which control has."""
     other = f" {only_on(HIGH_PARAMETERS)}" if index >= _HIGH else ""
     return f"#{index} is not a parameter; they go from 1 to {last}.{other}"
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_run import ControlRun
-from core.controls.iso import elsewhere
+from core.controls.iso import code_support
 from core.controls.registry import CONTROLS
 from core.finding import Severity
 from tests.core.controls.hand import lines_and_ends, ran, told
 
 HAVE = {
-    elsewhere.LINUXCNC: "linuxcnc",
-    elsewhere.ROSETTACNC: "rosettacnc",
-    elsewhere.NINE_SERIES: "nine-series",
-    elsewhere.FANUC: "fanuc",
-    elsewhere.HAAS: "haas",
-    elsewhere.THREEBLOCK: "threeblock",
+    code_support.LINUXCNC: "linuxcnc",
+    code_support.ROSETTACNC: "rosettacnc",
+    code_support.NINE_SERIES: "nine-series",
+    code_support.FANUC: "fanuc",
+    code_support.HAAS: "haas",
+    code_support.THREEBLOCK: "threeblock",
 }
 ISO = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 
@@ -28,9 +28,9 @@ def alarm(done: ControlRun) -> str:
     return next(one.text for one in reversed(done.findings) if one.severity is Severity.ERROR)
 
 
-@pytest.mark.parametrize("code", elsewhere.CODES)
+@pytest.mark.parametrize("code", code_support.CODES)
 def test_a_control_that_is_named_has_the_code(code: int) -> None:
-    for name in elsewhere.CODES[code]:
+    for name in code_support.CODES[code]:
         dialect = CONTROLS[HAVE[name]].dialect
         assert dialect is not None
         assert code in dialect.codes, name

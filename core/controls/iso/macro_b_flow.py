@@ -15,10 +15,10 @@ from typing import Final, NamedTuple, NoReturn
 
 from core.controls.control_run import NOT_RUN_TEXT, Log
 from core.controls.iso.dialect import Dialect
+from core.controls.iso.expressions import GAP, CompactText, FaultError
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
-from core.controls.iso.macro import GAP, CompactText, FaultError
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
-from core.controls.iso.macro_machine import MacroMachine
+from core.controls.iso.macro_b_machine import MacroMachine
 from core.controls.iso.reader import Block, fill_words, has_words, is_words, without_comments
 from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity

@@ -12,9 +12,9 @@ from typing import Final
 
 from core.finding import Finding
 from core.program.solve.run import reasons
-from core.program.solve.run.element import Element, Run
 from core.program.solve.run.proof import ANGLES, measured
 from core.program.solve.run.search import GRAZE_SHIFT, search
+from core.program.solve.run.typed_run import Element, Run
 
 TRIED: Final = tuple(1.08**step for step in range(1, 60))
 """The factors by which a radius is made larger and smaller."""

@@ -1,4 +1,4 @@
-"""Outline: the first stage, fields calculated and the look-ahead known, nothing cut yet.  Needs no numpy."""
+"""The first stage: fields and the look-ahead calculated, nothing cut yet.  Needs no numpy."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ _SIDES = {
 }
 
 
-def outline(program: Program) -> Derived:
+def solve_fields(program: Program) -> Derived:
     """Every block with its blanks calculated and its look-ahead, without geometry."""
-    return Derived(program, tuple(outline_block(program, number) for number in range(1, len(program.blocks) + 1)))
+    return Derived(program, tuple(solve_block_fields(program, number) for number in range(1, len(program.blocks) + 1)))
 
 
-def outline_block(program: Program, number: int) -> DerivedBlock:
-    """The outline of block `number`, counted from 1."""
+def solve_block_fields(program: Program, number: int) -> DerivedBlock:
+    """Block `number`, counted from 1, with its blanks and its look-ahead calculated, without paths."""
     block = program.blocks[number - 1]
     solved = solve_block(block, program)
     lookahead = _look_ahead(block, solved, solved.every_finding)

@@ -1,0 +1,150 @@
+"""Answers near the operator's pick, for a run that `steps` do not solve; `newton` has Newton's method itself.
+
+The pick is a point near the first joint of the run that is not known (nearly always the end of its first segment).
+From it a few dozen starts are laid out; each is led to an answer by damped Newton steps on the numbers of the chain
+that are not known yet.  Every answer is proved by walking its chain; the one whose joint is nearest to the pick is
+taken.  Nothing is taken where another pick nearby would lead elsewhere, where the answer is far from the pick, or where
+the data leave the answer free to move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from math import atan2, cos, dist, hypot, pi, sin, sqrt, tau
+from typing import Final
+
+from core.geometry.piece import Arc, Point
+from core.program.solve.run.newton import ChainProblem, Numbers, newton_root, norm, slopes
+from core.program.solve.run.proof import objections
+from core.program.solve.run.search import SAME, Answer, same_pieces, search
+from core.program.solve.run.typed_run import Run
+
+STARTS: Final = 48
+"""Starts that are laid out about a pick."""
+
+FARTHEST_PICK: Final = 0.4
+"""How far an answer's joint may be from its pick, in parts of the run's size."""
+
+NEARBY: Final = 0.01
+"""How far another pick is for which the answer must be the same, in parts of the run's size."""
+
+SINGULAR: Final = 1e-7
+"""The least pivot, in parts of the largest, of data that determine an answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """The answers near a pick, the shortest first, and the index of the one that is taken, if any.
+
+    `joint` is the first joint that is not known: the end of element `joint` - 1, to which the pick points.
+    """
+
+    joint: int
+    answers: tuple[Answer, ...] = ()
+    taken: int | None = None
+
+
+@lru_cache(64)
+def picked_answers(run: Run, pick: Point) -> Picked:
+    """The answers to which the starts about a pick lead, and the one that is nearest to it."""
+    known = search(run).known
+    problem = ChainProblem(run, known)
+    joint = next((index for index in range(1, len(run.elements) + 1) if known.joint(index) is None), 1)
+    answers = _answers(problem, joint, pick)
+    answers.sort(key=lambda answer: round(answer.length, 5))
+    return Picked(joint, tuple(answers), _nearest(answers, joint, pick, problem.scale))
+
+
+def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> int | None:
+    """The index of the answer that lies nearest to the pick and to all picks nearby."""
+    if not answers:
+        return None
+    reach = NEARBY * size
+    picks = [pick, *((pick[0] + reach * cos(turn), pick[1] + reach * sin(turn)) for turn in (0.0, pi / 2, pi, -pi / 2))]
+    nearest = {min(range(len(answers)), key=lambda index: _distances(answers[index], joint, at)) for at in picks}
+    taken = nearest.pop()
+    far = _distances(answers[taken], joint, pick)[0] > FARTHEST_PICK * size
+    return None if nearest or far else taken
+
+
+def _distances(answer: Answer, joint: int, pick: Point) -> tuple[float, ...]:
+    """How far a pick is from the joint; where answers share that, from the next ones, and then from the centers."""
+    following = answer.pieces[joint - 1 :]
+    points = [piece.end for piece in following] + [piece.center for piece in following if isinstance(piece, Arc)]
+    return tuple(round(dist(point, pick), 4) for point in points)
+
+
+def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
+    """All proved answers to which the starts lead; none where the data leave one free to move."""
+    answers: list[Answer] = []
+    for start in _starts(problem, joint, pick):
+        root = newton_root(problem, start)
+        chain = None if root is None else problem.chain(root)
+        if root is None or chain is None or objections(problem.run, chain):
+            continue
+        if any(same_pieces(chain.pieces, answer.pieces, SAME * 10) for answer in answers):
+            continue
+        if _free(problem, root):
+            return []
+        answers.append(Answer(0, chain.pieces, chain.length))
+    return answers
+
+
+def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]:
+    """Starts laid out so that the chain passes near the pick, the rest spread evenly (golden ratio in each number)."""
+    for count in range(STARTS):
+        numbers = [_spread(count, index) * tau for index in range(problem.count)]
+        for index, angular in enumerate(problem.angular):
+            if not angular:
+                numbers[index] = problem.scale * (0.05 + 1.2 * _spread(count, index) ** 2)
+        if count % 8 != 7:
+            _aim(problem, joint, pick, numbers, count)
+        yield numbers
+
+
+def _spread(count: int, index: int) -> float:
+    """A number from 0 to 1 that is spread evenly over the starts, another one for each unknown."""
+    return (0.5 + (count + 1) * sqrt(_PRIMES[index % len(_PRIMES)])) % 1.0
+
+
+_PRIMES: Final = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
+
+
+def _aim(problem: ChainProblem, joint: int, pick: Point, numbers: Numbers, count: int) -> None:
+    """Let the element before the joint end at the pick, as far as its numbers are unknown."""
+    part = problem.parts[joint - 1]
+    start = problem.walk(numbers)[joint - 1].start
+    way = (pick[0] - start[0], pick[1] - start[1])
+    chord = hypot(*way)
+    turned = part.sweep.of(numbers) / 2.0 * part.element.turn
+    if part.heading is not None and part.heading.index is not None:
+        numbers[part.heading.index] = atan2(way[1], way[0]) - turned
+    if part.size.index is not None:
+        numbers[part.size.index] = chord / max(0.2, 2.0 * abs(sin(turned))) if part.element.turn else chord
+    for following in problem.parts[joint:]:
+        if following.heading is not None and following.heading.index is not None and count % 2:
+            end = problem.run.elements[-1].known
+            at = problem.walk(numbers)[problem.parts.index(following)].start
+            goal = (end.get("x_end", at[0] + 1.0), end.get("y_end", at[1]))
+            numbers[following.heading.index] = atan2(goal[1] - at[1], goal[0] - at[0])
+
+
+def _free(problem: ChainProblem, root: Numbers) -> bool:
+    """Whether the data leave an answer free to move: some unknown follows from none of them (Gram and Schmidt)."""
+    columns = slopes(problem, root, problem.residuals(root))
+    sizes = [problem.scale if angular else 1.0 for angular in problem.angular]
+    vectors = [[value / size for value in column] for column, size in zip(columns, sizes, strict=True)]
+    largest = max((norm(vector) for vector in vectors), default=0.0)
+    while vectors:
+        vectors.sort(key=norm)
+        head = vectors.pop()
+        length = norm(head)
+        if length <= SINGULAR * largest:
+            return True
+        unit = [value / length for value in head]
+        for vector in vectors:
+            part = sum(a * b for a, b in zip(vector, unit, strict=True))
+            vector[:] = [a - part * b for a, b in zip(vector, unit, strict=True)]
+    return False
