@@ -41,7 +41,7 @@ class Session:
     """What is being worked on.
 
     `file` is None until the program has a name, `saved` is the program as the file holds it.  `derived` always belongs
-    to `program`: without paths at first, in full once the worker is done.  `title` names the example part it began with.
+    to `program`: without paths at first, in full once the worker is done.  `title` names the example it began with.
     `table` is the look-ahead table of the block that it was made of.  `look_only`: somebody else has the file open.
     """
 
