@@ -191,7 +191,7 @@ class CutcompApp(TransformActions):
 
     def action_leave_guide(self) -> None:
         """The prompt is the screens' own again; what was typed stays."""
-        self.end_guide("The guide is off, the plate stays. GUIDED FIRST PART in Ctrl+K begins it anew.")
+        self.end_guide("The guide is off, what you typed stays. GUIDED FIRST PART in Ctrl+K begins it anew.")
 
     # ---- screens
 

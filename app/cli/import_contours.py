@@ -102,7 +102,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--chain", metavar="N|all", help="the contours to take by their numbers in the list: 1,3 or all"
     )
-    parser.add_argument("--layer", action="append", default=[], metavar="L", help="of this layer only; may be repeated")
+    parser.add_argument("--layer", action="append", default=[], metavar="L", help="take this layer; may be repeated")
     units = tuple(unit.lower() for unit in DrawingUnit)
     parser.add_argument("--units", choices=units, type=str.lower, help="the unit of a drawing that names none")
     parser.add_argument(
@@ -115,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--reverse", action="store_true", help="travel the contour the other way")
     parser.add_argument("--damaged", action="store_true", help="take what can be read of a damaged file")
     parser.add_argument("--control", metavar="NAME[:VARIANT]", help="FILE is an NC program of this control")
-    parser.add_argument("--side", choices=("left", "right", "on"), help="of an NC program of the tool's center")
+    parser.add_argument("--side", choices=("left", "right", "on"), help="the tool's, for an NC program of its center")
     parser.add_argument("--diameter", type=_length, metavar="D", help="the tool's, for an NC program of its center")
     add_tool_options(parser)
     parser.add_argument("-o", "--output", type=Path, metavar="OUT.toml", help="write the program here")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from app.cli.shell import NOTHING_ASKED, UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
 from app.documents.naming import is_drawing, program_named
+from app.documents.nc_text import NC_SUFFIXES
 from app.documents.programs import empty_program
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file
@@ -65,6 +66,8 @@ def begin(service: DocumentService, path: Path | None, example: str | None) -> O
     """The document to begin with; StoreError when the file is none."""
     if example is not None:
         return service.example(example)
+    if path is not None and path.suffix.lower() in NC_SUFFIXES and not path.exists():
+        return Trouble(f"{path}: there is no such NC program.")
     return service.new(offers=True) if path is None else service.open(program_named(path))
 
 

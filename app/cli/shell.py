@@ -24,7 +24,7 @@ HELP: Final = {
 }
 SHOP_HELP: Final = {
     "sheet": "the setup sheet, as text or as a page with the drawing",
-    "tools": "list the tool table, or import one of LinuxCNC",
+    "tools": "list the tool table, or import a LinuxCNC tool table",
     "serve": "the screens in a browser on this machine",
 }
 

@@ -379,7 +379,7 @@ class ProofScreen(BaseScreen):
             self._end_dotted()
             self.dotted = event
             self._draw()
-            self.say(f"Dotted: {shown_name(other.question.control)} {other.answer.outcome}. B takes it away.")
+            self.say(f"Dotted: {shown_name(other.question.control)} {other.answer.outcome}. B removes it.")
 
     def _dotted_stopped(self) -> None:
         """Esc has stopped the run on the other control."""
@@ -609,7 +609,7 @@ class ProofScreen(BaseScreen):
         comments = [] if said is None else [f"The comment in line {said.line} says diameter {said.diameter}."]
         lines = [
             f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
-            f"A diameter alone: tool {named}. {named}= takes it away.",
+            f"A number alone is the diameter of tool {named}. {named}= removes it.",
             *comments,
         ]
 
@@ -628,7 +628,7 @@ class ProofScreen(BaseScreen):
     def _with_tool(self, tool: CutterTool) -> None:
         self.tool, typed = tool.number, ToolTable.of(tool)
         self._with_tools(self.given.with_tools(typed), self.question.tools.with_tools(typed))
-        self.say(f"Tool {tool.number} is {tool.diameter:g} {tool.unit or self.unit} across.")
+        self.say(f"Tool {tool.number}: diameter {tool.diameter:g} {tool.unit or self.unit}.")
 
     def _with_tools(self, given: ToolTable, tools: ToolTable) -> None:
         self.given = given
@@ -666,7 +666,7 @@ class ProofScreen(BaseScreen):
             "N and P go from finding to finding. Enter edits the listing, Esc ends editing.",
             "C chooses the control, V compares all controls.",
             "The drawing shows the whole path, the moves of the line in hand, and the cutter at its end.",
-            "In the list of V, Space draws another control's path dotted under this one; B takes it away.",
+            "In the list of V, Space draws another control's path dotted under this one; B removes it.",
             "T gives a tool its diameter, < and > make it smaller and larger, and the verdict follows.",
             "+ and - zoom, 0 shows the whole program, M changes the characters of the drawing.",
         )

@@ -86,7 +86,7 @@ PANELS: Final = ("segments", "findings")
 
 LIST_PROMPTS: Final = {
     "segments": "Up and down choose a segment. Enter edits it, Del deletes it, Ins inserts one before it. F9 closes.",
-    "findings": "Up and down show the places of the findings. Enter goes to the field to be mended. F10 closes.",
+    "findings": "Up and down show the places of the findings. Enter goes to the field to be corrected. F10 closes.",
 }
 
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from core.geometry.piece import Point
     from core.pipeline.plot import Subject
 
-NO_PICK: Final = "Only segments that cannot be calculated without a pick take one."
+NO_PICK: Final = "This segment needs no pick."
 PROMPT: Final = (
     "N and P go from finding to finding, Enter to its field. + and - zoom, arrows move, "
     "0 shows the whole part, Page Up and Page Down walk."

@@ -29,7 +29,7 @@ CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 
 SOFTKEY_WAIT: Final = 2.0
 """Seconds after Esc in which a digit is a softkey."""
-OLD_VALUE: Final = "The old value is back. Esc again, then 1 to 8: softkey."
+OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, is a softkey."
 ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
 
@@ -327,7 +327,8 @@ class FormScreen(BaseScreen):
         typed = None if field.kind is Kind.TEXT else read_typed(widget.value, field, self.current_session.program.unit)
         if not isinstance(typed, Unread):
             return None
-        still = "" if widget.resting in ("", "?") else f" Still using {widget.resting}."
+        unused = widget.resting in ("", "?") or isinstance(self.value(field.name), Unread)
+        still = "" if unused else f" Still using {widget.resting}."
         return Sentence(f"{widget.value.strip()} is not a number.{still}")
 
     def trouble(self, field: Field) -> Sentence | None:

@@ -25,7 +25,7 @@ from core.units import Kind, Unit
 TAKES: Final = {
     Kind.LENGTH: "A number, a fraction (1 1/2), a sum (2.5-.125, 25.4/2), or another unit (12.7mm, .5in).",
     Kind.FEED: "A number in program units a minute, or another unit (500mm, 20in).",
-    Kind.ANGLE: "Degrees, counter-clockwise from +X.",
+    Kind.ANGLE: "Degrees, counterclockwise from +X.",
     Kind.COUNT: "A whole number.",
     Kind.PERCENT: "A percentage.",
 }
@@ -35,6 +35,9 @@ WORDS: Final[tuple[tuple[str, str], ...]] = (
     ("UNCUT", "material that stays on the wall because the cutter does not reach it: thick wall, shaded"),
     ("DELETED", "segments that the look-ahead leaves out: dotted, x where their neighbors meet"),
     ("CAL", "calculated, follows every edit"),
+    ("SAME", "blank: the coordinate that the segment starts with"),
+    ("INC", "typed with I: from the start of the segment"),
+    ("TOOL", "blank: the tool's value in TOOL SETUP"),
     ("USR", "a look-ahead that was typed"),
     ("DEF", "blank: the usual value is in force"),
     ("ERR", "cannot be read; nothing is posted while it stands"),

@@ -73,9 +73,9 @@ MAX_NOTES: Final = 2
 """Notes about what was taken that are told at once."""
 
 PROMPT: Final = (
-    "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row x n, / filters."
+    "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row of several, / filters."
 )
-LARGE: Final = "+ - zoom, arrows move, 0 shows all, n p next chain and the one before, Space marks, F7 or Esc the list."
+LARGE: Final = "+ and - zoom, arrows move, 0 shows all, n and p change the chain, Space marks, F7 or Esc: the list."
 STAGES: Final = {
     "reading": "Reading",
     "fitting": "Fitting arcs to curves",

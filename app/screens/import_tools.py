@@ -33,7 +33,7 @@ class ImportToolsScreen(EntryScreen):
     TITLE: ClassVar[str] = "IMPORT TOOL TABLE"
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
         Softkey("IMPORT", "enter", "IMPORT"),
-        Softkey("TABLE UNITS: OTHER", "other_unit", "UNITS"),
+        Softkey("CHANGE TABLE UNITS", "other_unit", "UNITS"),
         *(None,) * 5,
         Softkey("BACK", "app.back", "BACK"),
     )

@@ -177,9 +177,9 @@ class PostScreen(EntryScreen):
             return Sentence("Up and down choose the control. Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
-        what = f"{counted(len(self.made.against), 'finding')} must be mended."
+        what = f"{counted(len(self.made.against), 'finding')} must be corrected."
         if self.made.overridable:
-            what = "A gouge must be mended or overridden."
+            what = "A gouge must be corrected or overridden."
         return Sentence(f"NC file name. {what}", Tone.WARNING)
 
     @work(exclusive=True, group="posting")

@@ -297,7 +297,7 @@ def _use(program: Program, number: int) -> str:
     roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
     finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
     lines = [f"TOOL {number}"]
-    lines.append(f"TOOL of block {', '.join(roughing)}" if roughing else "No block calls it.")
+    lines.append(f"TOOL of block {', '.join(roughing)}" if roughing else "Not used by any block.")
     if finishing:
         lines.append(f"FINISH TOOL of block {', '.join(finishing)}")
     return "\n".join(lines)

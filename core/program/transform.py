@@ -88,7 +88,7 @@ def moved(x: float, y: float) -> Motion:
 
 
 def rotated(center: Point, degrees: float) -> Motion:
-    """A turn about a point (mm), counter-clockwise."""
+    """A turn about a point (mm), counterclockwise."""
     turn, about = exp(1j * radians(degrees)), complex(*center)
     return Motion(turn, about - turn * about)
 

@@ -34,7 +34,7 @@ class Gaps:
     points at its ends, and which ends are `reached`; the point that is farthest from the others, and how far it is.
 
     `corner` is the one place from which both of its ends are reached, and `area` what lies between the stretch and the
-    circle of the radius about it, positive where the stretch runs counter-clockwise; no numbers without such a place.
+    circle of the radius about it, positive where the stretch runs counterclockwise; no numbers without such a place.
     """
 
     stretches: Stretches

@@ -15,9 +15,11 @@ import pytest
 
 from app.__main__ import main
 from app.cli.drawing_list import list_drawing
+from app.cli.screens import begin
 from app.documents.drawing_files import Worker, drawing_bytes, read_and_list
 from app.documents.files import load
 from app.documents.programs import example
+from app.documents.service import DocumentService, Trouble
 from core.importing.contours import ContourList, contours_of
 from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
@@ -157,6 +159,13 @@ def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
     assert main([*command, "--side", "right", "--diameter", "0.5"]) == 0
     original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
     assert [segment.x_end for segment in back.segments] == [segment.x_end for segment in original.segments]
+
+
+def test_an_nc_program_that_is_not_there_is_no_new_program(tmp_path: Path) -> None:
+    answer = begin(DocumentService(), tmp_path / "gone.nc", None)
+    assert isinstance(answer, Trouble)
+    assert answer.text.endswith("gone.nc: there is no such NC program.")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_drawing_that_is_not_there_is_told_before_the_screens(capsys: pytest.CaptureFixture[str]) -> None:

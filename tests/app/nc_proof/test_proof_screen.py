@@ -288,7 +288,7 @@ async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
         own = one.proof.result
         await dot(one, "fanuc:a")
         assert one.proof.result is own, "its own run is not made again"
-        assert one.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B takes it away."
+        assert one.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
         assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
         assert Style.UNTAKEN in drawn(one, "proof-drawing")
         second = one.proof.query_one("#proof-dotted", Drawing)
@@ -384,7 +384,7 @@ async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp
         await one.press("backspace", *".25", "enter")
         await one.settle()
         assert one.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
-        assert one.prompt == "Tool 5 is 0.25 IN across."
+        assert one.prompt == "Tool 5: diameter 0.25 IN."
         await one.press("t", *"5=", "enter")
         await one.settle()
         assert list(one.proof.question.tools.tools) == [2]
@@ -399,7 +399,7 @@ async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
     async with at_proof(tmp_path, text) as one:
         await with_tool(one, "10")
         assert one.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
-        assert one.prompt == "Tool ROUGH D10 is 10 MM across."
+        assert one.prompt == "Tool ROUGH D10: diameter 10 MM."
         assert one.proof.result.answer.stopped_at is None
         known = one.app.settings.tools_of(tmp_path / "p.nc")
         assert read_tools(known).tools == one.proof.question.tools.tools

@@ -43,7 +43,7 @@ async def test_after_the_time_it_is_a_digit(monkeypatch: pytest.MonkeyPatch) -> 
 async def test_esc_that_takes_a_half_typed_number_back_arms_nothing() -> None:
     async with operator("pocket") as at:
         await at.press("tab", "7", "escape")
-        assert at.prompt == "The old value is back. Esc again, then 1 to 8: softkey."
+        assert at.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
         await at.press("6", "enter")
         assert at.session.block.tool == Number(6.0)
 

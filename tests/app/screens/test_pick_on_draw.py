@@ -98,6 +98,6 @@ async def test_escape_takes_the_cross_away_first_and_f7_brings_it_back():
 async def test_a_run_that_needs_no_pick_takes_none():
     async with operator(program_of(case_of(line(angle=30), line(x_end=100, y_end=0, angle=300)))) as one:
         await one.press("pagedown", "f7", "f7")
-        assert one.prompt == "Only segments that cannot be calculated without a pick take one."
+        assert one.prompt == "This segment needs no pick."
         await one.press("x")
         assert isinstance(one.screen, DrawScreen)
