@@ -152,7 +152,14 @@ class NumberField(LineInput):
                 self.value = self.resting
 
     def render_line(self, y: int) -> Strip:
-        """The text at the right edge, with a cell for the cursor while the field has it."""
+        """The text at the right edge, with a cell for the cursor while the field has it.
+
+        Of a text that has no room there the first characters stand, and a sign that there are more.
+        """
+        room = self.size.width
+        if not self.has_focus and len(self.value) >= room > 0:
+            shown = self.value if len(self.value) == room else f"{self.value[: room - 1]}>"
+            return Strip([Segment(shown, self.rich_style)])
         strip = super().render_line(y)
         cursor = 1 if self.has_focus else 0
         blank = max(self.size.width - max(len(self.value), 1) - cursor - (1 - cursor), 0)

@@ -35,6 +35,14 @@ async def test_the_start_of_a_segment_fits_beside_its_label(x: float, y: float):
         assert len(str(value.content)) <= value.size.width
 
 
+@pytest.mark.parametrize(("typed", "shown"), [("2500", "2500.000"), ("25000", "25000.0>"), ("16", "16.000")])
+async def test_a_number_without_room_is_never_shown_as_another_one(typed: str, shown: str):
+    async with operator("plate-mm") as one:
+        await one.press("f6", "tab", "tab", f"'{typed}", "enter")
+        [field] = [each for each in one.screen.query(NumberField) if each.name == "diameter@0"]
+        assert field.render_line(0).text.strip() == shown
+
+
 async def test_a_metric_feed_fits_into_its_column():
     async with operator("plate-mm") as one:
         await one.press("f6")
