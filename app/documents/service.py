@@ -335,9 +335,10 @@ class DocumentService:
                 return _kept_for(left.user, left.time, path, today)
             return questions.unreadable_work(document, path, left, today)
         living, mine = alive(left.head.owner), self._mine(path, left)
-        if document.holds(left) and not left.damaged and not living and not chosen:
-            with suppress(OSError):
-                path.unlink()
+        if document.holds(left) and not left.damaged and not chosen:
+            if not living:
+                with suppress(OSError):
+                    path.unlink()
             return None
         if not chosen and why_aside(path) and not mine:
             return _kept_for(left.head.owner.user, left.time, path, today)

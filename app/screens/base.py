@@ -159,7 +159,7 @@ class BaseScreen(Screen[None]):
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
-    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("?", "KEYS, HELP"),)
+    MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
     """The keys under the softkeys."""
 
     session: var[Session | None] = var(None, init=False)

@@ -87,4 +87,4 @@ def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
 
 def prompt_of(field: Field) -> str:
     """The field's prompt; a choice names its choices and how they are picked."""
-    return f"{field.prompt} Or type its first letters: {', '.join(field.choices)}." if field.choices else field.prompt
+    return f"{field.prompt} Type the first letters: {', '.join(field.choices)}." if field.choices else field.prompt

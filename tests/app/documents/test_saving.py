@@ -206,6 +206,14 @@ def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, f
     assert number_in(file) == 7
 
 
+def test_taken_over_before_anything_was_typed_nothing_is_asked(own: Path, file: Path) -> None:
+    first = started(own, file, ELSEWHERE)
+    second = started(own, file).answer("TAKE OVER")
+    assert second.asked == ""
+    first.type(7)
+    assert "has had this program open" in first.said
+
+
 def test_taken_over_and_saved_meanwhile_there_is_nothing_to_discard(own: Path, file: Path) -> None:
     first = started(own, file, ELSEWHERE).type(7)
     second = started(own, file).answer("TAKE OVER")

@@ -110,7 +110,7 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
         assert [tool.number for tool in one.session.program.tools] == [1, 2]
         assert one.session.program.tools[1].diameter == Number(0.25)
         assert one.at == "speed@1"
-        assert "No block calls it" in str(one.screen.query_one("#tool-use", Static).content)
+        assert "Not used by any block" in str(one.screen.query_one("#tool-use", Static).content)
         await one.press("f1")
         await everything(one)
         assert [tool.number for tool in one.session.program.tools] == [1]
