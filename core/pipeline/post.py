@@ -66,6 +66,7 @@ def _uncompensated(a_pass: Pass, job: Job) -> UncompensatedPass:
         near=heights[0],
         depth=min(heights),
         leave=heights[-1],
+        block=job.block,
     )
 
 
@@ -112,4 +113,5 @@ def _cut(a_pass: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> C
         near=a_pass.motions[first_feed - 1].z,
         depth=a_pass.motions[first_feed].z,
         leave=a_pass.motions[-1].z,
+        block=job.block,
     )

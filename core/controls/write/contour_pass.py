@@ -62,6 +62,7 @@ class ContourPass:
 
     The pass is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
     number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
+    `block` is the number of the MILL CONTOUR block that the pass is of, None where it is of none.
     """
 
     tool: int
@@ -74,6 +75,7 @@ class ContourPass:
     near: float
     depth: float
     leave: float
+    block: int | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

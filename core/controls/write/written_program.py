@@ -78,7 +78,8 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
     led: dict[Compensated, PassWithLeads | Finding] = {}
     for cut in cuts:
         if isinstance(cut, CompensatedPass) and cut.compensated not in led:
-            led[cut.compensated] = _led(cut, style, numbers[cut.tool, cut.stock])
+            found = _led(cut, style, numbers[cut.tool, cut.stock])
+            led[cut.compensated] = replace(found, block=cut.block) if isinstance(found, Finding) else found
     refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
     if refusals:
         return NotWritten(refusals)
@@ -109,7 +110,8 @@ def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | 
     )
     if isinstance(leads, float):
         text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
-        text += " Start elsewhere." if first.blend else " Enter BLEND OFFSET, or start elsewhere."
+        start = "Start" if first.blend else "Enter BLEND OFFSET, start"
+        text += f" {start} elsewhere, take a smaller tool, or post the center path."
         return not_written(text, lengths=(leads,))
     shape = programmed_elements(compensated)
     if isinstance(shape, Finding):

@@ -141,6 +141,15 @@ def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
     assert "rule C6" in result.text
 
 
+def test_a_refusal_without_a_line_names_the_block() -> None:
+    small = block(((0.3, 0), (0.6, 0), (0.6, 0.6), (0, 0.6), (0, 0), (0.3, 0)), CutterComp.LEFT)
+    blends = replace(BLENDS, blend_offset=Number(0.0), blend_overlap=Number(0.0))
+    result = post_control_program(derived(small, small, parameters=blends), name="PART", control="linuxcnc")
+    assert isinstance(result, Refusal)
+    assert [finding.block for finding in result.findings] == [1, 2]
+    assert result.text.startswith("Block 1: There is no room for the straight move into the cut")
+
+
 def test_what_the_control_does_otherwise_stands_in_the_header() -> None:
     result = posted(derived(SQUARE), "nine-series:a")
     assert [note.code for note in result.notes] == ["DIFFERS"]
