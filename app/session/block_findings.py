@@ -1,4 +1,4 @@
-"""What is to be said about a block, as a list: gouges first, then what stays uncut by its area, then the rest.
+"""What is to be said about a block, as a list: gouges first, what mends them, what stays uncut by its area, the rest.
 
 The list, the loupe, DRAW and the numbers in the drawing of the part all show this one list in this order.
 """
@@ -25,15 +25,20 @@ class Kind(IntEnum):
     GOUGE = 0
     ERROR = 1
     TO_TYPE = 2
-    UNCUT = 3
-    WARNING = 4
-    NOTE = 5
+    REMEDY = 3
+    UNCUT = 4
+    WARNING = 5
+    NOTE = 6
 
 
 TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that something is still to be typed."""
 GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
 """Errors by which the part is damaged."""
+REMEDIES: Final = frozenset(
+    {"BLENDLESS", "START_MID_SIDE", "START_BLENDLESS", "START_AT_END", "TOOL_FITS", "TOOL_BLENDLESS"}
+)
+"""Advice that has been tried: with it the path is clean."""
 MENDED_ON_START: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
 """Advice that names a segment, and the field of START in which it is followed."""
 _KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
@@ -86,6 +91,8 @@ def _kind(finding: Finding) -> Kind:
         return Kind.TO_TYPE
     if finding.code in GOUGING:
         return Kind.GOUGE
+    if finding.code in REMEDIES:
+        return Kind.REMEDY
     return Kind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
 
 

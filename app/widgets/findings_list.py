@@ -19,6 +19,7 @@ ROLES = {
     Kind.GOUGE: "$c-gouge",
     Kind.ERROR: "$c-err",
     Kind.TO_TYPE: "$c-warn",
+    Kind.REMEDY: "$c-good",
     Kind.UNCUT: "$c-uncut",
     Kind.WARNING: "$c-warn",
     Kind.NOTE: "$c-label",
@@ -32,7 +33,7 @@ def mark(kind: Kind, marks: Marks) -> str:
     """The sign of a kind of finding."""
     if kind in (Kind.GOUGE, Kind.ERROR):
         return marks.gouge
-    return "?" if kind is Kind.TO_TYPE else "i" if kind is Kind.NOTE else marks.warning
+    return "?" if kind is Kind.TO_TYPE else "i" if kind in (Kind.REMEDY, Kind.NOTE) else marks.warning
 
 
 def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:
