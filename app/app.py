@@ -23,7 +23,7 @@ from app.documents.document import ContourDocument, NcDocument
 from app.documents.folders import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
-from app.screens.base import BaseScreen
+from app.screens.base import HEIGHTS, WIDTHS, BaseScreen
 from app.screens.contour import ContourScreen
 from app.session.block_findings import Entry
 from app.session.derivation import Request
@@ -62,8 +62,8 @@ class CutcompApp(TransformActions):
 
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
-    HORIZONTAL_BREAKPOINTS = BaseScreen.HORIZONTAL_BREAKPOINTS
-    VERTICAL_BREAKPOINTS = BaseScreen.VERTICAL_BREAKPOINTS
+    HORIZONTAL_BREAKPOINTS = WIDTHS
+    VERTICAL_BREAKPOINTS = HEIGHTS
     COMMAND_PALETTE_BINDING = "ctrl+k"
     COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {_actions}
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -43,15 +43,13 @@ class DerivationActions(WorkActions):
     characters: var[str] = var("braille", init=False)
     """The set of characters that drawings and signs are made of."""
 
-    def __init__(self, *, ansi_color: bool | None = None) -> None:
-        super().__init__(ansi_color=ansi_color)
-        self._wanted: Request | None = None
-        self._deriving: tuple[Request, Work] | None = None
-        self._making_table: tuple[DerivedBlock, Work] | None = None
-        self.stopped: Program | DerivedBlock | None = None
-        """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
-        self._advice_timer: Timer | None = None
-        self._unit_mentioned = self._unit_settled = False
+    _wanted: Request | None = None
+    _deriving: tuple[Request, Work] | None = None
+    _making_table: tuple[DerivedBlock, Work] | None = None
+    stopped: Program | DerivedBlock | None = None
+    """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
+    _advice_timer: Timer | None = None
+    _unit_mentioned = _unit_settled = False
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
         """A sentence on the prompt line of the screen in front, or of the one under a dialog."""
@@ -245,9 +243,8 @@ class DerivationActions(WorkActions):
 
     def quiet(self) -> None:
         """The prompts again, on every screen."""
-        for screen in self.screen_stack:
-            if isinstance(screen, BaseScreen):
-                screen.quiet()
+        for screen in self._screens():
+            screen.quiet()
 
     def take_typed(self) -> bool:
         """Take what is half-typed on the screen in front; False where it is refused."""

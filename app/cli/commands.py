@@ -160,14 +160,11 @@ def _control(options: argparse.Namespace) -> str | None:
     """The full name of the control that is asked for, None for the path of the tool's center."""
     if options.control is None:
         return None
-    from core.controls.registry import UnknownControl, resolve
-
-    found = resolve(options.control)
-    if isinstance(found, UnknownControl):
-        raise Unusable(f"--control: {found.text}")
     if options.override is not None:
         raise Unusable("--override goes with the center path only: leave out --control.")
-    return found
+    from app.cli.control_options import control_of
+
+    return control_of(options.control)
 
 
 def plot(options: argparse.Namespace) -> int:

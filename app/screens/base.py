@@ -152,8 +152,6 @@ class BaseScreen(Screen[None]):
     """Moving the cursor repaints two fields, not the screen."""
 
     AUTO_FOCUS: ClassVar[str | None] = ""
-    HORIZONTAL_BREAKPOINTS = WIDTHS
-    VERTICAL_BREAKPOINTS = HEIGHTS
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("question_mark", "question_mark", "Help", show=False, priority=True),
         *(Binding(f"f{number},alt+{number}", f"softkey({number})", f"F{number}", show=False) for number in range(1, 9)),
@@ -184,8 +182,8 @@ class BaseScreen(Screen[None]):
     def compose(self) -> ComposeResult:
         """The frame round the body; the classes of the size come first, or all of it would be styled twice."""
         for points, size in (
-            (self.HORIZONTAL_BREAKPOINTS, self.app.size.width),
-            (self.VERTICAL_BREAKPOINTS, self.app.size.height),
+            (WIDTHS, self.app.size.width),
+            (HEIGHTS, self.app.size.height),
         ):
             self.add_class(max(point for point in points if point[0] <= size)[1], update=False)
         with Horizontal(id="main"):

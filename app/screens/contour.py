@@ -185,11 +185,6 @@ class ContourScreen(FormScreen):
         yield SegmentList(id="segments", classes="panel")
         yield FindingsList(id="findings", classes="panel")
 
-    def on_mount(self) -> None:
-        """Follow also what half-typed numbers would do."""
-        super().on_mount()
-        self.follow_shown(self.host.shown)
-
     def _made_form(self, session: Session) -> Form:
         self._form = form_at(session)
         form = Form(cells_at(session), classes="fields")
@@ -304,8 +299,13 @@ class ContourScreen(FormScreen):
         """A list that a larger terminal brings up shows what it has missed."""
         self.call_after_refresh(lambda: self._show_lists(self.host.shown))
 
+    @property
+    def placed(self) -> list[Entry]:
+        """The findings that have a place in the drawing."""
+        return [entry for entry in self.entries if entry.at is not None]
+
     def _show_picture(self, shown: Session) -> None:
-        places = [entry for entry in self.entries if entry.at is not None]
+        places = self.placed
         in_hand = self.in_hand
         if in_hand is None and not shown.place.segment and places:
             in_hand = 0
@@ -313,7 +313,7 @@ class ContourScreen(FormScreen):
 
     def action_finding(self, by: int) -> None:
         """Take the next finding in hand, or the one before: the loupe goes there."""
-        places = [entry for entry in self.entries if entry.at is not None]
+        places = self.placed
         if not places:
             self.say("There are no findings.")
             return
@@ -328,7 +328,7 @@ class ContourScreen(FormScreen):
         """A click on the number of a finding takes it in hand, any other goes to the nearest segment."""
         from core.pipeline.plot import nearest_segment
 
-        places = [entry for entry in self.entries if entry.at is not None]
+        places = self.placed
         reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
         near = [at for at, entry in enumerate(places) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
@@ -370,7 +370,7 @@ class ContourScreen(FormScreen):
 
     def action_restore(self) -> None:
         """The old value back; from a list to the form and the drawing."""
-        if self.current is None or not (isinstance(self.current, NumberField) and self.current.edited):
+        if not self.half_typed:
             for panel in PANELS:
                 self.remove_class(f"-{panel}")
             if self.current is None:
@@ -394,7 +394,7 @@ class ContourScreen(FormScreen):
         if not event.option_list.has_focus:
             return
         entry = self.entries[event.option_index]
-        places = [each for each in self.entries if each.at is not None]
+        places = self.placed
         self.in_hand = places.index(entry) if entry in places else None
         self._show_picture(self.host.shown)
 

@@ -25,7 +25,6 @@ class SheetScreen(EntryScreen):
     """The name of the sheet's file, and the sheet as text."""
 
     TITLE: ClassVar[str] = "SETUP SHEET"
-    LABEL: ClassVar[str] = "FILE"
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("pagedown", "scroll(1)", "Next page", show=False),
         Binding("pageup", "scroll(-1)", "Page before", show=False),

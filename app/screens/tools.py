@@ -51,9 +51,8 @@ class ToolRow(Horizontal):
 
     def field(self, name: str) -> NumberField | ChoiceField | None:
         """The widget of this name."""
-        return next((each for each in self.query(NumberField) if each.name == name), None) or next(
-            (each for each in self.query(ChoiceField) if each.name == name), None
-        )
+        named = (each for each in self.children if isinstance(each, NumberField | ChoiceField) and each.name == name)
+        return next(named, None)
 
     def show(self, cells: Sequence[Cell]) -> None:
         """Show these values."""

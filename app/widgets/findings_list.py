@@ -59,10 +59,9 @@ class FindingsList(OptionRows):
         self._width = 0
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 
-    def watch_entries(self, before: tuple[Entry, ...], now: tuple[Entry, ...]) -> None:
+    def watch_entries(self) -> None:
         """Other findings; the one in hand stays where there still are as many before it."""
-        if before != now:
-            self._show()
+        self._show()
 
     def watch_characters(self) -> None:
         """Other signs."""

@@ -112,10 +112,6 @@ class Verdict(Vertical):
         """Other signs."""
         self._show()
 
-    def on_mount(self) -> None:
-        """The lines of the first case."""
-        self._show()
-
     def _show(self) -> None:
         if not self.is_mounted or self.case is None:
             return
