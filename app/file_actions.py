@@ -61,8 +61,7 @@ ANSWERS: Final = "The folder answers again: all work is on the disk."
 class FileActions(DerivationActions):
     """The App's side of files: all work on them is done by `disk`, one piece after the other.
 
-    The keys wait half a second for it; then they go
-    on, and what is edited meanwhile is kept when the folder answers.
+    The keys wait half a second for it; then they go on, and what is edited meanwhile is kept when the folder answers.
     """
 
     service: DocumentService

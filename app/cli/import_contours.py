@@ -115,8 +115,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--reverse", action="store_true", help="travel the contour the other way")
     parser.add_argument("--damaged", action="store_true", help="take what can be read of a damaged file")
     parser.add_argument("--control", metavar="NAME[:VARIANT]", help="FILE is an NC program of this control")
-    parser.add_argument("--side", choices=("left", "right", "on"), help="the tool's, for an NC program of its center")
-    parser.add_argument("--diameter", type=_length, metavar="D", help="the tool's, for an NC program of its center")
+    parser.add_argument("--side", choices=("left", "right", "on"), help="side of an NC program's center path")
+    parser.add_argument("--diameter", type=_length, metavar="D", help="diameter of the tool, for such a program")
     add_tool_options(parser)
     parser.add_argument("-o", "--output", type=Path, metavar="OUT.toml", help="write the program here")
     return parser

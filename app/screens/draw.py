@@ -122,7 +122,7 @@ class DrawScreen(BaseScreen):
         self.query_one("#draw-block", Label).update(str(block.number))
         self.query_one("#draw-segment", Label).update(f"DRAW   segment {segment}" if segment else "DRAW   START")
         case = Case(block, session.lookahead_table, unit)
-        self.query_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters]))
+        self.query_one("#draw-chips", Label).update(chips(case, MARKS[self.host.characters], findings_key="N"))
         before = self._subject
         near, view = (None, None) if before is None else (before.near, before.view)
         self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))

@@ -205,7 +205,7 @@ def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
 
 
 def depths_kept(program: Program, at: int) -> str:
-    """What the new block `at` has of the block before it, with the depths as numbers: a cut may be meant less deep."""
+    """What the new block `at` has of the block before it, with its depths: the new cut may be meant to be less deep."""
     block, unit = program.blocks[at - 1], program.unit
     fields = (("Z BOTTOM", block.z_bottom), ("PECK DEPTH", block.peck_depth))
     depths = [f"{name} {show(typed.value, Kind.LENGTH, unit)}" for name, typed in fields if isinstance(typed, Number)]

@@ -206,7 +206,7 @@ def _advice(case: Case) -> str:
     return f"best {best}: uncut {length(row.uncut, case.unit)}" if row.verdict.uncut else f"best {best}: clean"
 
 
-def chips(case: Case, marks: Marks) -> Content:
+def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
     """GOUGE, UNCUT, DELETED; in a block without segments what to type first, without a path what is in its way."""
     if hint := first_step(case.block):
         return Content.styled(f" {hint}", "$c-label")
@@ -221,7 +221,7 @@ def chips(case: Case, marks: Marks) -> Content:
     deleted = (f"{marks.deleted} DELETED {gone}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
     warned = any(finding.severity is Severity.WARNING for finding in case.block.findings)
     # what is uncut or deleted stands here, and the findings list says the rest
-    others = ((f"{marks.warning} see F10", "$c-warn"),) if warned and not judgment.gouges else ()
+    others = ((f"{marks.warning} see {findings_key}", "$c-warn"),) if warned and not judgment.gouges else ()
     return _row((gouge, uncut, deleted, *others))
 
 

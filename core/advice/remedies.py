@@ -14,7 +14,7 @@ import numpy as np
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.tolerance import CLOSED, JOINED
+from core.tolerance import CLOSED
 from core.verify.judge import judge
 
 MAX_STARTS: Final = 6
@@ -37,18 +37,13 @@ USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
 class ToolFits:
     """A cutter of `diameter` millimeters is clean at look-ahead `value`, one that is a step larger is not.
 
-    `inside_radius` is the smallest inside radius of the contour (mm), None without one.
+    `lengths` (mm) are the smallest inside radius of the contour, where the cutter leaves it uncut, and the largest
+    diameter that does not.
     """
 
     diameter: float
     value: int
-    inside_radius: float | None = None
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """The smallest inside radius, where the cutter leaves it uncut, and the diameter that does not (mm)."""
-        small = self.inside_radius
-        return () if small is None or small >= self.diameter / 2 - JOINED else (small, 2.0 * small)
+    lengths: tuple[float, ...] = ()
 
     @property
     def left_uncut(self) -> str:
@@ -127,7 +122,11 @@ def largest_tool(
         else:
             fails = size
     value = _recommended(_with_tool(setup, clean), wanted) if clean else None
-    return None if value is None else ToolFits(clean * setup.diameter_step, value, limit)
+    if value is None:
+        return None
+    fits = 0 if limit is None else _steps(setup, 2.0 * limit)
+    left = (limit, fits * setup.diameter_step) if limit is not None and 0 < fits < clean else ()
+    return ToolFits(clean * setup.diameter_step, value, left)
 
 
 def _smallest_inside_radius(setup: CuttingSetup) -> float | None:

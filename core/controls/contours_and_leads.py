@@ -195,7 +195,7 @@ def contour_of(path: Path) -> RowRange:
 
 
 def _places(path: Path) -> list[int]:
-    """The place of each of the path's points: the index of the first point that is no farther than CLOSED from it."""
+    """The place of each of the path's points: the index of an earlier one within CLOSED of it, or its own."""
     places = list[int]()
     firsts = defaultdict[tuple[int, int], list[int]](list)
     points, cells = path.points.tolist(), np.floor(path.points / CLOSED).astype(np.int64).tolist()

@@ -25,7 +25,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.iso.modal_state import TAKEN_AS_ZERO
 from core.controls.moves import Moves, Plane
 from core.controls.rapids_at_depth import CutContour
-from core.controls.repeated_passes import Shape, path_key
+from core.controls.repeated_passes import PathKey, path_key
 from core.finding import Severity
 from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
@@ -77,7 +77,7 @@ class _Pass:
 
     moves: Moves
     radius: float
-    own: frozenset[Shape]
+    own: frozenset[PathKey]
     setup: int
     regions: dict[tuple[float, float], BaseGeometry] = field(default_factory=dict)
 
@@ -108,7 +108,7 @@ class _Wall:
     """A contour where it is cut highest, and its shape."""
 
     contour: CutContour
-    shape: Shape
+    shape: PathKey
     setup: int
 
 
@@ -141,7 +141,7 @@ def cuts_of_other_contours(
 
 def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
     """The contours in XY, of those of one shape the one that is cut highest."""
-    walls, setup = dict[tuple[Shape, int], _Wall](), _setups(run)
+    walls, setup = dict[tuple[PathKey, int], _Wall](), _setups(run)
     for contour in contours:
         if contour.stretch.plane is Plane.XY and len(contour.path):
             key = (path_key(contour.path), bisect(setup, _line(contour.stretch)))
@@ -152,7 +152,7 @@ def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
 
 def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
     """The compensated moves of a run in XY, by stretch and radius; of those that are alike the lowest."""
-    passes, setups = dict[tuple[Shape, float, int], _Pass](), _setups(run)
+    passes, setups = dict[tuple[PathKey, float, int], _Pass](), _setups(run)
     for stretch in run.stretches:
         own = frozenset(path_key(one.path) for one in contours if stretch.first <= one.stretch.first < stretch.last)
         setup = bisect(setups, _line(stretch))

@@ -21,10 +21,10 @@ MIN_SHARE: Final = 4
 """A period is tried when at least one in this number of pieces of its pass was last seen a period before."""
 
 
-Shape = tuple[bytes, ...]
+PathKey = tuple[bytes, ...]
 
 
-def path_key(path: Path) -> Shape:
+def path_key(path: Path) -> PathKey:
     """The same for paths that are the same to GOUGE, whatever their lines."""
     grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
     return (*(grid.tobytes() for grid in grids), path.turns.tobytes())

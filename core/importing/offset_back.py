@@ -1,7 +1,7 @@
 """Contour of a program of the tool's center: its moves offset back by the tool's radius.
 
-In this way back lines by the radius, arcs to R - r or R + r, the arc about a corner to that corner.  What
-comes out is compensated again, and is the contour only if that makes the program's path.
+Lines go back by the radius, arcs to R - r or R + r, and the arc about a corner shrinks to that corner.  What comes out
+is compensated again, and is the contour only if that makes the program's path.
 """
 
 from __future__ import annotations

@@ -57,13 +57,11 @@ def with_verdicts(proof: Proof, progress: Progress = silent) -> Proof:
 def fixed_scene(proof: Proof) -> Scene:
     """All that does not depend on the cursor: rapids, other moves, surfaces, center paths, gouges, what is uncut."""
     moves, plane = proof.run.moves, proof.plane
-    rapids, feeds = moves.rapid.copy(), ~moves.rapid
-    for known in (rapids, feeds):
-        known[list(proof.run.unplaced)] = False
+    feeds = ~moves.rapid
     for result in proof.results:
         # these are drawn as center paths
         feeds[result.stretch.first + 1 : result.stretch.last] &= result.stretch.plane is not plane
-    layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, rapids)]
+    layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, moves.rapid)]
     layers += [Layer(path, Style.LEAD) for path in _parts(moves, plane, feeds)]
     scenes = [_stretch_scene(result) for result in proof.results if result.stretch.plane is plane]
     return joined_scenes([Scene(tuple(layers), unit=proof.run.unit), *scenes])

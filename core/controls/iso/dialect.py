@@ -125,7 +125,7 @@ class Dialect:
     `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
     is a program's number alone.  `program_names`: a name in angle brackets may stand for O and its number.
     `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
-    `macro_codes`: the parameters that make G codes macros.
+    `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P is G54.1 P.
     `max_repeated_blocks`: how many blocks subprograms and loops may run again before the run is given up.
     """
 
@@ -164,6 +164,7 @@ class Dialect:
     without_point: str = ""
     diameters_apart: bool = False
     macro_codes: str = ""
+    g54_takes_p: bool = False
     max_repeated_blocks: int = 400_000
 
 
@@ -180,6 +181,15 @@ _TAKEN_BY_ARC: Final = "IJKR"
 _TAKEN_BY_CYCLE: Final = "RQPLIJK"
 
 
+def p_is_of_g54(block: Block, mode: int | None) -> bool:
+    """Whether a block's P stands with G54 alone: no other code in it, and no cycle in force, takes a P."""
+    others = [code for code in block.g if code != 540]
+    taken = any("P" in _TAKEN_BY_G.get(code, "") or code in (300, 650, 660) for code in others)
+    by_m = any("P" in _TAKEN_BY_M.get(code, "") for code in block.m)
+    cycle = mode not in (0, 10, 20, 30, 800, None) or any(730 <= code <= 890 and code != 800 for code in others)
+    return 540 in block.g and "P" in block.words and not (taken or by_m or cycle)
+
+
 def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
     """The words of a block that nothing in it takes, the motion in force being `mode`."""
     if _ALWAYS_TAKEN.issuperset(block.words):
@@ -187,7 +197,8 @@ def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
     taken = set(_ALWAYS_TAKEN)
     for code in block.g:
         taken.update(_TAKEN_BY_G.get(code, ""))
-    if dialect.parameters is ParameterStore.FANUC and not {300, 540}.isdisjoint(block.g):
+    homes = 300 in block.g and dialect.parameters is ParameterStore.FANUC
+    if homes or (dialect.g54_takes_p and p_is_of_g54(block, mode)):
         taken.add("P")
     for code in block.m:
         if code != 970 or dialect.m97_calls:

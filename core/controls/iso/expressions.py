@@ -455,19 +455,21 @@ def _item(
         settings.append(_setting(reader))
     elif sign == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
-    elif sign == "N" and words and reader.values.kept is ParameterStore.NGC:
+    elif sign == "N" and (words or settings) and reader.values.kept is ParameterStore.NGC:
         raise FaultError("WORD", "N stands first in a line.", begin)
     elif "A" <= sign <= "Z":
         reader.at += 1
         words.append(f"{sign}{plain(reader.value())}")
         columns.append(line.columns[begin] + 1)
     else:
-        raise FaultError("WORD", f"{named(text[begin:])} is not a word. Write a letter and a value.", begin)
+        raise FaultError("WORD", not_a_word(text[begin:]), begin)
 
 
-def named(text: str) -> str:
-    """A text as a message quotes it, an invisible character before it by its number."""
-    return quoted(text) if text[0].isprintable() else f"The invisible character U+{ord(text[0]):04X}"
+def not_a_word(text: str) -> str:
+    """The sentence that a text begins no word; an invisible character is named by its number."""
+    if not text[0].isprintable():
+        return f"An invisible character (U+{ord(text[0]):04X}) stands here. Delete it."
+    return f"{quoted(text)} is not a word. Write a letter and a value."
 
 
 def _setting(reader: ExpressionReader) -> Setting:

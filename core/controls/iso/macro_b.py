@@ -23,7 +23,7 @@ from core.controls.iso.expressions import (
     MacroParameters,
     Operation,
     ParameterStore,
-    named,
+    not_a_word,
     plain,
 )
 from core.controls.program_text import quoted
@@ -386,7 +386,7 @@ def words_of(
                 words.append(f"{sign}{plain(value)}")
                 columns.append(line.columns[begin] + 1)
         else:
-            raise FaultError("WORD", f"{named(text[begin:])} is not a word. Write a letter and a value.", begin)
+            raise FaultError("WORD", not_a_word(text[begin:]), begin)
     return " ".join(words), tuple(columns), corner, skip
 
 

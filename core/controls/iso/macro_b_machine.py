@@ -16,11 +16,11 @@ from core.controls.compensation.elements import arc_element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import Code, CodeAction, Dialect
+from core.controls.iso.dialect import Code, CodeAction, Dialect, p_is_of_g54
 from core.controls.iso.expressions import FaultError
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro_b import VACANT
-from core.controls.iso.modal_state import EXTERNAL, G54, TAKEN_AS_ZERO, ZERO
+from core.controls.iso.modal_state import EXTERNAL, TAKEN_AS_ZERO, ZERO
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
@@ -473,7 +473,7 @@ class MacroMachine(Machine):
     def _select_system(self, code: int, block: Block) -> None:
         if code in HAAS_SYSTEMS:
             name, number = f"G{code // 10}", HAAS_SYSTEMS.index(code) + 1
-        elif code in (541, 1540) or (code == G54 and "P" in block.words):
+        elif code in (541, 1540) or (self.dialect.g54_takes_p and p_is_of_g54(block, self.mode)):
             given = whole(block.words.get("P", 1.0))
             if given is None or not 1 <= given <= 300:
                 self.log.stop("PS0030", "P is the number of a work offset, 1 to 300.", block.line, block.column("P"))

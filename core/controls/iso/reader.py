@@ -170,16 +170,18 @@ def read_line(
 
 def _check_strictly(text: str, upper: str, line: int, log: Log) -> None:
     """Stops the run at a line that is too long, or whose N does not stand first with a plain number."""
-    if len(text.encode()) > LONGEST_STRICT:
+    if len(text) > LONGEST_STRICT:
         said = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
         log.stop("WORD", said, line, LONGEST_STRICT + 1)
     bare = without_comments(upper)
-    if "N" not in bare or not _CLEAN.fullmatch(words := "".join(bare.removeprefix("/").split(" "))):
+    words = bare.removeprefix("/").replace(" ", "").replace("\t", "")
+    if "N" not in words or not _CLEAN.fullmatch(words):
         return
-    for index, (letter, number) in enumerate(_PAIR.findall(words)):
-        if letter == "N" and (index or not number[0].isdigit() or number[-1] == "."):
-            said = "N stands first in a line, with a number without sign or point at its end. Write it so or delete it."
-            log.stop("WORD", said, line, bare.index("N") + 1)
+    pairs = _PAIR.findall(words)
+    first, count = pairs[0][0], sum(letter == "N" for letter, _ in pairs)
+    if count == 1 and (first != "N" or pairs[0][1].endswith(".")):
+        said = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
+        log.stop("WORD", said, line, bare.index("N") + 1)
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:

@@ -183,7 +183,7 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
             element = straight_element(state, block, end, rapid=True, feed=0.0)
             state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         state.position = end
-        state.known.add(third)
+        state.now_known({third})
         state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends above its hole"), block)
         return
     unknown = {third} if number in _DRILLING else {0, 1, 2}

@@ -99,9 +99,9 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
     """M91, M92 and M140 without compensation: the axes go where only the machine knows, and the move is left out."""
     if _MACHINE.isdisjoint(words) or state.applied or state.side:
         return False
-    for name in words.keys() & AXES.keys():
-        state.known.discard(AXES[name][0])
-        state.at_machine_place.add(AXES[name][0])
+    state.lose({AXES[name][0] for name in words.keys() & AXES.keys()})
+    if "M140" in words:
+        state.lose({state.plane.axes[2]})
     state.waiting.flush()
     state.last = None
     text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."

@@ -139,7 +139,10 @@ def polar_target(state: State, block: Block, words: Words) -> tuple[list[float],
         text = "A polar block takes only the axis across the plane of CC with PR and PA. Write an L or C block instead."
         state.stop("WORD", text, block)
     point = polar_point(center, radius, angle)
-    state.known.update(plane.axes[:2])
+    if "PR" in words and "PA" in words:
+        state.now_known(plane.axes[:2])
+    else:
+        state.known.update(plane.axes[:2])
     return list(solid(*point, state.flat(target, plane)[1], plane)), angle
 
 

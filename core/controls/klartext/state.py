@@ -5,7 +5,7 @@ Everything is millimeters and millimeters per minute whatever the program's unit
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from re import Pattern
 from types import MappingProxyType
@@ -172,13 +172,22 @@ class State:
             if name in AXES:
                 axis, relative = AXES[name]
                 if not relative:
-                    self.known.add(axis)
+                    self.now_known({axis})
                 elif AXES[name[1:]][0] == axis and name[1:] in words:
                     self.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block, name)
                 base = self.position[axis] if relative else self.shift[axis]
                 position[axis] = base + self.length(block, words, name)
-        self.at_machine_place -= self.known
         return position
+
+    def now_known(self, axes: Collection[int]) -> None:
+        """Absolute words say where these axes are."""
+        self.known.update(axes)
+        self.at_machine_place.difference_update(axes)
+
+    def lose(self, axes: Collection[int]) -> None:
+        """These axes go where only the machine knows."""
+        self.known.difference_update(axes)
+        self.at_machine_place.update(axes)
 
     def chosen_side(self, block: Block, words: Words) -> None:
         """Take up the block's R0, RL or RR."""
@@ -224,8 +233,8 @@ class State:
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
             text = (
-                "Where the tool stands is not known here; cutcomp takes its last known place, at the beginning 0. "
-                "Write an L block with both axes before."
+                "Where the tool stands is not known here; cutcomp takes its last known place, or 0 at the beginning of "
+                "the program. Write an L block with both axes before."
             )
             self.tell(Severity.WARNING, "POSITION", text, block)
 

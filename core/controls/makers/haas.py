@@ -36,6 +36,7 @@ DIALECT: Final[Dialect] = replace(
     homes_all=True,
     m97_calls=True,
     program_names=False,
+    g54_takes_p=False,
     without_point="with setting 162 off",
     diameters_apart=True,
     macro_codes="parameters 91 to 100",

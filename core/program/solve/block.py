@@ -98,7 +98,7 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
 
 def _with_faults(item: Draft, faults: tuple[Finding, ...]) -> Draft:
     """A draft with what is wrong with how its segment names others."""
-    return replace(item, shape=replace(item.shape, findings=(*faults, *item.shape.findings))) if faults else item
+    return replace(item, result=replace(item.result, findings=(*faults, *item.result.findings))) if faults else item
 
 
 def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
@@ -116,14 +116,14 @@ def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
         for index in corners
         if (name := TABLES[form_of(block.segments[index])][0].name) in (known := drafts[index].reading.known)
     }
-    shapes = [draft.shape for draft in drafts]
-    lengthless = {index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None}
-    return put_corners_in(block.segments, [shape.piece for shape in shapes], sizes, lengthless.difference(corners))
+    results = [draft.result for draft in drafts]
+    lengthless = {index for index, result in enumerate(results) if result.piece is None and result.end is not None}
+    return put_corners_in(block.segments, [result.piece for result in results], sizes, lengthless.difference(corners))
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
     """That arcs were fitted to their numbers: once, by index of the segment whose numbers differ most."""
-    adjusted = {index: finding for index, item in enumerate(drafts) if (finding := item.shape.adjustment) is not None}
+    adjusted = {index: finding for index, item in enumerate(drafts) if (finding := item.result.adjustment) is not None}
     if not adjusted:
         return {}
     worst = max(adjusted, key=lambda index: adjusted[index].value or 0.0)
@@ -134,21 +134,21 @@ def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
 
 
 def _segment(index: int, draft: Draft, corners: Corners, adjusted: Finding | None) -> SolvedSegment:
-    shape, before, after = draft.shape, draft.before, draft.after
-    findings = [finding for finding in (*shape.findings, corners.faults.get(index), adjusted) if finding is not None]
+    result, before, after = draft.result, draft.before, draft.after
+    findings = [finding for finding in (*result.findings, corners.faults.get(index), adjusted) if finding is not None]
     return SolvedSegment(
         number=index + 1,
         values=draft.reading.values,
         piece=corners.pieces[index],
-        missing=shape.missing,
-        choices=shape.choices,
+        missing=result.missing,
+        choices=result.choices,
         start=before.point,
-        end=None if index in corners.waiting else shape.end,
-        sketch=shape.sketch,
+        end=None if index in corners.waiting else result.end,
+        sketch=result.sketch,
         z_start=before.z or 0.0,
         z_end=after.z or 0.0,
         feed=after.feed,
-        sharp=shape.piece,
+        sharp=result.piece,
         findings=(*draft.reading.findings, *(replace(finding, segment=index + 1) for finding in findings)),
     )
 

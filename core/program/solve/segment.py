@@ -54,7 +54,7 @@ class Draft:
     """A segment solved by itself, before blending, with what it takes over and what it hands on."""
 
     reading: Reading
-    shape: SegmentResult
+    result: SegmentResult
     before: Carried
     after: Carried
 
@@ -68,17 +68,17 @@ def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float
 def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Draft:
     """A segment that begins where the one before it ends, solved from its own fields."""
     _keep_coordinate(segment, reading, before, unit)
-    return drafted(segment, reading, before, _shape(segment, reading, before, unit), unit)
+    return drafted(segment, reading, before, _result(segment, reading, before, unit), unit)
 
 
-def drafted(segment: Segment, reading: Reading, before: Carried, shape: SegmentResult, unit: Unit) -> Draft:
-    """A segment of a known shape, which takes over Z and feed where its own are blank, and what it hands on."""
+def drafted(segment: Segment, reading: Reading, before: Carried, result: SegmentResult, unit: Unit) -> Draft:
+    """A segment with its result, which takes over Z and feed where its own are blank, and what it hands on."""
     known = reading.known
     origin = Origin.CALCULATED if "feed" in known else before.feed_origin
     z, feed = known.get("z_end", before.z), known.get("feed", before.feed)
     reading.fill("feed", None if feed is None else from_mm(feed, unit), origin)
     if isinstance(segment, CornerSegment):
-        return Draft(reading, shape, before, Carried(shape.end, before.typed, z, feed, before.heading, origin))
+        return Draft(reading, result, before, Carried(result.end, before.typed, z, feed, before.heading, origin))
     reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
@@ -87,8 +87,8 @@ def drafted(segment: Segment, reading: Reading, before: Carried, shape: SegmentR
     if kept is not None:
         # the same number as typed before it
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
-    heading = None if shape.piece is None else heading_at(shape.piece, shape.piece.end)
-    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed, heading, origin))
+    heading = None if result.piece is None else heading_at(result.piece, result.piece.end)
+    return Draft(reading, result, before, Carried(result.end or typed_end, typed, z, feed, heading, origin))
 
 
 def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
@@ -119,7 +119,7 @@ def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: 
         reading.fill(_ENDS[axis], from_mm(before.point[axis], unit), Origin.SAME)
 
 
-def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> SegmentResult:
+def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> SegmentResult:
     match segment:
         case BlendSegment() | ChamferSegment():
             return _corner(segment, reading, before.point)

@@ -68,10 +68,10 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
     segment = contour.segments[index]
     if own.before.point is None or isinstance(segment, CornerSegment):
         return None
-    chosen_by_next = len(own.shape.choices) > 1 and _tied(contour, _next(contour, index))
+    chosen_by_next = len(own.result.choices) > 1 and _tied(contour, _next(contour, index))
     tied = _relational(contour, index)
-    undetermined = own.shape.end is None and not own.shape.choices
-    contradicted = undetermined and any(finding.code != "MISSING" for finding in own.shape.findings)
+    undetermined = own.result.end is None and not own.result.choices
+    contradicted = undetermined and any(finding.code != "MISSING" for finding in own.result.findings)
     if not (tied or chosen_by_next or undetermined) or (contradicted and not tied):
         return None
     if _tied(contour, index) and own.before.heading is None:
@@ -94,7 +94,7 @@ def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
 def _decides(attempt: _Attempt, own: Draft) -> bool:
     """Whether a longer stretch leaves fewer solutions of its first segment than that has by itself."""
     left = {_rounded(answer.pieces[:1]) for answer in attempt.search.answers}
-    return 0 < len(left) < len(own.shape.choices)
+    return 0 < len(left) < len(own.result.choices)
 
 
 # which segments
@@ -272,7 +272,7 @@ def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel 
     at = int(target) - 1
     if at in indices:
         return indices.index(at)
-    piece = contour.drafts[at].shape.piece if at < len(contour.drafts) else None
+    piece = contour.drafts[at].result.piece if at < len(contour.drafts) else None
     return line_through(piece.start, heading(piece)) if isinstance(piece, Line) else None
 
 
@@ -431,14 +431,14 @@ def _waiting(contour: Contour, attempt: _Attempt, own: Draft, finding: Finding) 
         if isinstance(segment, CornerSegment):
             drafts.append(draft(segment, reading, before, contour.unit))
         else:
-            shape = SegmentResult(sketch=sketches[index])
+            result = SegmentResult(sketch=sketches[index])
             if finding.segment == index + 1:
                 faulty = finding.code in ("MISSING", "NOT_YET") and bool(reading.findings)
                 missing = (finding.field,) if finding.code == "MISSING" and finding.field else ()
-                shape = replace(shape, missing=missing, findings=() if faulty else (finding,))
+                result = replace(result, missing=missing, findings=() if faulty else (finding,))
             if index == attempt.indices[0] and finding.code == "MISSING":
-                shape = replace(shape, missing=own.shape.missing or shape.missing)
-            drafts.append(drafted(segment, reading, before, shape, contour.unit))
+                result = replace(result, missing=own.result.missing or result.missing)
+            drafts.append(drafted(segment, reading, before, result, contour.unit))
         before = drafts[-1].after
         if not isinstance(segment, CornerSegment) and attempt.indices[-1] != index:
             before = replace(before, point=_known_joint(attempt, index) or before.point)

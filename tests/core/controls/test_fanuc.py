@@ -909,12 +909,27 @@ def test_calls_that_count_as_blocks_without_movement_are_named() -> None:
 
 def test_g54_with_p_is_g54_1_and_g30_has_a_p() -> None:
     program = "G21 G17 G90 G40\nG10 L20 P3 X100. Y0. Z0.\nG54 P3\nG0 X1.\nM30\n"
+    written = ran(program)
+    assert flat(written) == flat(ran(program.replace("G54 P3", "G54.1 P3")))
+    assert not {"UNUSED", "OFFSET"} & {finding.code for finding in written.findings}
+    # no manual of Haas has it
+    assert "UNUSED" in {finding.code for finding in ran(program, "haas:a").findings}
     for control in ("fanuc:a", "haas:a"):
-        written = ran(program, control)
-        assert flat(written) == flat(ran(program.replace("G54 P3", "G54.1 P3"), control))
-        assert not {"UNUSED", "OFFSET"} & {finding.code for finding in written.findings}
         home = ran("G21 G90\nG91 G30 P2 Z0.\nM30\n", control)
         assert "UNUSED" not in {finding.code for finding in home.findings}
+
+
+@pytest.mark.parametrize(
+    "block",
+    ["G54 G4 P500", "G54 G10 L2 P1 X5.", "G54 G82 X5. Y5. Z-5. R1. P500 F100.", "G54 M98 P1", "G54 G30 P2 Z0."],
+)
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_p_of_another_code_is_no_work_offset(block: str, control: str) -> None:
+    program = f"O1000\nG21 G17 G90 G40\nG55\n{block}\nG90 G80 G0 X1. Y1.\nM30\nO1\nM99\n"
+    apart = program.replace("G54 ", "G54\n")
+    done = ran(program, control)
+    assert done.stopped_at is None, done.findings
+    assert [move.end for move in flat(done)] == [move.end for move in flat(ran(apart, control))]
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from core.controls import registry
 from core.controls.compensation.element_queue import ARC_RUN_AT_STOP
 from core.controls.control_tools import read_table
 from core.controls.moves import Plane
+from core.finding import Severity
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
 from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROGRAMS
@@ -276,6 +277,7 @@ def test_a_stretch_knows_what_was_programmed() -> None:
         ("N80 0.", False),
         ("N-5 X1", False),
         ("N1 N5 X1", False),
+        ("#1=5 N10", False),
         ("X1\x0cY2", False),
         (f"({'a' * 250})", True),
         (f"({'a' * 252})", False),
@@ -292,3 +294,13 @@ def test_a_byte_order_mark_stops_the_interpreter(start: bytes) -> None:
     """As rs274 says, Bad character '\\357' used; controls of other makers are asked nothing here."""
     refused = registry.run(start + b"G21 G0 X1\nM2\n", "linuxcnc")
     assert (refused.stopped_at, [one.code for one in refused.findings]) == (1, ["WORD"])
+
+
+def test_a_latin_comment_is_as_long_as_its_bytes() -> None:
+    text = "(" + "\N{LATIN SMALL LETTER A WITH DIAERESIS}" * 200 + ")\nG21 G0 X1\nM2\n"
+    assert ran(text.encode("latin-1"), "linuxcnc").stopped_at is None
+
+
+def test_the_column_is_that_of_the_n_at_fault() -> None:
+    (told_of,) = [one for one in ran("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if one.severity is Severity.ERROR]
+    assert (told_of.line, told_of.column) == (2, 4)

@@ -116,3 +116,20 @@ def test_klartext_stands_elsewhere_behind_m91_too() -> None:
     assert not rapids(program.format("L Z-1 R0 FMAX M91\n"), "heidenhain")
     assert not rapids(program.format("L X+0 Y+0 R0 FMAX M91\n"), "heidenhain")
     assert len(rapids(program.format("L X+0 Y+0 R0 FMAX M91\nL X+20 Y+20 FMAX\n"), "heidenhain")) == 1
+
+
+@pytest.mark.parametrize(
+    ("behind", "count"),
+    [
+        ("L X+0 Y+0 R0 FMAX M91\nCC X+20 Y+20\nLP PR+5 PA+0 R0 FMAX\nL X+60 R0 FMAX\n", 1),
+        ("L X+0 Y+0 R0 FMAX M91\nCC X+20 Y+20\nLP IPR+5 PA+0 R0 FMAX\nL IX+60 R0 FMAX\n", 0),
+        ("L X+0 Y+0 R0 FMAX M91\nL IX+20 IY+20 R0 F100\nL IX+60 R0 FMAX\nL IX-60 R0 FMAX\n", 0),
+        ("L M140 MB MAX FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
+        ("L M140 MB50 FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
+        ("L M140 MB MAX FMAX\nL Z-5 R0 FMAX\nL X+60 Y+20 R0 FMAX\n", 1),
+    ],
+)
+def test_in_klartext_absolute_words_end_the_loss_of_a_place(behind: str, count: int) -> None:
+    head = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
+    program = f"{head}C X+30 Y+20 DR+\nL X+20 R0\n{behind}L Z+50 FMAX\nEND PGM A MM\n"
+    assert len(rapids(program, "heidenhain")) == count
