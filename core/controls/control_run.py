@@ -81,8 +81,8 @@ class ControlRun:
     """A program on a control.
 
     `unit` is the program's; everything else is millimeters.  `stopped_at` is the line at which the control would
-    stop with an alarm, None when it runs to the end; `moves` are those made up to there.  `unplaced` are the rows that
-    start or end where only the machine knows.  `variables` are the common ones of macros as the program leaves them.
+    stop with an alarm, None when it runs to the end; `moves` are those made up to there.  `unplaced` are the rows whose
+    height only the machine knows.  `variables` are the common ones of macros as the program leaves them.
     """
 
     control: str

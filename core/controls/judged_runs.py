@@ -48,8 +48,8 @@ JUDGED: Final = 0.8
 MAX_LINES: Final = 6
 """Lines that a finding of several places names."""
 
-LIMIT_RULE: Final = "LIMIT"
-"""The rule by which a run ends that repeats too much to be followed."""
+LIMIT_RULES: Final = frozenset({"LIMIT", "FN-ENDLESS"})
+"""The rules by which a run ends that repeats too much to be followed."""
 
 CAM_ROUNDING: Final = 0.0127 + ROUNDING
 """Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
@@ -144,7 +144,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
     would be judged against one another.
     """
-    if any(finding.code == LIMIT_RULE for finding in run.findings):
+    if any(finding.code in LIMIT_RULES for finding in run.findings):
         return ()
     least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
     judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)

@@ -145,8 +145,8 @@ _POINT: Final = Struct("3d")
 class Tape:
     """Moves being recorded, a row of `WIDTH` doubles each.
 
-    While `lost` is set an axis stands at a place of the machine: where the moves that are recorded then run is not
-    known, and their rows are kept in `unplaced`.
+    While `lost` is set the tool axis stands at a place of the machine: how high the moves that are recorded then run is
+    not known, and their rows are kept in `unplaced`.
     """
 
     __slots__ = ("_packed", "lost", "unplaced")

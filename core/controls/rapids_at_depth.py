@@ -33,12 +33,15 @@ class CutContour:
 
 
 def highest_cut(stretch: Stretch) -> float:
-    """The highest place at which a stretch in XY cuts its contour; -inf without a feed move.
+    """The highest place at which a stretch in XY cuts its contour; -inf where nothing cuts.
 
     A helix or a ramp may begin in the air: it counts from zero, where the top of a part usually is, or its low end.
+    Where all of it is rapid, what runs below zero cuts: a G1 was forgotten.
     """
-    programmed = stretch.programmed
-    rows = np.flatnonzero(surface_rows(stretch) & ~programmed.rapid)
+    programmed, surface = stretch.programmed, surface_rows(stretch)
+    below = np.maximum(programmed.points[:, 2], np.roll(programmed.points[:, 2], 1)) < -ON_PATH
+    feeds = surface & ~programmed.rapid
+    rows = np.flatnonzero(feeds if feeds.any() else surface & below)
     ends = programmed.points[[rows, rows - 1], 2]
     high, low = ends.max(axis=0), ends.min(axis=0)
     return float(np.where(high == low, high, np.minimum(high, np.maximum(low, 0.0))).max(initial=-np.inf))
@@ -108,7 +111,7 @@ def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
 def _low_rapids(run: ControlRun, top: float) -> Rows:
     """The rows of rapids in the plane outside the stretches that are no higher than this.
 
-    Where the tool is before the program moves it up or down is not known, nor where it is at a point of the machine.
+    How high the tool is before the program moves it up or down is not known, nor at a point of the machine.
     """
     moves, heights = run.moves, run.moves.points[:, 2]
     low = (heights <= top + ON_PATH) & np.logical_or.accumulate(heights != heights[0])

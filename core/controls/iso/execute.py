@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Final
 
@@ -26,6 +27,8 @@ LINES_BETWEEN: Final = 200
 def no_library(_: int | str) -> None:
     """A library without programs."""
 
+
+_CR_ALONE: Final = re.compile(rb"\r(?!\n)")
 
 NO_LIBRARY: Final[ProgramLibrary] = no_library
 
@@ -54,6 +57,9 @@ def execute(
         if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):
             said = "The file begins with a byte order mark, which this control does not read. Save it as plain ASCII."
             log.stop("WORD", said, 1, 1)
+        if dialect.syntax.strict and (alone := _CR_ALONE.search(text)):
+            said = "This line ends with CR alone, which this control does not take for its end. Save the file with LF."
+            log.stop("WORD", said, text.count(b"\n", 0, alone.start()) + 1, 1)
         _run(flow, machine, progress)
     except AlarmError as alarm:
         log.add(alarm.finding)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from enum import Enum, auto
 from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isfinite, radians, sin, sqrt, tan
 from math import log as natural_log
@@ -398,6 +399,8 @@ class ExpressionReader:
         return f" before {rest}" if rest else " at the end"
 
 
+_POINT_ENDS: Final = re.compile(r"[0-9]+\.(?![0-9])")
+
 GAP: Final = "\x01"
 """Marks where a comment was: it may separate words, not digits."""
 
@@ -455,11 +458,14 @@ def _item(
         settings.append(_setting(reader))
     elif sign == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
+    elif sign == "N" and reader.values.kept is ParameterStore.NGC and _POINT_ENDS.match(text, begin + 1):
+        raise FaultError("WORD", "The number of a block has no point at its end.", begin)
     elif sign == "N" and (words or settings) and reader.values.kept is ParameterStore.NGC:
         raise FaultError("WORD", "N stands first in a line.", begin)
     elif "A" <= sign <= "Z":
         reader.at += 1
-        words.append(f"{sign}{plain(reader.value())}")
+        value = reader.value()
+        words.append(f"{sign}{exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)}")
         columns.append(line.columns[begin] + 1)
     else:
         raise FaultError("WORD", not_a_word(text[begin:]), begin)
@@ -486,6 +492,11 @@ def tell_unset(reader: ExpressionReader, line: CompactText, number: int, log: Lo
     for index, at in reader.unset:
         text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."
         log.tell(Severity.WARNING, "PARAMETER", text, number, line.column(at))
+
+
+def exact(value: float) -> str:
+    """A value to its last digit, without exponent: LinuxCNC makes a move even of what rounding leaves."""
+    return f"{Decimal(repr(value)):f}"
 
 
 def plain(value: float) -> str:

@@ -25,7 +25,7 @@ from core.controls.iso.expressions import (
     tell_unset,
 )
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.reader import Block, has_words, is_plain, read_line, whole, without_comments
+from core.controls.iso.reader import Block, check_length, has_words, is_plain, read_line, whole, without_comments
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
@@ -43,6 +43,7 @@ MAX_O_WORDS: Final = 15_000
 """O-words that may run before the run is given up."""
 
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
+_PROGRAM_ALONE: Final = re.compile(r"[ \t]*O[ \t]*0*([0-9]+)[ \t]*(?:\(.*)?$", re.IGNORECASE)
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
@@ -433,6 +434,8 @@ class Flow:
 
     def blocks(self, line: int) -> Iterable[Block]:
         """The blocks of a line, none of an O-word, which is followed."""
+        if self.dialect.syntax.strict:
+            check_length(self.lines[line - 1], line, self.log)
         word = self.o_words.words.get(line - 1) if self.o_words is not None else None
         if self.o_words is None or word is None:
             return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
@@ -532,8 +535,13 @@ class Flow:
             return
         # a subprogram that a condition leaves out is no matter
         closed = any(self.lines[row].strip() == "%" for row in range(last, behind))
-        if closed or not self.lines[behind].lstrip().upper().startswith("O"):
+        if closed or not self.lines[behind].lstrip().upper().startswith("O") or self._is_uncalled(behind):
             self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind + 1, 1)
+
+    def _is_uncalled(self, row: int) -> bool:
+        """Whether a program begins with a row, its O and number alone, that no line names in a P."""
+        named = _PROGRAM_ALONE.match(self.lines[row])
+        return named is not None and not any(re.search(rf"P[ \t]*0*{named[1]}\b", line, re.I) for line in self.lines)
 
     def end_of_file(self) -> None:
         """End of file: reports what is still open."""

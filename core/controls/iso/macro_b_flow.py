@@ -121,7 +121,7 @@ class MacroFlow(Flow):
         self.rows_without_progress = 0
         self.least_differences: dict[tuple[int, int], float] = {}
         self.tape_length = 0
-        kept, self.unread_line = _between_percents(lines)
+        kept, self.line_before, self.unread_line = _between_percents(lines)
         self._append(kept, 1)
         self.calls[0].back = len(self.lines)
         self.called_programs, self.calls_by_variable = self._called_by_others()
@@ -187,6 +187,9 @@ class MacroFlow(Flow):
             which = "a call with a variable may mean" if self.calls_by_variable else "nothing in this file calls"
             text = f"Programs that {which} were not run: {names}{more}. Check each by itself."
             self.log.tell(Severity.WARNING, "NOT_RUN", text, self.numbers[idle[0]], 1)
+        if self.line_before is not None:
+            text = "The lines from here to the % stand before the program and were not run. Check them."
+            self.log.tell(Severity.WARNING, "NOT_RUN", text, self.line_before, 1)
         behind = self._line_behind_end() or self.unread_line
         if behind is not None:
             self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind, 1)
@@ -634,7 +637,7 @@ class MacroFlow(Flow):
             text = f"There is no program O{number} in this file or its folder. Add it."
             self.log.stop("PS0076", text, block.line, block.column("P"))
         name, content = program
-        lines, _ = _between_percents(lines_of(content))
+        lines, _, _ = _between_percents(lines_of(content))
         begin = self._first_row(self._append(lines, self.add_called(name, len(lines), self.numbers[row])))
         if begin not in self.begins:
             self.begins.append(begin)
@@ -711,21 +714,22 @@ def arguments_of(block: Block) -> dict[int, float]:
     return arguments
 
 
-def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None]:
-    """The lines between the signs %, those outside emptied, and the number of the first line with words behind them.
+def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None, int | None]:
+    """The lines between the signs %, those outside emptied, and the first lines with words before and behind them.
 
     Where there is one % only, they go up to it or from it on.
     """
     signs = [index for index, line in enumerate(lines) if line.lstrip(_LEADER).startswith("%")]
     if not signs:
-        return list(lines), None
+        return list(lines), None, None
     first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
     if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
         first, last = -1, signs[0]
     kept = [line if first < index < last else "" for index, line in enumerate(lines)]
     if first >= 0 and _PROGRAM.match(head := lines[first].lstrip(_LEADER)[1:]):
         kept[first] = head
-    return kept, next((index + 1 for index in range(last + 1, len(lines)) if has_words(lines[index])), None)
+    before = next((index + 1 for index in range(first) if has_words(lines[index])), None)
+    return kept, before, next((index + 1 for index in range(last + 1, len(lines)) if has_words(lines[index])), None)
 
 
 def _is_remark(text: str) -> bool:

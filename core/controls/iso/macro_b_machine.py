@@ -42,6 +42,7 @@ _LINE: Final = 10
 _ARCS: Final = frozenset({20, 30})
 
 _CLOCKS: Final = (3001, 3002, 3011, 3012)
+_POSITIONS: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
 _GROUPS: Final[Mapping[int, str]] = MappingProxyType(
     {
@@ -163,14 +164,14 @@ class MacroMachine(Machine):
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
         self.line = 1
-        self.start_unknown = False
+        self.start_unknown = self.start_height_unknown = False
         self.other_axes: set[str] = set()
         self.following: Block | None = None
         self.corner_point: Point3 | None = None
 
     def step(self, block: Block) -> None:
         """Runs one block; variables of the block before change only behind it."""
-        self.current, self.line, self.start_unknown = block, block.line, False
+        self.current, self.line, self.start_unknown, self.start_height_unknown = block, block.line, False, False
         super().step(block)
         for letter in _LAST_WORDS.values():
             if letter in block.words:
@@ -204,6 +205,7 @@ class MacroMachine(Machine):
                     self.log.stop("FN-WHERE", text, self.current.line, self.current.column(letter))
                 self.unknown.discard(axis)
                 self.start_unknown = True
+                self.start_height_unknown |= axis == 2
         if self.polar is not None:
             return self.transform.applied(self._polar_target(words))
         if not self.transform:
@@ -259,7 +261,7 @@ class MacroMachine(Machine):
 
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
         following, self.following = self.following, None
-        self._note_lost_axes()
+        self._note_lost_height()
         if block.corner is None or block is not self.current:
             super()._straight(block, end, rapid=rapid)
             return
@@ -269,13 +271,14 @@ class MacroMachine(Machine):
             self._stop_without_two_lines(block)
         incremental = self.incremental
         self.incremental = 910 in following.g or (incremental and 900 not in following.g)
+        polar = self.polar
         beyond = self._target_from(end, following.words)
-        self.incremental = incremental
+        self.incremental, self.polar = incremental, polar
         self._cut_corner(block, end, beyond)
 
-    def _note_lost_axes(self) -> None:
-        """Have the move that comes kept as one that starts or ends at a place of the machine, if it does."""
-        self.control.tape.lost = bool(self.unknown) or self.start_unknown
+    def _note_lost_height(self) -> None:
+        """Have the move that comes kept as one whose height is that of a place of the machine, if it is."""
+        self.control.tape.lost = 2 in self.unknown or self.start_height_unknown
 
     def _goes_on_straight(self, block: Block) -> bool:
         letters = {"XYZ"[axis] for axis in self.plane.axes[:2]}
@@ -314,7 +317,7 @@ class MacroMachine(Machine):
                 "Where the arc starts is not known after the move to the machine's point. Write a straight move first."
             )
             self.log.stop("FN-WHERE", text, block.line, block.column("G"))
-        self._note_lost_axes()
+        self._note_lost_height()
         words = dict(block.words)
         if "R" in words:
             for letter in "IJK":
@@ -332,7 +335,9 @@ class MacroMachine(Machine):
         super()._arc(replace(block, words=words), turn)
 
     def _ends_where_it_starts(self, words: Mapping[str, float]) -> bool:
+        polar = self.polar
         (ax, ay, _), (bx, by, _) = flat(self.position, self.plane), flat(self.target(words), self.plane)
+        self.polar = polar
         return hypot(bx - ax, by - ay) < 1e-9
 
     def _transform_center(self, words: dict[str, float]) -> None:
@@ -575,14 +580,21 @@ class MacroMachine(Machine):
             return 0.0
         if key in _NO_EFFECT or 3000 <= key <= 3999:
             return 0.0
-        if 5001 <= key <= 5003:
-            return self._in_work(self.transform.undone(self.position), key - 5001)
-        if 5041 <= key <= 5043:
-            return self._in_work(self.control.tape.last, key - 5041)
+        if key in _POSITIONS:
+            return self._position_variable(key)
         if 5021 <= key <= 5023 or 5061 <= key <= 5083:
             self._tell_unknown_value(key)
             return VACANT
         return self._origin_variable(key)
+
+    def _position_variable(self, key: int) -> float | str:
+        """#5001 to #5003: where the program stands; #5041 to #5043: where the tool's center does."""
+        axis, of_center = (key - 1) % 10, key >= 5041
+        if axis in self.unknown:
+            return f"Where {'XYZ'[axis]} stands after the move to the machine's point is not known. Move it first."
+        if of_center and self.control.active:
+            return "The next move decides where the center stands under compensation. Read #5001 to #5003 instead."
+        return self._in_work(self.control.tape.last if of_center else self.transform.undone(self.position), axis)
 
     def _tell_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."

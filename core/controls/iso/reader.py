@@ -13,7 +13,7 @@ from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.code_support import EXPRESSIONS, JUMPS, only_on
-from core.controls.iso.expressions import GAP, CompactText, MacroParameters, evaluated_line
+from core.controls.iso.expressions import GAP, CompactText, MacroParameters, evaluated_line, not_a_word
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -159,8 +159,10 @@ def read_line(
     With `values` parameters and expressions are evaluated and set.
     """
     upper = capitals(text)
+    if GAP in text:
+        log.stop("WORD", not_a_word(GAP), line, text.index(GAP) + 1)
     if syntax.strict:
-        _check_strictly(text, upper, line, log)
+        _check_strictly(upper, line, log)
     if _CLEAN.fullmatch(upper):
         return [fill_words(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon_ends and ";" in upper:
@@ -168,11 +170,15 @@ def read_line(
     return _closer(Block(line, text), without_comments(upper), log, syntax, values)
 
 
-def _check_strictly(text: str, upper: str, line: int, log: Log) -> None:
-    """Stops the run at a line that is too long, or whose N does not stand first with a plain number."""
+def check_length(text: str, line: int, log: Log) -> None:
+    """Stops the run at a line that is too long for a strict control."""
     if len(text) > LONGEST_STRICT:
         said = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
         log.stop("WORD", said, line, LONGEST_STRICT + 1)
+
+
+def _check_strictly(upper: str, line: int, log: Log) -> None:
+    """Stops the run at a line whose N does not stand first with a plain number."""
     bare = without_comments(upper)
     words = bare.removeprefix("/").replace(" ", "").replace("\t", "")
     if "N" not in words or not _CLEAN.fullmatch(words):
@@ -258,7 +264,7 @@ def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN_SYNTAX
                 log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", block.line, column)
             (block.g if letter == "G" else block.m).append(code)
             continue
-        if letter in words:
+        if letter in words and not (letter in "IJK" and syntax.last_counts and not {650, 660, 661}.isdisjoint(block.g)):
             _tell_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
         if not -LARGEST < value < LARGEST:

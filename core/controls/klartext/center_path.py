@@ -75,7 +75,7 @@ class ProgrammedStep(NamedTuple):
     `element` starts at the programmed point before it.  Approaches and departures have a `lead`; their `hand` is the
     side of the word RL (+1), RR (-1) or R0 (0), turned over by a negative radius; `before` is rapid and feed of the
     block before.  A departure's element is straight, `leaving` in the contour's last direction.  `corner` are the rules
-    at its end, `ahead` is the LA of M120, 0 without.  `lost`: it starts or ends where only the machine knows.
+    at its end, `ahead` is the LA of M120, 0 without.  `lost`: its height only the machine knows.
     """
 
     role: Role

@@ -50,7 +50,8 @@ class State:
     just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the share of the
     tool's radius that is run with.  `pole` is in coordinates of `pole_plane`, the plane of the axes that CC names.
     `cycle` is the number of the one that a call runs, `cycle_due` whether M99 calls it after the block.
-    `at_machine_place` are the axes that M91 has sent where only the machine knows; `lost`: the block starts there.
+    `at_machine_place` are the axes that M91 has sent where only the machine knows; `lost`: the height at
+    which the block starts is one of these.
     """
 
     log: Log
@@ -167,7 +168,7 @@ class State:
 
     def target(self, block: Block, words: Words) -> list[float]:
         """The position the block's axis words lead to."""
-        position, self.lost = self.position.copy(), bool(self.at_machine_place)
+        position, self.lost = self.position.copy(), self.plane.axes[2] in self.at_machine_place
         for name in words:
             if name in AXES:
                 axis, relative = AXES[name]

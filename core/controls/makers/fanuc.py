@@ -121,7 +121,8 @@ class Fanuc(VectorQueue, Control):
     `side` is that of G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.  `exiting`:
     this block turns compensation off, with a vector where it has I, J or K.  `in_plane`: the block moved in the plane,
     or is not to be counted as one without movement; `too_many`: it counts as too many of those.  `calls_counted`: a
-    call or a return is among the blocks that are.
+    call or a return is among the blocks that are.  `away`: a new origin or a move to the machine's point has turned
+    compensation off for a while.
     """
 
     alarms = ALARMS
@@ -139,6 +140,7 @@ class Fanuc(VectorQueue, Control):
         self.too_many = False
         self.warned_of_zero = False
         self.calls_counted = False
+        self.away = False
 
     def watch(self, block: Block) -> None:
         """What a block says besides its motion; the block before it is counted first."""
@@ -396,15 +398,15 @@ class Fanuc(VectorQueue, Control):
             self.leave_straight()
         self.stop_compensation()
         self.close_stretch()
-        self.direct = True
+        self.away = True
 
     def close(self) -> None:
         """The program ends; under compensation its last move ends square."""
-        if not self.active:
-            return
         line = self.block.line if self.block else 1
-        self.end_square()
-        self.left_open(line)
+        if self.active:
+            self.end_square()
+        if self.active or (self.away and self.side is not None):
+            self.left_open(line)
 
     def left_open(self, line: int) -> None:
         """The program ends under compensation."""

@@ -945,3 +945,57 @@ def test_an_inside_arc_of_the_tools_own_radius_is_an_alarm_of_haas_only(control:
     assert [finding.code for finding in done.findings if finding.severity is Severity.ERROR] == (
         [alarm] if alarm else []
     )
+
+
+@pytest.mark.parametrize(
+    ("moves", "ends"),
+    [
+        ("G91 G1 Y45.\n", [(35.355339, 35.355339)]),
+        ("G91 G3 Y45. R50.\n", [(35.355339, 35.355339)]),
+        ("G91 G1 Y45. ,R2.\nY45.\n", [(0.0, 50.0)]),
+    ],
+)
+def test_a_polar_angle_counts_once(moves: str, ends: list[tuple[float, float]]) -> None:
+    """By hand: 50 at 45 degrees, and at 90."""
+    done = ran(f"G21 G90 G17\nG0 X0. Y0.\nG16\nG1 X50. Y0. F100.\n{moves}G90 G15\nM30\n")
+    assert done.stopped_at is None, done.findings
+    assert [move.end[:2] for move in flat(done)][-1] == pytest.approx(ends[-1], abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("before", "key"),
+    [
+        ("G91 G28 X0. Y0.\nG90\n", 5001),
+        ("G91 G28 X0. Y0.\nG90\n", 5042),
+        ("G53 G0 Z0.\n", 5003),
+        ("G41 D1 G1 X20. F100.\nX40.\n", 5041),
+    ],
+)
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+def test_a_place_that_is_not_known_cannot_be_read(before: str, key: int, control: str) -> None:
+    done = ran(f"G21 G90 G17\nG0 X10. Y20. Z5.\n{before}#101=#{key}\nG40 G1 X[#101+1.] Y1. F100.\nM30\n", control)
+    assert done.stopped_at == 3 + before.count("\n")
+    assert [one.code for one in done.findings if one.severity is Severity.ERROR] == ["PS0115"]
+    known = ran(f"G21 G90 G17\nG0 X10. Y20. Z5.\n#101=#{key}\nG1 X[#101+1.] Y1. F100.\nM30\n", control)
+    assert known.stopped_at is None
+
+
+@pytest.mark.parametrize("end", ["", "G28 X0. Y0.\n", "G53 X0. Y0.\n", "G91 G28 Z0.\n"])
+def test_compensation_that_is_left_on_is_told_behind_a_move_to_the_machines_point(end: str) -> None:
+    program = f"{ENTERED}{end}M30\n"
+    assert "FN-OPEN" in {one.code for one in ran(program).findings}
+    alarmed = ran(program, "haas:a")
+    assert [one.code for one in alarmed.findings if one.severity is Severity.ERROR] == ["H349"]
+    assert "FN-OPEN" not in {one.code for one in ran(f"{ENTERED}G40 G0 Y-20\n{end}M30\n").findings}
+
+
+def test_what_stands_before_the_first_percent_sign_is_named() -> None:
+    done = ran("O1\nG21 G90 G17\nG0 X50.\nM30\n%\nO2\nG21 G90\nG0 X2.\nM30\n%\n")
+    (left,) = [one for one in done.findings if one.code == "NOT_RUN"]
+    assert (left.line, "before the program" in left.text) == (1, True)
+
+
+def test_arguments_of_one_letter_are_no_mistake() -> None:
+    done = ran("G65 P9 I1. J2. I3. J4.\nM30\nO9\nG0 X#4 Y#7\nM99\n")
+    assert "TWICE" not in {one.code for one in done.findings}
+    assert flat(done)[-1].end[:2] == (1.0, 3.0)

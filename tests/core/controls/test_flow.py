@@ -62,3 +62,13 @@ def test_any_file_gives_a_run(control: str, text: bytes) -> None:
     done = ran(text, control)
     assert len(done.moves) >= 1
     assert all(finding.text.isprintable() for finding in done.findings)
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "nine-series:a", "rosettacnc:normal"])
+def test_a_main_program_behind_a_subprogram_is_named(control: str) -> None:
+    """The first program of the file ends with M99, and what comes behind is run by nobody."""
+    begin, behind = "O9000\nG21 G91 G1 Z-5. F100.\nG90\nM99\n", "O1\nG21 G90\nG0 X1.\nM30\n"
+    assert "NOT_RUN" in {one.code for one in ran(begin + behind, control).findings}
+    # a subprogram that a condition leaves out is no matter
+    main = "G21 G90 G40\n/M98 P1\nG0 X1.\nM30\n"
+    assert "NOT_RUN" not in {one.code for one in ran(main + "O1\nG0 X2.\nM99\n", control).findings}

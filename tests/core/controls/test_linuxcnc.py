@@ -278,6 +278,10 @@ def test_a_stretch_knows_what_was_programmed() -> None:
         ("N-5 X1", False),
         ("N1 N5 X1", False),
         ("#1=5 N10", False),
+        ("N10. X[1+1]", False),
+        ("N10. #1=2", False),
+        ("X1\x01", False),
+        (f"o1 if [1 EQ 1] ({'x' * 240})\nX1\no1 endif", False),
         ("X1\x0cY2", False),
         (f"({'a' * 250})", True),
         (f"({'a' * 252})", False),
@@ -304,3 +308,15 @@ def test_a_latin_comment_is_as_long_as_its_bytes() -> None:
 def test_the_column_is_that_of_the_n_at_fault() -> None:
     (told_of,) = [one for one in ran("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if one.severity is Severity.ERROR]
     assert (told_of.line, told_of.column) == (2, 4)
+
+
+@needs_witness
+def test_a_move_of_what_rounding_leaves_is_a_move(tmp_path: Path) -> None:
+    """X0.3 and X[0.1+0.2] differ by 5.6e-17: LinuxCNC goes around that corner."""
+    text = "G20 G90 G17 F100\nT1 M6\nG0 X-30 Y-10\nG41 D1 G1 X0.3 Y-10\nY40\nX[0.1+0.2]\nX-40\nG40 Y0\nM2\n"
+    assert outcome(text, tmp_path, {1: 6.0}, Unit.IN) == ("same moves", "")
+
+
+def test_line_ends_of_cr_alone_are_refused() -> None:
+    assert ran(b"G21 G0 X1\rY2\nM2\n", "linuxcnc").stopped_at == 1
+    assert ran(b"G21 G0 X1\r\nY2\r\nM2\r\n", "linuxcnc").stopped_at is None

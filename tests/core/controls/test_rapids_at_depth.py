@@ -107,6 +107,21 @@ def test_behind_a_move_to_the_machines_point_nothing_is_at_the_old_depth(home: s
     ]
 
 
+@pytest.mark.parametrize("home", ["G91 G28 X0. Y0.\nG90\n", "G53 G0 X0. Y0.\n"])
+def test_a_rapid_that_ends_in_a_wall_is_told_wherever_it_begins(home: str) -> None:
+    """Only X and Y are at the machine's point: the tool is as deep as before, and its end is known."""
+    assert [one.line for one in rapids(f"{BORE}{home}G0 X28. Y20.\nZ5.\nM30\n")] == [9 + home.count("\n")]
+
+
+@pytest.mark.parametrize(("height", "lines"), [("-2.", [6, 7, 8, 9]), ("2.", [])])
+def test_a_contour_run_in_rapid_alone_is_told_where_it_is_below_zero(height: str, lines: list[int]) -> None:
+    """The G1 was forgotten, and nothing is cut at feed to compare with."""
+    program = (
+        f"G21 G17 G90 G40\nT1 M6\nG0 X-20. Y-20.\nZ{height}\nG41 D1 X0. F300.\nY40.\nX40.\nY0.\nX-20.\nG40 Y-20.\nM30\n"
+    )
+    assert [one.line for one in rapids(program)] == lines
+
+
 def test_klartext_stands_elsewhere_behind_m91_too() -> None:
     program = (
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
@@ -114,16 +129,13 @@ def test_klartext_stands_elsewhere_behind_m91_too() -> None:
     )
     assert len(rapids(program.format("L Z-6 R0 FMAX\n"), "heidenhain")) == 1
     assert not rapids(program.format("L Z-1 R0 FMAX M91\n"), "heidenhain")
-    assert not rapids(program.format("L X+0 Y+0 R0 FMAX M91\n"), "heidenhain")
-    assert len(rapids(program.format("L X+0 Y+0 R0 FMAX M91\nL X+20 Y+20 FMAX\n"), "heidenhain")) == 1
 
 
 @pytest.mark.parametrize(
     ("behind", "count"),
     [
-        ("L X+0 Y+0 R0 FMAX M91\nCC X+20 Y+20\nLP PR+5 PA+0 R0 FMAX\nL X+60 R0 FMAX\n", 1),
-        ("L X+0 Y+0 R0 FMAX M91\nCC X+20 Y+20\nLP IPR+5 PA+0 R0 FMAX\nL IX+60 R0 FMAX\n", 0),
-        ("L X+0 Y+0 R0 FMAX M91\nL IX+20 IY+20 R0 F100\nL IX+60 R0 FMAX\nL IX-60 R0 FMAX\n", 0),
+        ("L Z-1 R0 FMAX M91\nL Z-5 R0 FMAX\nL X+60 R0 FMAX\n", 1),
+        ("L Z-1 R0 FMAX M91\nL IZ-5 R0 F100\nL X+60 R0 FMAX\nL IX-60 R0 FMAX\n", 0),
         ("L M140 MB MAX FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
         ("L M140 MB50 FMAX\nL X+60 Y+20 R0 FMAX\n", 0),
         ("L M140 MB MAX FMAX\nL Z-5 R0 FMAX\nL X+60 Y+20 R0 FMAX\n", 1),
