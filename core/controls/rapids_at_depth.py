@@ -86,7 +86,9 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     for stretch, last in _feeds_behind(run):
         own = [contour for contour in contours if stretch.first <= contour.stretch.first < stretch.last]
         found += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own, rapid=False)
-    deepest = {int(cut.gouge.path_number): cut for cut in sorted(found, key=lambda cut: cut.gouge.depth)}
+    # a wall that is cut already is named before one that is still to be cut
+    ranked = sorted(found, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))
+    deepest = {int(cut.gouge.path_number): cut for cut in ranked}
     return tuple(deepest[line] for line in sorted(deepest))
 
 

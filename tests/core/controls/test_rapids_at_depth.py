@@ -145,3 +145,10 @@ def test_in_klartext_absolute_words_end_the_loss_of_a_place(behind: str, count: 
     head = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
     program = f"{head}C X+30 Y+20 DR+\nL X+20 R0\n{behind}L Z+50 FMAX\nEND PGM A MM\n"
     assert len(rapids(program, "heidenhain")) == count
+
+
+def test_the_wall_that_is_cut_already_is_named() -> None:
+    """The rapid runs out of the first hole into the place of the second one, which is cut later."""
+    second = "G41 D1 G1 X80.\nG3 I-10.\nG40 G1 X70.\nG0 Z5.\nM30\n"
+    (found,) = rapids(f"{BORE}G0 X70.\n{second}")
+    assert "contour of line 7 at X 30.000" in sentence(found, Unit.MM)
