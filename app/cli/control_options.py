@@ -59,7 +59,11 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
         table, findings = read_table(bytes_of(options.tools))
         if findings:
             raise Unusable(table_faults(printable_path(options.tools), findings))
-    return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
+    named = [_tool(text) for text in options.tool]
+    numbers = [tool.number for tool in named]
+    if twice := next((number for number in numbers if numbers.count(number) > 1), None):
+        raise Unusable(f"--tool: tool {twice} has two diameters. Keep one.")
+    return table.with_tools(ToolTable.of(*named))
 
 
 def _tool(text: str) -> CutterTool:

@@ -84,6 +84,12 @@ def test_what_is_no_diameter_of_a_tool_is_refused(typed: str, capsys: pytest.Cap
     assert "write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2." in told
 
 
+def test_two_diameters_of_one_tool_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    typed = ("--tool", "1=.5", "--tool", "2=.25", "--tool", "01=.4")
+    status, _, told = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", *typed)
+    assert (status, "tool 1 has two diameters" in told) == (2, True)
+
+
 def test_an_alarm_has_line_column_and_rule(capsys: pytest.CaptureFixture[str]) -> None:
     file = NC / "rosettacnc-square.ngc"
     status, out, _ = output(capsys, file, "--control", "rosettacnc", "--tool", "1=6", "--json")
