@@ -94,11 +94,23 @@ def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -
     if step.segment > len(block.segments):
         return f"{len(block.segments)} of {len(CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
     held = block.segments[step.segment - 1] if step.segment else None
+    wrong = _wrong(session, step)
     if place.segment != step.segment:
-        return _to_segment(session, step)
+        return wrong + _to_segment(session, step)
     if held is not None and not isinstance(held, LineSegment):
         return f"The plate has a LINE here, and this is {form_of(held)}. F1 deletes it (or Ctrl+K, then 1)."
-    return _on_field(step, names, at, stop)
+    return (wrong if at != step.name else "") + _on_field(step, names, at, stop)
+
+
+def _label(step: Step) -> str:
+    return field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+
+
+def _wrong(session: Session, step: Step) -> str:
+    """Says that a field holds another number than the plate has; empty where nothing is typed in it yet."""
+    block = session.program.blocks[0]
+    held = getattr(block.segments[step.segment - 1] if step.segment else block, step.name, None)
+    return f"{_label(step)} is {held.value:g}, and the plate has {step.text}. " if isinstance(held, Number) else ""
 
 
 def _to_segment(session: Session, step: Step) -> str:
@@ -109,7 +121,7 @@ def _to_segment(session: Session, step: Step) -> str:
 
 
 def _on_field(step: Step, names: Sequence[str], at: str, stop: str | None) -> str:
-    label = field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+    label = _label(step)
     if at != step.name:
         return f"{'Enter' if stop == step.name else _way(names, at, step.name)} goes to {label}."
     if step.name == "cutter_comp":
@@ -122,7 +134,7 @@ def _way(names: Sequence[str], at: str, there: str) -> str:
     here = names.index(at) if at in names else 0
     down = (names.index(there) - here) % len(names)
     key, count = ("Down", down) if down <= len(names) - down else ("Up", len(names) - down)
-    return key if count == 1 else f"{key} {count} times"
+    return key if count == 1 else f"{key}, {count} times,"
 
 
 def _finished(session: Session) -> str:

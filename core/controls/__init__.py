@@ -11,6 +11,8 @@ program.
 Where a maker's manual does not say, cutcomp makes a choice and says so in a finding, or it is listed here:
 
 * positions before the first motion are machine zero, and so are work offsets and reference points nobody set;
+* how high the tool stands at a point of the machine is not known: no rapid is compared with a contour until an absolute
+  word says it;
 * a corner arc, a generated block and a miter belong to the line of the element after the corner and have its feed;
 * the 9/Series makes generated blocks of any length, looks across 10 blocks without motion, and inside arcs has no
   least feed: the machine builder sets all three; its backwards moves are R8 for lines and R10 for arcs;
