@@ -245,7 +245,8 @@ class NcDocument:
     def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
         """What a file's lines have otherwise than the file as it was opened, and what these have otherwise than it."""
         theirs = NcText.read(data)
-        return nc_journal.differences(NcText.read(self.text.origin), theirs), nc_journal.differences(theirs, self.text)
+        opened = NcText.read(self.text.origin)
+        return nc_journal.differences(opened, theirs, "was"), nc_journal.differences(theirs, self.text, "theirs")
 
 
 def _text_of(journal: Journal) -> NcText:

@@ -138,8 +138,11 @@ def known_in_file(work: NcText, file: NcText) -> NcText:
     return work
 
 
-def differences(file: NcText, work: NcText) -> tuple[str, ...]:
-    """What the work has changed in the file, line by line in words; of very much only where it begins and ends."""
+def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple[str, ...]:
+    """What the work has changed in the file, line by line in words; of very much only where it begins and ends.
+
+    `other` says in a line's sentence where the other text of it stands.
+    """
     old, new = ([text.text(row) for row in range(len(text))] for text in (file, work))
     shorter = min(len(old), len(new))
     first = next((row for row in range(shorter) if old[row] != new[row]), shorter)
@@ -147,10 +150,10 @@ def differences(file: NcText, work: NcText) -> tuple[str, ...]:
     old, new = old[first : len(old) - after], new[first : len(new) - after]
     if max(len(old), len(new)) > MAX_COMPARED_LINES:
         return (f"Lines {first + 1} to {first + len(new)} differ from the file.",)
-    return tuple(_compared(old, new, first + 1))
+    return tuple(_compared(old, new, first + 1, other))
 
 
-def _compared(old: list[str], new: list[str], first: int) -> Iterator[str]:
+def _compared(old: list[str], new: list[str], first: int, other: str) -> Iterator[str]:
     for kind, a, b, c, d in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         if kind == "equal":
             continue
@@ -160,4 +163,4 @@ def _compared(old: list[str], new: list[str], first: int) -> Iterator[str]:
             elif c + row >= d:
                 yield f"Line {first + a + row} of the file is deleted: {printable(old[a + row])}"
             else:
-                yield f"Line {first + c + row}: {printable(new[c + row])} (in the file: {printable(old[a + row])})"
+                yield f"Line {first + c + row}: {printable(new[c + row])} ({other}: {printable(old[a + row])})"

@@ -35,7 +35,7 @@ HIGHEST: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
 """Cells of the chips' line on the narrowest screens."""
-SHORTEST_CHIP: Final = 20
+SHORTEST_CHIP: Final = 24
 """What stands before a colon is shown alone from this length on: a field's name says too little."""
 
 

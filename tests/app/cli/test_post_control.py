@@ -22,7 +22,7 @@ def test_refusals_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> Non
     assert main(["post", part, "--control", "linuxcnc"]) == 1
     streams = capsys.readouterr()
     assert streams.out == ""
-    assert "nothing was posted. Segment 8:" in streams.err
+    assert "nothing was posted. Block 1, segment 8:" in streams.err
     assert main(["post", part, "--control", "siemens"]) == 2
     assert "No such control" in capsys.readouterr().err
     assert main(["post", part, "--control", "linuxcnc", "--override", "POST WITH GOUGE"]) == 2
