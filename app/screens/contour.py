@@ -374,7 +374,10 @@ class ContourScreen(FormScreen):
             for panel in PANELS:
                 self.remove_class(f"-{panel}")
             if self.current is None:
+                # a digit that follows is typed into the field, and is no softkey
+                self.quiet()
                 self._focus_left_field()
+                return
         super().action_restore()
 
     @on(DataTable.RowHighlighted)

@@ -190,6 +190,10 @@ async def test_behind_a_list_the_cursor_goes_on_where_it_was(key: str, close: st
         await one.press(key)
         await one.press(key if close == "again" else close)
         assert one.at == field
+        await one.press("3")
+        assert isinstance(one.screen, ContourScreen)
+        assert (one.at, one.screen.half_typed) == (field, True)
+        await one.press("escape")
         await one.press("f9", "down", "f9")
         assert one.at == "segment"
 
