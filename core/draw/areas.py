@@ -7,6 +7,7 @@ They are drawn, never judged by: arcs are chords here, no farther off than half 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from math import isfinite
 from typing import Final
 
@@ -38,13 +39,24 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
     if len(points) < 2 or (closed and len(points) < 4):
         return NOTHING
     if not closed:
-        distance = -ACROSS * radius if side is Side.LEFT else ACROSS * radius
-        return LineString(points).buffer(distance, single_sided=True)
+        return _beside(points, -ACROSS * radius if side is Side.LEFT else ACROSS * radius)
     inside = shapely.make_valid(Polygon(points))
     left = _counter_clockwise(points)
     if left is not (side is Side.LEFT):
         return inside
     return box(*inside.buffer(MARGIN * radius).bounds).difference(inside)
+
+
+def _beside(points: Floats, distance: float) -> BaseGeometry:
+    """What lies beside a line up to a distance (mm), left of it where that is positive.
+
+    Of some lines that cross themselves shapely makes no region at once: then it is that of the chords, each by itself,
+    without the wedges at corners.
+    """
+    try:
+        return LineString(points).buffer(distance, single_sided=True)
+    except shapely.GEOSException:
+        return shapely.union_all([LineString(chord).buffer(distance, single_sided=True) for chord in pairwise(points)])
 
 
 def _counter_clockwise(points: Floats) -> bool:
