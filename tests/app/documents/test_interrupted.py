@@ -17,6 +17,7 @@ from app.documents.files import temporary_path, write_data
 from app.documents.journal import Kind
 from app.documents.journal_file import journal_path, new_path
 from app.documents.left_overs import kept_copies
+from app.documents.service import Opened
 from tests.app.documents.typist import changed_by_another, names, number_in, started
 
 
@@ -114,7 +115,9 @@ def test_discarded_it_is_a_kept_copy(own: Path, file: Path) -> None:
     assert temporaries(file) == []
     operator.left()
     [copy] = kept_copies(file.parent, own, Kind.NC if file.suffix == ".nc" else Kind.CONTOUR)
-    operator.took(operator.service.open(file, kept_copy=copy.path))  # type: ignore[arg-type]
+    opened = operator.service.open(file, kept_copy=copy.path)
+    assert isinstance(opened, Opened)
+    operator.took(opened)
     assert operator.answer("RESTORE").number == 7
 
 

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from functools import reduce
 from pathlib import Path
+from typing import cast
 
 import pytest
 from hypothesis import given, settings
@@ -265,7 +266,7 @@ def test_an_nc_text_of_format_1_is_read() -> None:
 
 def signed(record: object, total: int = 0) -> bytes:
     """A line with a right sum, whatever it says."""
-    return lines([record], total)[0]  # type: ignore[list-item]
+    return lines([cast("Record", record)], total)[0]
 
 
 FIRST = json.loads(whole(History(PART))[9:])
