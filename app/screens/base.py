@@ -80,6 +80,9 @@ class Host(Protocol):
     def apply(self, edited: Edited, label: str) -> bool:
         """Take an edit, or say why it is refused; whether it was taken."""
 
+    def action_undo(self) -> None:
+        """Take one edit back."""
+
     def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
 

@@ -20,7 +20,7 @@ from app.widgets.form import Form
 from core.finding import Severity
 from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed
-from core.program.model import Number, Unread
+from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
@@ -54,6 +54,8 @@ class FormScreen(BaseScreen):
         self._armed: Widget | None = None
         self._sums: dict[str, dict[str, str]] = {}
         """What was typed into each case of the calculator."""
+        self._unread: tuple[str, Program] | None = None
+        """The field into which something was typed last that cannot be read, and the program it made."""
 
     def form(self) -> Form:
         """The form that is shown."""
@@ -133,6 +135,7 @@ class FormScreen(BaseScreen):
             return False
         typed = None if field.kind is Kind.TEXT else read_typed(text, field, self.current_session.program.unit)
         if isinstance(typed, Unread):
+            self._unread = (field.name, self.current_session.program)
             self.say(unread_text(typed, field, self.current_session.program.unit), Tone.ERROR)
             return False
         return True
@@ -218,7 +221,7 @@ class FormScreen(BaseScreen):
 
     def action_leave(self) -> None:
         """The old value back; at rest the screen before."""
-        if self.half_typed:
+        if self.half_typed or self.last_is_unread:
             self.action_restore()
         else:
             self.app.call_later(self.app.run_action, "app.back")
@@ -232,11 +235,21 @@ class FormScreen(BaseScreen):
             if typed:
                 self.say(OLD_VALUE)
             return
+        if self.last_is_unread:
+            self.host.action_undo()
+            self.say(OLD_VALUE)
+            return
         self._armed = self.focused
         if isinstance(self.focused, NumberField):
             self.focused.softkey_digits = True
         self.say(ARMED)
         self.set_timer(SOFTKEY_WAIT, self.disarm)
+
+    @property
+    def last_is_unread(self) -> bool:
+        """The last edit typed something into the field with the cursor that cannot be read."""
+        field, program = self.current_field, self.current_session.program
+        return self._unread is not None and field is not None and self._unread == (field.name, program)
 
     def disarm(self) -> None:
         """A digit is typed again."""

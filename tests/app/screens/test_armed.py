@@ -54,3 +54,25 @@ async def test_an_armed_digit_is_not_typed_into_a_field_later() -> None:
         assert isinstance(at.screen, ToolsScreen)
         await at.press("f8", "6", "enter")
         assert at.session.block.tool == Number(6.0)
+
+
+async def test_esc_behind_what_cannot_be_read_takes_it_back() -> None:
+    async with operator("pocket") as at:
+        before = at.session.block.x_start
+        at.screen.focus_field("x_start")  # type: ignore[attr-defined]
+        await at.press("1", "a", "5", "enter")
+        assert at.tag("x_start") == "ERR"
+        await at.press("escape")
+        assert at.session.block.x_start == before
+        assert at.at == "x_start"
+        assert at.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+        await at.press("3", "enter")
+        assert at.session.block.x_start == Number(3.0)
+
+
+async def test_esc_on_what_could_not_be_read_long_ago_leaves_the_edits_behind_it() -> None:
+    async with operator("pocket") as at:
+        at.screen.focus_field("x_start")  # type: ignore[attr-defined]
+        await at.press("1", "a", "5", "enter", "tab", "3", "tab", "shift+tab", "shift+tab", "escape")
+        assert at.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
+        assert at.session.block.y_start == Number(3.0)
