@@ -661,8 +661,10 @@ class ContourScreen(FormScreen):
         rows = [Option(tool_line(tool, session.program.unit), id=f"{tool.number}") for tool in session.program.tools]
         if name == "finish_tool":
             rows.insert(0, Option("no finish pass", id="0"))
-        number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows))
         field = self._field(name)
+        held = self.value(name)
+        here = f"{held.value:g}" if isinstance(held, Number) else ""
+        number = await self.app.push_screen_wait(ChooseLine("TOOLS", rows, here))
         if number and field is not None:
             self.host.apply(self.edited(field, number), self.label(field))
         self.focus_field(name)

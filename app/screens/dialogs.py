@@ -260,7 +260,10 @@ class NumberForm(Dialog[tuple[float, ...]]):
 
 
 class ChooseLine(Dialog[str]):
-    """A list to choose from, the cursor on the option `here`; the result is an option's id, empty with Esc and F8."""
+    """A list to choose from, the cursor on the option `here`; the result is an option's id, empty with Esc and F8.
+
+    A letter or digit goes to the next option whose text or id begins with it.
+    """
 
     def __init__(self, title: str, options: Sequence[Option], here: str = "", *, classes: str = "") -> None:
         super().__init__(title, classes=classes)
@@ -275,6 +278,18 @@ class ChooseLine(Dialog[str]):
         ids = [option.id for option in self.options]
         if ids:
             self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0
+
+    def on_key(self, event: events.Key) -> None:
+        """A letter is the beginning of an option."""
+        if not (event.character or "").isalnum():
+            return
+        event.stop()
+        rows, letter = self.query_one(OptionList), str(event.character).lower()
+        here = rows.highlighted or 0
+        order = (*range(here + 1, len(self.options)), *range(here + 1))
+        names = [(str(option.prompt).strip().lower(), option.id or "") for option in self.options]
+        fits = (row for row in order if any(name.startswith(letter) for name in names[row]))
+        rows.highlighted = next(fits, here)
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:

@@ -36,13 +36,13 @@ CONTROL_NAMES: Final[Mapping[str, ControlName]] = MappingProxyType(
         "fanuc": ControlName(
             "fanuc",
             "Fanuc mill",
-            "0i, 16, 18, 21, 30i to 32i; macro B",
+            "0i, 16-21, 30i-32i",
             _FANUC | {f"{kind}-arc": f"type {kind.upper()}, sharp corners by arcs" for kind in "abc"},
         ),
         "haas": ControlName(
             "haas",
             "Haas mill",
-            "compensates as Fanuc, own alarms",
+            "as Fanuc, own alarms",
             {
                 "a": "settings 43 A, 58 FANUC",
                 "b": "settings 43 B, 58 FANUC",
@@ -50,21 +50,21 @@ CONTROL_NAMES: Final[Mapping[str, ControlName]] = MappingProxyType(
                 "b-yasnac": "settings 43 B, 58 YASNAC",
             },
         ),
-        "linuxcnc": ControlName("linuxcnc", "LinuxCNC", "2.4 and later, as its own interpreter runs programs"),
+        "linuxcnc": ControlName("linuxcnc", "LinuxCNC", "2.4 and later, as its own interpreter runs it"),
         "klartext": ControlName("heidenhain", "HEIDENHAIN Klartext", "TNC conversational with RL, RR, APPR and DEP"),
         "rosettacnc": ControlName(
             "rosettacnc",
             "RosettaCNC",
-            "G41 and G41.1 with a choice of entries",
+            "G41 and G41.1",
             {"nist": "entry NIST", "easy": "entry Easy Lead-In", "normal": "entry Normal"},
         ),
         "nine-series": ControlName(
             "allen-bradley",
             "Allen-Bradley 9/Series",
-            "Rockwell 8520 mill control",
+            "Rockwell 8520 mill",
             _SHARP
-            | {f"{kind}-g39": f"type {kind.upper()}, starts with G39 corners" for kind in "ab"}
-            | {f"{kind}-g39.1": f"type {kind.upper()}, starts with G39.1 corners" for kind in "ab"},
+            | {f"{kind}-g39": f"type {kind.upper()}, starts in G39" for kind in "ab"}
+            | {f"{kind}-g39.1": f"type {kind.upper()}, starts in G39.1" for kind in "ab"},
         ),
         "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
     }

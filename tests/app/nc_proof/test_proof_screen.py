@@ -237,6 +237,16 @@ async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
     assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
 
 
+async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
+    async with at_proof(tmp_path) as one:
+        await one.press("c", "h", "h", "enter")
+        await one.settle()
+        assert one.proof.question.control == "haas:a"
+        await one.press("c", "t", "x", "enter")
+        await one.settle()
+        assert one.proof.question.control == "threeblock"
+
+
 async def test_a_program_comes_back_with_the_tools_it_was_given_the_last_time(tmp_path):
     async with at_proof(tmp_path) as one:
         await with_tool(one)
