@@ -134,7 +134,7 @@ DIALOGS: Final = (
         (PART,),
         (*OTHER, "ctrl+s"),
         "TAKEN OVER: SAVE ANYWAY?",
-        ("bob on office has taken part.toml over.", "KEEP BOTH", "OVERWRITE, theirs is replaced", *GO_BACK),
+        ("bob on office has taken part.toml over.", "KEEP BOTH", "OVERWRITE, under this name", *GO_BACK),
         before=taken,
     ),
     Dialog(
