@@ -71,7 +71,9 @@ class Status(Horizontal):
         undo, redo = session.history.undo_count, session.history.redo_count
         new = not any(block.segments for block in session.program.blocks)
         unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
-        self.show(unit, undo, redo, unsaved=session.unsaved, saved=session.file is not None, new=new)
+        # a file that is yet to be made has nothing saved in it
+        saved = session.file is not None and not new
+        self.show(unit, undo, redo, unsaved=session.unsaved, saved=saved, new=new)
 
     def show(self, unit: str, undo: int, redo: int, *, unsaved: bool, saved: bool, new: bool = False) -> None:
         """The unit, whether everything is in the file, and how much can be undone and redone."""

@@ -35,6 +35,12 @@ def test_the_screens_stand_on_what_was_asked_for(
             terminal.until(text, longest=30)
 
 
+def test_a_file_that_is_yet_to_be_made_is_not_called_saved(tmp_path: Path) -> None:
+    with running([*PROGRAM, str(tmp_path / "new.toml")]) as terminal:
+        terminal.until("saving makes it")
+        assert "saved" not in terminal.text.splitlines()[-1]
+
+
 def test_a_program_is_no_nc_file_to_prove(tmp_path: Path) -> None:
     part = tmp_path / "part.toml"
     part.write_text(Path("app/examples/pocket.toml").read_text())
