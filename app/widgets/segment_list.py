@@ -14,7 +14,7 @@ from app.session.words import length
 from app.widgets.verdict import MARKS
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of
-from core.program.model import Number
+from core.program.model import BlendSegment, ChamferSegment, Number
 from core.program.solve.solved import Solved, SolvedSegment
 from core.units import Kind, Unit, show
 
@@ -106,14 +106,19 @@ def segment_rows(block: DerivedBlock, unit: Unit) -> list[SegmentRow]:
 
 def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, fate: str) -> SegmentRow:
     segment = block.block.segments[solved.number - 1]
-    direction = getattr(segment, "direction", None)
-    kind = "BLEND" if solved.values.keys() <= {"radius", "feed"} else str(form_of(segment))
     feed = segment.feed.value if isinstance(segment.feed, Number) else None
-    end = None if solved.piece is None else solved.end or solved.piece.end
-    x, y = ("", "") if end is None else (length(each, unit) for each in end)
+    match segment:
+        case BlendSegment(radius=size):
+            kind, x, y = "BLEND", f"r {_text(size, unit)}", ""
+        case ChamferSegment(length=size):
+            kind, x, y = "CHAMFER", f"c {_text(size, unit)}", ""
+        case _:
+            kind = f"{form_of(segment)} {getattr(segment, 'direction', '')}".rstrip()
+            end = None if solved.piece is None else solved.end or solved.piece.end
+            x, y = ("", "") if end is None else (length(each, unit) for each in end)
     return SegmentRow(
         str(solved.number),
-        f"{kind} {direction}" if direction else kind,
+        kind,
         x,
         y,
         "" if feed is None else show(feed, Kind.FEED, unit),
