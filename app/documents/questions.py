@@ -175,7 +175,10 @@ def _replaced(path: Path, holder: Owner | None) -> list[str]:
 def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
     """Somebody has taken the document over since it was opened."""
     lines = (f"{person(owner)} has taken {printable(path.name)} over.",)
-    answers = (Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"), Answer(WRITE_ANYWAY, "under this name; the other one is told"))
+    answers = (
+        Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"),
+        Answer(WRITE_ANYWAY, "under this name; the other one is told"),
+    )
     return Ask("TAKEN OVER: SAVE ANYWAY?", lines, answers, safe=KEEP_BOTH)
 
 
