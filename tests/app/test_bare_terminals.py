@@ -113,15 +113,15 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
 
 
 async def test_a_terminal_that_stays_too_small_says_its_new_size() -> None:
-    async with operator(size=(20, 5)) as one:
-        assert one.prompt == "Window is 20x5; it needs 60x20."
+    async with operator(size=(20, 5)) as user:
+        assert user.prompt == "Window is 20x5; it needs 60x20."
         for width, height in ((59, 24), (80, 19)):
-            await one.pilot.resize_terminal(width, height)
-            await one.settle()
-            assert one.prompt == f"Window is {width}x{height}; it needs 60x20."
-        await one.pilot.resize_terminal(80, 24)
-        await one.settle()
-        assert "make it" not in one.prompt
+            await user.pilot.resize_terminal(width, height)
+            await user.settle()
+            assert user.prompt == f"Window is {width}x{height}; it needs 60x20."
+        await user.pilot.resize_terminal(80, 24)
+        await user.settle()
+        assert "make it" not in user.prompt
 
 
 @pytest.mark.parametrize(

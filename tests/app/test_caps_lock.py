@@ -37,9 +37,9 @@ def test_every_letter_is_bound_as_a_capital_too() -> None:
 
 
 async def test_capitals_go_from_finding_to_finding_on_draw():
-    async with operator("pocket") as one:
-        await one.press("f7", "N")
-        assert isinstance(one.screen, DrawScreen)
-        first = one.screen.query_one(Drawing).heading
-        await one.press("N")
-        assert one.screen.query_one(Drawing).heading != first
+    async with operator("pocket") as user:
+        await user.press("f7", "N")
+        assert isinstance(user.screen, DrawScreen)
+        first = user.screen.query_one(Drawing).heading
+        await user.press("N")
+        assert user.screen.query_one(Drawing).heading != first

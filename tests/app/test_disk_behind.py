@@ -37,11 +37,11 @@ class Folder:
     def dies(self) -> None:
         self.hanging = True
 
-    async def comes_back(self, one: Operator) -> None:
+    async def comes_back(self, user: Operator) -> None:
         self.hanging = False
         self.answers.set()
-        await one.app.workers.wait_for_complete()
-        await one.settle()
+        await user.app.workers.wait_for_complete()
+        await user.settle()
 
 
 @pytest.fixture
@@ -65,112 +65,112 @@ def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
 
 
 async def test_keys_go_on_while_the_folder_hangs_and_everything_is_kept_when_it_answers(folder, disk):
-    async with at_work(folder) as one:
+    async with at_work(folder) as user:
         disk.dies()
-        await one.press("tab", "'7", "enter")
-        assert "The folder does not answer: still trying." in one.prompt
+        await user.press("tab", "'7", "enter")
+        assert "The folder does not answer: still trying." in user.prompt
         for number in (2, 3, 4):
-            await one.app.run_action("screen.go(0)")
-            await one.press("tab")
-            await one.press(f"'{number}", "enter")
-            assert one.session.block.tool == Number(float(number))
-            assert "does not answer" in one.prompt
-        await disk.comes_back(one)
-        assert "The folder answers again" in one.prompt
+            await user.app.run_action("screen.go(0)")
+            await user.press("tab")
+            await user.press(f"'{number}", "enter")
+            assert user.session.block.tool == Number(float(number))
+            assert "does not answer" in user.prompt
+        await disk.comes_back(user)
+        assert "The folder answers again" in user.prompt
         journal = read(journal_path(folder / "part.toml"), Kind.CONTOUR)
         assert journal is not None
         assert isinstance(journal.work, History)
-        assert journal.work.program == one.session.program
+        assert journal.work.program == user.session.program
         assert journal.work.undo_count == 4
         assert disk.most == 1
 
 
 async def test_what_is_typed_while_a_save_hangs_is_not_saved_and_not_lost(folder, disk):
-    async with at_work(folder) as one:
-        await one.press("tab", "'7", "enter")
+    async with at_work(folder) as user:
+        await user.press("tab", "'7", "enter")
         disk.dies()
-        await one.press("ctrl+s")
-        assert "does not answer" in one.prompt
-        await one.app.run_action("screen.go(0)")
-        await one.press("tab", "'8", "enter", "ctrl+s")
-        assert "does not answer" in one.prompt
-        await disk.comes_back(one)
+        await user.press("ctrl+s")
+        assert "does not answer" in user.prompt
+        await user.app.run_action("screen.go(0)")
+        await user.press("tab", "'8", "enter", "ctrl+s")
+        assert "does not answer" in user.prompt
+        await disk.comes_back(user)
         assert load(folder / "part.toml").blocks[0].tool == Number(7.0)
-        assert one.session.unsaved
+        assert user.session.unsaved
         journal = read(journal_path(folder / "part.toml"), Kind.CONTOUR)
         assert journal is not None
         assert isinstance(journal.work, History)
         assert journal.work.program.blocks[0].tool == Number(8.0)
-        await one.press("ctrl+s")
+        await user.press("ctrl+s")
         assert load(folder / "part.toml").blocks[0].tool == Number(8.0)
-        assert not one.session.unsaved
+        assert not user.session.unsaved
         assert disk.most == 1
 
 
 async def test_a_program_whose_folder_hangs_can_be_left_after_asking(folder, disk):
-    async with at_work(folder) as one:
+    async with at_work(folder) as user:
         disk.dies()
-        await one.press("tab", "'7", "enter", "ctrl+q")
-        assert isinstance(one.app.screen, Question)
-        assert one.app.screen.lines[0] == "The folder does not answer."
-        await one.press("escape", "ctrl+q", "l")
-        assert one.app.return_code == 0
+        await user.press("tab", "'7", "enter", "ctrl+q")
+        assert isinstance(user.app.screen, Question)
+        assert user.app.screen.lines[0] == "The folder does not answer."
+        await user.press("escape", "ctrl+q", "l")
+        assert user.app.return_code == 0
         disk.answers.set()
 
 
 async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder, disk, tmp_path):
     rescue = tmp_path / "rescue.toml"
     rescue.write_text("somebody's")
-    async with at_work(folder) as one:
+    async with at_work(folder) as user:
         disk.dies()
-        await one.press("tab", "'7", "enter")
+        await user.press("tab", "'7", "enter")
         # the other disk answers
         disk.hanging = False
-        one.app.action_save_as()
-        await one.settle()
-        one.app.save_as(str(rescue))
-        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
-        await one.settle()
-        assert "is there already: type another name" in one.prompt
+        user.app.action_save_as()
+        await user.settle()
+        user.app.save_as(str(rescue))
+        await user.app.workers.wait_for_complete([worker for worker in user.app.workers if worker.name == "_save_copy"])
+        await user.settle()
+        assert "is there already: type another name" in user.prompt
         assert rescue.read_text() == "somebody's"
-        one.app.save_as(str(tmp_path / ("n" * 300)))
-        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
-        await one.settle()
-        assert "is not saved" in one.prompt
-        one.app.save_as(str(tmp_path / "copy"))
-        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
-        await one.settle()
-        assert "A copy is in" in one.prompt
+        user.app.save_as(str(tmp_path / ("n" * 300)))
+        await user.app.workers.wait_for_complete([worker for worker in user.app.workers if worker.name == "_save_copy"])
+        await user.settle()
+        assert "is not saved" in user.prompt
+        user.app.save_as(str(tmp_path / "copy"))
+        await user.app.workers.wait_for_complete([worker for worker in user.app.workers if worker.name == "_save_copy"])
+        await user.settle()
+        assert "A copy is in" in user.prompt
         assert load(tmp_path / "copy.toml").blocks[0].tool == Number(7.0)
-        await disk.comes_back(one)
-        assert "The folder answers again" in one.prompt
-        assert one.session.unsaved
+        await disk.comes_back(user)
+        assert "The folder answers again" in user.prompt
+        assert user.session.unsaved
 
 
 async def test_the_copy_of_an_nc_text_has_the_line_that_is_being_typed(folder, disk, tmp_path):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
-    async with at_work(folder) as one:
-        one.app.open_file(folder / "a.nc")
-        await one.settle()
+    async with at_work(folder) as user:
+        user.app.open_file(folder / "a.nc")
+        await user.settle()
         disk.dies()
-        await one.press("enter", "x", "down", "enter", "y")
+        await user.press("enter", "x", "down", "enter", "y")
         disk.hanging = False
-        assert one.app.disk_is_behind()
-        one.app.action_save_as()
-        await one.settle()
-        one.app.save_as(str(tmp_path / "copy.nc"))
-        await one.app.workers.wait_for_complete([worker for worker in one.app.workers if worker.name == "_save_copy"])
+        assert user.app.disk_is_behind()
+        user.app.action_save_as()
+        await user.settle()
+        user.app.save_as(str(tmp_path / "copy.nc"))
+        await user.app.workers.wait_for_complete([worker for worker in user.app.workers if worker.name == "_save_copy"])
         assert b"y" in (tmp_path / "copy.nc").read_bytes()
-        await disk.comes_back(one)
+        await disk.comes_back(user)
 
 
 async def test_a_name_without_a_file_gets_no_ending_on_the_sheet(folder):
-    async with at_work(folder) as one:
-        one.app.push_screen(SheetScreen("."))
-        await one.settle()
-        await one.press("f2", "f3")
-        assert isinstance(one.screen, SheetScreen)
-        assert one.screen.text == "."
+    async with at_work(folder) as user:
+        user.app.push_screen(SheetScreen("."))
+        await user.settle()
+        await user.press("f2", "f3")
+        assert isinstance(user.screen, SheetScreen)
+        assert user.screen.text == "."
 
 
 @pytest.fixture
@@ -194,18 +194,18 @@ def asked(folder, monkeypatch) -> list[str]:
 
 
 async def test_the_thread_of_the_keys_asks_the_folder_nothing(folder, asked):
-    async with at_work(folder) as one:
+    async with at_work(folder) as user:
         asked.clear()
         written = []
-        await one.press("tab", "'1", "enter", "ctrl+s")
+        await user.press("tab", "'1", "enter", "ctrl+s")
         for action, name in (("app.post", "part.nc"), ("app.sheet", "part.html")):
-            await one.app.run_action(action)
-            await one.settle()
-            await one.app.workers.wait_for_complete()
-            await one.settle()
-            await one.press("enter")
-            await one.app.workers.wait_for_complete()
-            await one.settle()
+            await user.app.run_action(action)
+            await user.settle()
+            await user.app.workers.wait_for_complete()
+            await user.settle()
+            await user.press("enter")
+            await user.app.workers.wait_for_complete()
+            await user.settle()
             written.append(folder / name)
         assert asked == []
     assert all(path.exists() for path in written)

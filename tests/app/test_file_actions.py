@@ -71,139 +71,139 @@ def journals(folder: Path) -> list[str]:
 
 
 async def test_an_edit_is_on_the_disk_before_the_next_key_and_a_save_ends_its_journal(folder):
-    async with at_work(folder) as one:
+    async with at_work(folder) as user:
         assert journals(folder) == []
-        await one.press("pagedown", "tab", "'5.5", "enter")
+        await user.press("pagedown", "tab", "'5.5", "enter")
         assert journals(folder) == [".part.toml.cutcomp-journal"]
-        await one.press("ctrl+s")
+        await user.press("ctrl+s")
         assert journals(folder) == []
-        assert load(folder / "part.toml") == one.session.program
-        assert not one.session.unsaved
-        assert one.session.history.undo_count == 1
+        assert load(folder / "part.toml") == user.session.program
+        assert not user.session.unsaved
+        assert user.session.history.undo_count == 1
 
 
 @pytest.mark.parametrize("keys", [["ctrl+s"], ["ctrl+q", "s"]], ids=["saved", "saved at the end"])
 async def test_a_new_segment_in_which_nothing_was_typed_is_not_saved(folder, keys):
     before = load(folder / "part.toml").blocks[0].segments
-    async with at_work(folder) as one:
-        await one.press("ctrl+home", "tab", "tab", "tab", "'2.5", "enter", "ctrl+end", "pagedown")
-        assert len(one.session.block.segments) == len(before) + 1
-        await one.press(*keys)
-        assert not one.session.unsaved
+    async with at_work(folder) as user:
+        await user.press("ctrl+home", "tab", "tab", "tab", "'2.5", "enter", "ctrl+end", "pagedown")
+        assert len(user.session.block.segments) == len(before) + 1
+        await user.press(*keys)
+        assert not user.session.unsaved
     assert load(folder / "part.toml").blocks[0].segments == before
 
 
 async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo(folder):
-    async with at_work(folder, me=DEAD) as one:
-        await one.press("pagedown", "tab", "'5.5", "enter")
+    async with at_work(folder, me=DEAD) as user:
+        await user.press("pagedown", "tab", "'5.5", "enter")
         kept = (folder / ".part.toml.cutcomp-journal").read_bytes()
     (folder / ".part.toml.cutcomp-journal").write_bytes(kept)
-    async with at_work(folder) as one:
-        assert isinstance(one.app.screen, Question)
-        await one.press("r")
-        assert one.session.block.segments[0].x_end == Number(5.5)
-        assert one.session.history.undo_count == 1
+    async with at_work(folder) as user:
+        assert isinstance(user.app.screen, Question)
+        await user.press("r")
+        assert user.session.block.segments[0].x_end == Number(5.5)
+        assert user.session.history.undo_count == 1
 
 
 @pytest.mark.parametrize(
     ("key", "left"), [("escape", 1), ("d", 0)], ids=["asked again at the next start", "kept as a backup"]
 )
 async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key, left):
-    async with at_work(folder, "", me=DEAD) as one:
-        await one.press("f3", "'2", "enter")
+    async with at_work(folder, "", me=DEAD) as user:
+        await user.press("f3", "'2", "enter")
         [journal] = (folder / "own").glob("unnamed-*")
         kept = journal.read_bytes()
     journal.write_bytes(kept)
-    async with at_work(folder, "") as one:
-        assert isinstance(one.app.screen, Question)
-        await one.press("f3", "f1")
-        assert isinstance(one.app.screen, Question), "no softkey of the screen behind it answers"
-        await one.press(key)
-        assert isinstance(one.app.screen, HomeScreen)
-        await one.press("f3")
-        assert one.session.program.unit is Unit.MM
-    async with at_work(folder, "") as one:
-        assert sum(isinstance(screen, Question) for screen in one.app.screen_stack) == left
+    async with at_work(folder, "") as user:
+        assert isinstance(user.app.screen, Question)
+        await user.press("f3", "f1")
+        assert isinstance(user.app.screen, Question), "no softkey of the screen behind it answers"
+        await user.press(key)
+        assert isinstance(user.app.screen, HomeScreen)
+        await user.press("f3")
+        assert user.session.program.unit is Unit.MM
+    async with at_work(folder, "") as user:
+        assert sum(isinstance(screen, Question) for screen in user.app.screen_stack) == left
 
 
 @pytest.mark.parametrize(("answer", "name"), [("a", "part.toml"), ("n", None)], ids=["added", "a new program"])
 async def test_a_drawing_goes_to_the_open_program_or_begins_one(folder, answer, name):
     (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
-    async with at_work(folder) as one:
-        await one.press("ctrl+o", "s", "enter")
-        assert isinstance(one.app.screen, Question)
-        await one.press(answer)
-        assert isinstance(one.app.screen, ImportScreen)
-        assert (None if one.session.file is None else one.session.file.name) == name
-        assert one.app.document.is_new is (name is None)
+    async with at_work(folder) as user:
+        await user.press("ctrl+o", "s", "enter")
+        assert isinstance(user.app.screen, Question)
+        await user.press(answer)
+        assert isinstance(user.app.screen, ImportScreen)
+        assert (None if user.session.file is None else user.session.file.name) == name
+        assert user.app.document.is_new is (name is None)
 
 
 async def test_a_drawing_begins_a_program_where_nothing_was_typed_yet(folder):
     (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
-    async with at_work(folder, "") as one:
-        await one.press("s", "enter")
-        assert isinstance(one.app.screen, ImportScreen)
+    async with at_work(folder, "") as user:
+        await user.press("s", "enter")
+        assert isinstance(user.app.screen, ImportScreen)
 
 
 async def test_an_nc_program_in_the_list_opens_under_proof(folder):
     (folder / "job.nc").write_text("G20 G17 G90\nT1 M6\nG0 X1\nM30\n")
-    async with at_work(folder, "") as one:
-        assert isinstance(one.app.screen, HomeScreen)
-        await one.press("j")
-        assert one.app.screen.chosen is not None
-        assert one.app.screen.chosen.kind == "NC program"
-        assert str(one.app.screen.query_one("#folder", Static).content).endswith("1 program, 1 NC program")
-        await one.press("enter")
-        assert isinstance(one.app.screen, ProofScreen)
-        assert one.app.screen.document.file.path == folder / "job.nc"
+    async with at_work(folder, "") as user:
+        assert isinstance(user.app.screen, HomeScreen)
+        await user.press("j")
+        assert user.app.screen.chosen is not None
+        assert user.app.screen.chosen.kind == "NC program"
+        assert str(user.app.screen.query_one("#folder", Static).content).endswith("1 program, 1 NC program")
+        await user.press("enter")
+        assert isinstance(user.app.screen, ProofScreen)
+        assert user.app.screen.document.file.path == folder / "job.nc"
 
 
 async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
-    async with at_work(folder) as one:
-        await one.app.run_action("app.save_as")
-        await one.press(*"other", "enter")
-        assert load(folder / "other.toml") == one.session.program
-        assert one.session.file == folder / "other.toml"
-        assert one.at == "segment"
+    async with at_work(folder) as user:
+        await user.app.run_action("app.save_as")
+        await user.press(*"other", "enter")
+        assert load(folder / "other.toml") == user.session.program
+        assert user.session.file == folder / "other.toml"
+        assert user.at == "segment"
         assert load_settings(folder / "settings.toml")[0].recent[0] == str(folder / "other.toml")
 
 
 async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
-    async with at_work(folder) as one:
-        one.app.say("Example pocket: SAVE gives it a name.")
-        await one.press("ctrl+o", "f2")
-        assert one.session.file is None
-        assert one.prompt == "Tool number. Space lists the tools."
+    async with at_work(folder) as user:
+        user.app.say("Example pocket: SAVE gives it a name.")
+        await user.press("ctrl+o", "f2")
+        assert user.session.file is None
+        assert user.prompt == "Tool number. Space lists the tools."
 
 
 async def test_letters_that_follow_at_once_are_of_one_name(folder):
     for name in ("part-b.nc", "part-c.nc", "pin.nc"):
         (folder / name).write_text("M30\n")
-    async with at_work(folder) as one:
-        await one.press("ctrl+o")
-        home = one.app.screen
+    async with at_work(folder) as user:
+        await user.press("ctrl+o")
+        home = user.app.screen
         assert isinstance(home, HomeScreen)
-        await one.press("p", "i")
+        await user.press("p", "i")
         assert home.chosen.name == "pin.nc"
         home._last_letter = 0.0
-        await one.press(*"part-c")
+        await user.press(*"part-c")
         assert home.chosen.name == "part-c.nc"
         # no name goes on with it, nor begins with it
-        await one.press("z")
+        await user.press("z")
         assert home.chosen.name == "part-c.nc"
 
 
 async def test_home_lists_what_was_written_while_another_screen_was_in_front(folder):
-    async with at_work(folder) as one:
-        await one.press("ctrl+o")
-        home = one.app.screen
+    async with at_work(folder) as user:
+        await user.press("ctrl+o")
+        home = user.app.screen
         assert isinstance(home, HomeScreen)
         (folder / "a.nc").write_text("M30\n")
-        await one.press("ctrl+o")
+        await user.press("ctrl+o")
         assert "a.nc" in [each.name for each in home.listed]
         assert home.chosen.path == folder / "part.toml"
         (folder / "b.nc").write_text("M30\n")
-        await one.press("question_mark", "escape")
+        await user.press("question_mark", "escape")
         assert "b.nc" in [each.name for each in home.listed]
 
 
@@ -216,44 +216,44 @@ async def test_a_drawing_that_comes_while_home_is_taken_down_is_dropped(folder, 
         late.append(home)
 
     monkeypatch.setattr(HomeScreen, "on_unmount", on_unmount, raising=False)
-    async with at_work(folder) as one:
-        await one.press("ctrl+o", "f2")
+    async with at_work(folder) as user:
+        await user.press("ctrl+o", "f2")
         assert len(late) == 1
-        assert not isinstance(one.app.screen, HomeScreen)
+        assert not isinstance(user.app.screen, HomeScreen)
 
 
 async def test_a_file_that_is_in_the_way_is_asked_about(folder):
     (folder / "other.toml").write_bytes(example("notch").read_bytes())
-    async with at_work(folder) as one:
-        await one.app.run_action("app.save_as")
-        await one.press(*"other", "enter")
-        assert isinstance(one.app.screen, Question)
-        await one.press("escape")
+    async with at_work(folder) as user:
+        await user.app.run_action("app.save_as")
+        await user.press(*"other", "enter")
+        assert isinstance(user.app.screen, Question)
+        await user.press("escape")
         assert load(folder / "other.toml") == load(example("notch"))
-        await one.press("enter", "r")
-        assert load(folder / "other.toml") == one.session.program
+        await user.press("enter", "r")
+        assert load(folder / "other.toml") == user.session.program
 
 
 async def test_quit_asks_while_something_is_not_saved_and_go_back_changes_nothing(folder):
-    async with at_work(folder) as one:
-        await one.press("pagedown", "tab", "'5.5", "enter", "ctrl+q")
-        assert isinstance(one.app.screen, Question)
-        await one.press("escape")
-        assert one.session.block.segments[0].x_end == Number(5.5)
-        await one.press("ctrl+q", "s")
+    async with at_work(folder) as user:
+        await user.press("pagedown", "tab", "'5.5", "enter", "ctrl+q")
+        assert isinstance(user.app.screen, Question)
+        await user.press("escape")
+        assert user.session.block.segments[0].x_end == Number(5.5)
+        await user.press("ctrl+q", "s")
     assert load(folder / "part.toml").blocks[0].segments[0].x_end == Number(5.5)
     assert journals(folder) == []
 
 
 async def test_another_program_is_opened_after_the_question_about_unsaved_work(folder):
-    async with at_work(folder) as one:
-        await one.press("pagedown", "tab", "'5.5", "enter", "ctrl+o")
-        assert isinstance(one.app.screen, HomeScreen)
-        await one.app.workers.wait_for_complete()
-        await one.press("n", "enter")
-        assert isinstance(one.app.screen, Question)
-        await one.press("d")
-        assert one.session.title == "notch"
+    async with at_work(folder) as user:
+        await user.press("pagedown", "tab", "'5.5", "enter", "ctrl+o")
+        assert isinstance(user.app.screen, HomeScreen)
+        await user.app.workers.wait_for_complete()
+        await user.press("n", "enter")
+        assert isinstance(user.app.screen, Question)
+        await user.press("d")
+        assert user.session.title == "notch"
         assert load(folder / "part.toml") == load(example("pocket"))
         assert journals(folder) == []
 
@@ -261,21 +261,21 @@ async def test_another_program_is_opened_after_the_question_about_unsaved_work(f
 async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
     theirs = DocumentService(state=folder / "their-own")
     theirs.open(folder / "part.toml")
-    async with at_work(folder) as one:
-        assert isinstance(one.app.screen, Question)
-        await one.press("l")
-        await one.press("pagedown", "tab", "'5.5", "enter")
-        assert one.session.program == load(example("pocket"))
-        assert "SAVE AS" in one.prompt
+    async with at_work(folder) as user:
+        assert isinstance(user.app.screen, Question)
+        await user.press("l")
+        await user.press("pagedown", "tab", "'5.5", "enter")
+        assert user.session.program == load(example("pocket"))
+        assert "SAVE AS" in user.prompt
     theirs.stop()
 
 
 async def test_a_number_typed_into_what_may_only_be_looked_at_is_no_longer_shown(folder):
     take(folder / "part.toml", ELSEWHERE)
-    async with at_work(folder) as one:
-        await one.press("l")
-        await one.press("tab", "'2")
-        assert one.app.shown is not one.session
-        await one.press("enter")
-        assert "SAVE AS" in one.prompt
-        assert one.app.shown is one.session
+    async with at_work(folder) as user:
+        await user.press("l")
+        await user.press("tab", "'2")
+        assert user.app.shown is not user.session
+        await user.press("enter")
+        assert "SAVE AS" in user.prompt
+        assert user.app.shown is user.session

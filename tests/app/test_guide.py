@@ -34,33 +34,33 @@ async def guided(folder: Path) -> AsyncIterator[Operator]:
     service.stop()
 
 
-async def obey(one: Operator) -> None:
+async def obey(user: Operator) -> None:
     """Press what the guide says, and nothing else."""
-    text = one.prompt.removeprefix("GUIDE ").strip()
+    text = user.prompt.removeprefix("GUIDE ").strip()
     if typed := re.search(r": type (\S+), then Enter", text):
-        await one.press(f"'{typed[1]}", "enter")
+        await user.press(f"'{typed[1]}", "enter")
     elif "press L until LEFT" in text:
-        await one.press("l")
+        await user.press("l")
     elif text.startswith("Type a name"):
-        await one.press("ctrl+u", "'plate", "enter")
+        await user.press("ctrl+u", "'plate", "enter")
     elif arrows := re.match(r"(Down|Up) (\d+) times", text):
-        await one.press(*[arrows[1].lower()] * int(arrows[2]))
+        await user.press(*[arrows[1].lower()] * int(arrows[2]))
     elif key := re.search(r"\b(Ctrl\+S|Ctrl\+Home|Page Down|Page Up|F8|F3|F1|Enter|Down|Up)\b", text):
-        await one.press(KEYS.get(key[1], key[1].lower()))
+        await user.press(KEYS.get(key[1], key[1].lower()))
     else:
         assert "being calculated" in text
 
 
 async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    async with guided(tmp_path) as one:
-        await one.press("tab", "7", "enter", "pagedown")
+    async with guided(tmp_path) as user:
+        await user.press("tab", "7", "enter", "pagedown")
         for _ in range(70):
-            if not one.app.guided:
+            if not user.app.guided:
                 break
-            await obey(one)
-        await one.settle()
-        assert one.prompt == "Posted. Typed, checked, saved, posted: that is the whole way."
+            await obey(user)
+        await user.settle()
+        assert user.prompt == "Posted. Typed, checked, saved, posted: that is the whole way."
     program = load(tmp_path / "plate.toml")
     (block,) = derive(program).blocks
     assert program.blocks[0].cutter_comp is CutterComp.LEFT
@@ -70,12 +70,12 @@ async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path,
 
 async def test_escape_ends_it_and_the_plate_stays(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    async with guided(tmp_path) as one:
-        assert one.prompt.startswith("GUIDE  ")
-        await one.press("enter", "l", "enter", "1", "escape")
-        assert one.app.guided
-        await one.press("escape")
-        assert not one.app.guided
-        assert one.session.block.cutter_comp is CutterComp.LEFT
-        await one.press("tab")
-        assert not one.prompt.startswith("GUIDE")
+    async with guided(tmp_path) as user:
+        assert user.prompt.startswith("GUIDE  ")
+        await user.press("enter", "l", "enter", "1", "escape")
+        assert user.app.guided
+        await user.press("escape")
+        assert not user.app.guided
+        assert user.session.block.cutter_comp is CutterComp.LEFT
+        await user.press("tab")
+        assert not user.prompt.startswith("GUIDE")

@@ -46,68 +46,68 @@ class Slow:
         return self.real(*about) if progress is None else self.real(*about, progress=progress)
 
 
-def status(one: Operator) -> str:
-    return str(one.screen.query_one(Status).query_one("#units").render())
+def status(user: Operator) -> str:
+    return str(user.screen.query_one(Status).query_one("#units").render())
 
 
-async def seen(one: Operator, text: str) -> None:
+async def seen(user: Operator, text: str) -> None:
     """Wait until the status line says so."""
-    while text not in status(one):
-        await one.pilot.pause(0.01)
+    while text not in status(user):
+        await user.pilot.pause(0.01)
 
 
 async def test_a_long_derivation_tells_how_far_it_is_and_escape_stops_it(monkeypatch):
-    async with operator() as one:
+    async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
-        await one.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
-        await seen(one, "working 40 %, Esc stops")
-        verdict = one.screen.query_one("#verdict")
+        await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await seen(user, "working 40 %, Esc stops")
+        verdict = user.screen.query_one("#verdict")
         assert "working 40 %" in str(verdict.border_title)
-        await one.press("escape")
+        await user.press("escape")
         assert slow.stopped
-        assert "Free:" in status(one)
+        assert "Free:" in status(user)
         assert "stopped" in str(verdict.border_title)
-        assert one.prompt == "Stopped. Any edit calculates again, or Ctrl+K and CALCULATE."
+        assert user.prompt == "Stopped. Any edit calculates again, or Ctrl+K and CALCULATE."
         slow.go.set()
-        one.app.action_calculate()
-        await one.settle()
-        assert one.session.derived_block.known
+        user.app.action_calculate()
+        await user.settle()
+        assert user.session.derived_block.known
         assert "stopped" not in str(verdict.border_title)
 
 
 async def test_a_half_typed_number_that_is_given_up_leaves_nothing_uncalculated(monkeypatch):
-    async with operator() as one:
+    async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
-        await one.pilot.press("tab", "2", "enter", "down", "4")
+        await user.pilot.press("tab", "2", "enter", "down", "4")
         slow.go.set()
-        await one.press("tab", "ctrl+z", "ctrl+z")
-        assert one.session.derived_block.known
-        assert one.app.shown is one.session
+        await user.press("tab", "ctrl+z", "ctrl+z")
+        assert user.session.derived_block.known
+        assert user.app.shown is user.session
 
 
 async def test_a_long_table_is_stopped_and_made_when_it_is_asked_for(monkeypatch):
-    async with operator() as one:
+    async with operator() as user:
         slow = Slow(monkeypatch, app_module, "lookahead_table")
-        await one.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
-        await seen(one, "working 40 %, Esc stops")
-        await one.press("escape")
+        await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await seen(user, "working 40 %, Esc stops")
+        await user.press("escape")
         assert slow.stopped
-        assert one.session.lookahead_table is None
+        assert user.session.lookahead_table is None
         slow.go.set()
-        one.app.action_calculate()
-        await one.settle()
-        assert one.session.lookahead_table is not None
+        user.app.action_calculate()
+        await user.settle()
+        assert user.session.lookahead_table is not None
 
 
 @asynccontextmanager
 async def posting(monkeypatch):
     """An operator before POST NC, which makes the text and is at 40 %."""
-    async with operator() as one:
+    async with operator() as user:
         slow = Slow(monkeypatch, post_module, "nc_text")
-        one.app.action_post()
-        await one.pilot.pause()
-        await seen(one, "working 40 %")
-        yield one, slow
+        user.app.action_post()
+        await user.pilot.pause()
+        await seen(user, "working 40 %")
+        yield user, slow
 
 
 async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
@@ -135,12 +135,12 @@ async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
 
 
 async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(monkeypatch):
-    async with operator() as one:
+    async with operator() as user:
         slow = Slow(monkeypatch, proof_module, "run")
-        one.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
-        await one.pilot.pause()
-        await seen(one, "working 20 %")
-        await one.press("escape")
+        user.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
+        await user.pilot.pause()
+        await seen(user, "working 20 %")
+        await user.press("escape")
         assert slow.stopped
-        assert "stopped" in str(one.screen.query_one("#proof-outcome").render())
-        assert type(one.screen).__name__ == "ProofScreen"
+        assert "stopped" in str(user.screen.query_one("#proof-outcome").render())
+        assert type(user.screen).__name__ == "ProofScreen"

@@ -9,52 +9,52 @@ from core.program.model import Number
 from tests.app.widget_pilot import Operator, operator
 
 
-async def click_at(one: Operator, drawing: Drawing, point: tuple[float, float]) -> None:
+async def click_at(user: Operator, drawing: Drawing, point: tuple[float, float]) -> None:
     """Click on a point (mm) of a drawing."""
     while drawing.drawn is None:
-        await one.pilot.pause(0.01)
+        await user.pilot.pause(0.01)
     column, row = drawing.drawn.view.cell(point, *drawing.size)
     # a frame of one row stands above the picture
-    await one.pilot.click(drawing, offset=(int(column), int(row) + 1))
-    await one.settle()
+    await user.pilot.click(drawing, offset=(int(column), int(row) + 1))
+    await user.settle()
 
 
 async def test_softkeys_fields_and_list_rows_take_clicks():
-    async with operator(size=(132, 43)) as one:
-        await one.pilot.click(one.row("x_start").input)
-        await one.press("'7.5", "enter")
-        assert one.session.block.x_start == Number(7.5)
-        await one.pilot.click("#f8")
-        assert type(one.screen).__name__ == "ProgramScreen"
-        await one.press("enter")
-        await one.pilot.click("#segments", offset=(5, 6))
-        await one.settle()
-        assert one.session.place.segment == 4
+    async with operator(size=(132, 43)) as user:
+        await user.pilot.click(user.row("x_start").input)
+        await user.press("'7.5", "enter")
+        assert user.session.block.x_start == Number(7.5)
+        await user.pilot.click("#f8")
+        assert type(user.screen).__name__ == "ProgramScreen"
+        await user.press("enter")
+        await user.pilot.click("#segments", offset=(5, 6))
+        await user.settle()
+        assert user.session.place.segment == 4
 
 
 async def test_a_click_in_the_drawing_goes_to_the_nearest_segment():
-    async with operator() as one:
-        await click_at(one, one.screen.query_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
-        assert one.session.place.segment == 3
-        await one.press("f7")
-        await click_at(one, one.screen.query_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
-        assert one.session.place.segment == 1
+    async with operator() as user:
+        await click_at(user, user.screen.query_one("#outline", Drawing), (4.75 * 25.4, 2.2 * 25.4))
+        assert user.session.place.segment == 3
+        await user.press("f7")
+        await click_at(user, user.screen.query_one("#full-drawing", Drawing), (3.0 * 25.4, 0.25 * 25.4))
+        assert user.session.place.segment == 1
 
 
 async def test_a_click_on_the_number_of_a_finding_takes_it_in_hand():
-    async with operator() as one:
-        assert isinstance(one.screen, ContourScreen)
-        place = one.screen.entries[2].at
+    async with operator() as user:
+        assert isinstance(user.screen, ContourScreen)
+        place = user.screen.entries[2].at
         assert place is not None
-        await click_at(one, one.screen.query_one("#outline", Drawing), place)
-        assert one.screen.in_hand == 2
-        assert one.session.place.segment == 0
+        await click_at(user, user.screen.query_one("#outline", Drawing), place)
+        assert user.screen.in_hand == 2
+        assert user.session.place.segment == 0
 
 
 async def test_theme_and_characters_are_kept_in_the_settings():
-    async with operator() as one:
+    async with operator() as user:
         for action in ("light_or_dark", "next_characters"):
-            await one.app.run_action(action)
-        held = one.app.settings_file.held
+            await user.app.run_action(action)
+        held = user.app.settings_file.held
         assert (held.theme, held.characters) == ("light", "block")
-        assert one.app.theme == theme.LIGHT
+        assert user.app.theme == theme.LIGHT

@@ -30,38 +30,38 @@ def slot() -> Program:
     return replace(Program(), tools=(Tool(1, diameter=Number(0.5)),), blocks=(block,))
 
 
-async def advised(one: Operator) -> list[str]:
+async def advised(user: Operator) -> list[str]:
     """The texts of all findings once nothing more is looked for."""
     for _ in range(200):
-        table = one.session.lookahead_table
+        table = user.session.lookahead_table
         if table is not None and table.complete:
             break
-        await one.pilot.pause(QUIET / 10)
-    await one.settle()
-    assert isinstance(one.screen, ContourScreen)
-    return [entry.text for entry in one.screen.entries]
+        await user.pilot.pause(QUIET / 10)
+    await user.settle()
+    assert isinstance(user.screen, ContourScreen)
+    return [entry.text for entry in user.screen.entries]
 
 
 async def test_the_list_says_which_look_ahead_is_clean_and_enter_goes_to_it():
-    async with operator("notch", size=(132, 43)) as one:
-        found = await advised(one)
+    async with operator("notch", size=(132, 43)) as user:
+        found = await advised(user)
         assert "CAL 2 gouges. Enter look-ahead 3, which is clean." in found
-        await one.press("f10", *["down"] * found.index("CAL 2 gouges. Enter look-ahead 3, which is clean."), "enter")
-        assert (one.at, one.session.place.segment) == ("lookahead", 0)
-        assert one.prompt == "CAL 2 gouges. Enter look-ahead 3, which is clean."
-        await one.press("3", "enter")
-        assert not one.session.derived_block.errors
+        await user.press("f10", *["down"] * found.index("CAL 2 gouges. Enter look-ahead 3, which is clean."), "enter")
+        assert (user.at, user.session.place.segment) == ("lookahead", 0)
+        assert user.prompt == "CAL 2 gouges. Enter look-ahead 3, which is clean."
+        await user.press("3", "enter")
+        assert not user.session.derived_block.errors
 
 
 async def test_the_largest_tool_that_fits_is_told_in_the_list_and_on_tool():
-    async with operator(slot()) as one:
+    async with operator(slot()) as user:
         fits = "Tool too big; the largest that does not gouge: 0.3318, with look-ahead 1."
-        found = await advised(one)
+        found = await advised(user)
         gouges = [text for text in found if text.startswith("GOUGE")]
         assert found[: len(gouges) + 1] == [*gouges, fits]
-        assert "none is clean, F10 says why" in str(one.screen.query_one("#strip").render())
-        await one.press("tab")
-        assert (one.at, one.prompt) == ("tool", fits)
+        assert "none is clean, F10 says why" in str(user.screen.query_one("#strip").render())
+        await user.press("tab")
+        assert (user.at, user.prompt) == ("tool", fits)
 
 
 async def test_a_key_ends_the_search_for_what_would_help(monkeypatch):
@@ -73,11 +73,11 @@ async def test_a_key_ends_the_search_for_what_would_help(monkeypatch):
         yield replace(table, complete=True)
 
     monkeypatch.setattr(app_module, "advised", searching)
-    async with operator(slot()) as one:
+    async with operator(slot()) as user:
         while not searches:
-            await one.pilot.pause(QUIET / 10)
-        await one.press("tab", "2")
+            await user.pilot.pause(QUIET / 10)
+        await user.press("tab", "2")
         assert not searches[0]()
         go.set()
-        await one.pilot.pause(QUIET / 10)
-        assert not one.session.lookahead_table.complete
+        await user.pilot.pause(QUIET / 10)
+        assert not user.session.lookahead_table.complete

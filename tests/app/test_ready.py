@@ -23,11 +23,11 @@ def program(name: str, lookahead: int, path: PathChoice = PathChoice.CONTROL) ->
     return replace(made, blocks=blocks, parameters=replace(made.parameters, path=path))
 
 
-async def said(one: Operator, widget: str) -> str:
+async def said(user: Operator, widget: str) -> str:
     """What a part of the screen says once everything is worked out."""
-    await one.app.workers.wait_for_complete()
-    await one.settle()
-    return str(one.screen.query_one(widget, Static).content)
+    await user.app.workers.wait_for_complete()
+    await user.settle()
+    return str(user.screen.query_one(widget, Static).content)
 
 
 @pytest.mark.parametrize(
@@ -42,18 +42,18 @@ async def said(one: Operator, widget: str) -> str:
 async def test_ready_is_said_with_the_segments_that_the_look_ahead_deletes(
     name: str, lookahead: int, path: PathChoice, deleted: str
 ) -> None:
-    async with operator(program(name, lookahead, path)) as one:
-        one.app.action_post()
-        await one.settle()
-        shown = await said(one, "#post-findings")
+    async with operator(program(name, lookahead, path)) as user:
+        user.app.action_post()
+        await user.settle()
+        shown = await said(user, "#post-findings")
         assert "Ready to post." in shown
         assert [line[line.index("DELETED") :] for line in shown.splitlines() if "DELETED" in line] == (
             [f"DELETED block 1 segments {deleted}"] if deleted else []
         )
-        await one.press("f8")
-        one.app.action_sheet()
-        await one.settle()
-        sheet = await said(one, "#sheet-text")
+        await user.press("f8")
+        user.app.action_sheet()
+        await user.settle()
+        sheet = await said(user, "#sheet-text")
         numbers = {"9": "SEGMENT 9", "2-4": "SEGMENTS 2, 3, 4"}
         top = [line for line in sheet.split("TOOLS")[0].splitlines() if "DELETED" in line]
         assert top == ([f"  ! Block 1: DELETED BY THE LOOK-AHEAD: {numbers[deleted]}"] if deleted else [])

@@ -63,67 +63,67 @@ def test_an_open_contour_and_one_half_typed_ask_nothing() -> None:
 
 
 async def test_the_form_asks_once() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as one:
-        assert one.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
-        await one.press("down", "up")
-        assert "INCH or MM?" not in one.prompt
-        await one.press("ctrl+z")
-        assert "INCH or MM?" not in one.prompt
+    async with operator(plate(4, 0.9, 0.5)) as user:
+        assert user.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
+        await user.press("down", "up")
+        assert "INCH or MM?" not in user.prompt
+        await user.press("ctrl+z")
+        assert "INCH or MM?" not in user.prompt
 
 
 async def test_posting_asks_once_and_goes_on() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as one:
-        one.app.action_post()
-        await one.settle()
-        asked = one.app.screen
+    async with operator(plate(4, 0.9, 0.5)) as user:
+        user.app.action_post()
+        await user.settle()
+        asked = user.app.screen
         assert isinstance(asked, Question)
         assert asked.lines == (f"INCH or MM? {LARGE}",)
-        await one.pilot.press("i")
-        await one.settle()
-        assert isinstance(one.app.screen, PostScreen)
-        await one.press("escape")
-        one.app.action_post()
-        await one.settle()
-        assert isinstance(one.app.screen, PostScreen)
+        await user.pilot.press("i")
+        await user.settle()
+        assert isinstance(user.app.screen, PostScreen)
+        await user.press("escape")
+        user.app.action_post()
+        await user.settle()
+        assert isinstance(user.app.screen, PostScreen)
 
 
 async def test_the_other_unit_leads_to_where_it_is_changed() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as one:
-        one.app.action_post()
-        await one.settle()
-        await one.pilot.press("m")
-        await one.settle()
-        assert isinstance(one.app.screen, ParametersScreen)
+    async with operator(plate(4, 0.9, 0.5)) as user:
+        user.app.action_post()
+        await user.settle()
+        await user.pilot.press("m")
+        await user.settle()
+        assert isinstance(user.app.screen, ParametersScreen)
 
 
 async def test_going_back_asks_again() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as one:
+    async with operator(plate(4, 0.9, 0.5)) as user:
         for _ in range(2):
-            one.app.action_post()
-            await one.settle()
-            assert isinstance(one.app.screen, Question)
-            await one.pilot.press("escape")
-            await one.settle()
+            user.app.action_post()
+            await user.settle()
+            assert isinstance(user.app.screen, Question)
+            await user.pilot.press("escape")
+            await user.settle()
 
 
 async def test_a_usual_part_is_posted_without_a_question() -> None:
-    async with operator(plate(4, 3, 0.5)) as one:
-        one.app.action_post()
-        await one.settle()
-        assert isinstance(one.app.screen, PostScreen)
+    async with operator(plate(4, 3, 0.5)) as user:
+        user.app.action_post()
+        await user.settle()
+        assert isinstance(user.app.screen, PostScreen)
 
 
 @pytest.mark.parametrize(("unit", "word"), [(Unit.IN, "I N C H"), (Unit.MM, "M M")])
 async def test_the_unit_stands_large_where_a_program_begins_and_where_it_is_posted(unit: Unit, word: str) -> None:
-    async with operator(Program(unit=unit, blocks=(Block(),))) as one:
-        units = one.screen.query_one("#units", Label)
+    async with operator(Program(unit=unit, blocks=(Block(),))) as user:
+        units = user.screen.query_one("#units", Label)
         assert word in str(units.content)
         assert units.has_class("-new")
-    async with operator(plate(40, 30, 5, unit)) as one:
-        assert word not in str(one.screen.query_one("#units", Label).content)
-        one.app.action_post()
-        await one.settle()
-        assert str(one.screen.query_one(".head-unit", Label).content) == word
+    async with operator(plate(40, 30, 5, unit)) as user:
+        assert word not in str(user.screen.query_one("#units", Label).content)
+        user.app.action_post()
+        await user.settle()
+        assert str(user.screen.query_one(".head-unit", Label).content) == word
 
 
 def test_the_command_asks_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -141,12 +141,12 @@ def test_a_refusal_names_its_block_and_the_largest_tool(capsys: pytest.CaptureFi
 
 
 async def test_the_post_screen_names_the_lookahead_that_is_clean() -> None:
-    async with operator("notch") as one:
-        one.app.action_post()
-        await one.settle()
-        await one.app.workers.wait_for_complete()
-        await one.settle()
-        assert f"Block 1: {GOUGED}" in str(one.screen.query_one("#post-findings", Static).content)
+    async with operator("notch") as user:
+        user.app.action_post()
+        await user.settle()
+        await user.app.workers.wait_for_complete()
+        await user.settle()
+        assert f"Block 1: {GOUGED}" in str(user.screen.query_one("#post-findings", Static).content)
 
 
 def test_the_sheet_names_the_lookahead_that_is_clean_and_asks_for_the_unit() -> None:

@@ -68,14 +68,14 @@ def typed_out(case: dict[str, Any]) -> dict[str, Any]:
 async def digits(program: Program, keys: int) -> list[float]:
     """Processor's milliseconds of a digit in Y END of the last segment."""
     costs = []
-    async with operator(program) as one:
-        await one.press("ctrl+end", "tab", "tab", "tab", "end")
+    async with operator(program) as user:
+        await user.press("ctrl+end", "tab", "tab", "tab", "end")
         for number in range(keys):
-            await one.settle()
+            await user.settle()
             begun = time.process_time()
-            await one.press(str(number % 10))
+            await user.press(str(number % 10))
             costs.append(1000.0 * (time.process_time() - begun))
-            await one.press("backspace")
+            await user.press("backspace")
     return costs
 
 

@@ -72,9 +72,9 @@ class Proof(Operator):
         return [str(listed.get_option_at_index(row).prompt) for row in range(listed.option_count)]
 
 
-def drawn(one: Proof, name: str) -> set[Style]:
+def drawn(user: Proof, name: str) -> set[Style]:
     """The styles in a drawing as it is shown."""
-    picture = one.proof.query_one(f"#{name}", Drawing).drawn
+    picture = user.proof.query_one(f"#{name}", Drawing).drawn
     assert picture is not None
     return {Style(number) for number in picture.picture.styles.ravel().tolist()}
 
@@ -97,20 +97,20 @@ async def at_proof(
     service.stop()
 
 
-async def with_tool(one: Proof, text: str = "1=.25") -> None:
-    await one.press("t")
-    await one.press(*text, "enter")
-    await one.settle()
+async def with_tool(user: Proof, text: str = "1=.25") -> None:
+    await user.press("t")
+    await user.press(*text, "enter")
+    await user.settle()
 
 
 async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_typed(tmp_path):
-    async with at_proof(tmp_path) as one:
-        assert "alarms at line 3" in one.outcome
-        await with_tool(one)
-        assert "gouges by 0.1250" in one.outcome
-        assert "1=0.25" in str(one.proof.query_one("#proof-tools", Label).content)
-        await one.press(">")
-        assert "gouges by 0.1255" in one.outcome
+    async with at_proof(tmp_path) as user:
+        assert "alarms at line 3" in user.outcome
+        await with_tool(user)
+        assert "gouges by 0.1250" in user.outcome
+        assert "1=0.25" in str(user.proof.query_one("#proof-tools", Label).content)
+        await user.press(">")
+        assert "gouges by 0.1255" in user.outcome
 
 
 async def test_the_largest_tool_that_fits_stands_among_the_findings(tmp_path):
@@ -119,156 +119,156 @@ async def test_the_largest_tool_that_fits_stands_among_the_findings(tmp_path):
         b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\nX2.\nY0.\nX-.5\nG40 X-1.\n"
     )
     said = "Tool 1 is too big; the largest that does not gouge: 0.3999."
-    async with at_proof(tmp_path, slot) as one:
-        await with_tool(one, "1=.5")
-        fault, fits = one.findings()[-2:]
+    async with at_proof(tmp_path, slot) as user:
+        await with_tool(user, "1=.5")
+        fault, fits = user.findings()[-2:]
         assert fault.startswith("✖ 9: The cutter does not fit")
         assert fits == f"i 9: {said}"
-        await with_tool(one, "1=.3999")
-        assert not any("too big" in finding for finding in one.findings())
+        await with_tool(user, "1=.3999")
+        assert not any("too big" in finding for finding in user.findings())
 
 
 async def test_pages_of_findings_that_have_no_room_are_no_step(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await one.pilot.resize_terminal(20, 5)
-        await one.press("tab")
-        await with_tool(one)
-        await one.press("pagedown", "pageup")
-        assert "gouges by 0.1250" in one.outcome
+    async with at_proof(tmp_path) as user:
+        await user.pilot.resize_terminal(20, 5)
+        await user.press("tab")
+        await with_tool(user)
+        await user.press("pagedown", "pageup")
+        assert "gouges by 0.1250" in user.outcome
 
 
 async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
     """A dialog that closes gives the keys back to nobody there; EDIT brings the listing back."""
-    async with at_proof(tmp_path) as one:
-        listing = one.proof.query_one(Listing)
-        await one.press("enter", "f7")
+    async with at_proof(tmp_path) as user:
+        listing = user.proof.query_one(Listing)
+        await user.press("enter", "f7")
         assert listing.read_only
-        await with_tool(one)
-        await one.press("tab", "x", "down")
-        assert (one.app.focused, one.line) == (None, 1)
-        await one.press("f7")
-        assert one.app.focused is listing
-        await one.press("f7", "f1", "'N1 ")
+        await with_tool(user)
+        await user.press("tab", "x", "down")
+        assert (user.app.focused, user.line) == (None, 1)
+        await user.press("f7")
+        assert user.app.focused is listing
+        await user.press("f7", "f1", "'N1 ")
         assert listing.document.get_line(0).startswith("N1 G20")
         assert listing.region
 
 
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    async with at_proof(tmp_path) as one:
+    async with at_proof(tmp_path) as user:
         (tmp_path / "a.nc").write_bytes(PROGRAM)
-        await one.press("f8")
-        assert isinstance(one.app.screen, HomeScreen)
-        assert one.app.screen.chosen.path == tmp_path / "p.nc"
-        await one.press("escape", "ctrl+s", "'new", "enter")
+        await user.press("f8")
+        assert isinstance(user.app.screen, HomeScreen)
+        assert user.app.screen.chosen.path == tmp_path / "p.nc"
+        await user.press("escape", "ctrl+s", "'new", "enter")
         assert [file.suffix for file in tmp_path.glob("new*")] == [".toml"]
-        assert not one.app.document.unsaved
+        assert not user.app.document.unsaved
 
 
 async def test_home_over_an_nc_text_shows_its_folder(tmp_path, monkeypatch):
     monkeypatch.chdir("/")
-    async with at_proof(tmp_path) as one:
-        await one.press("ctrl+o")
-        assert isinstance(one.app.screen, HomeScreen)
-        assert one.app.screen.folder == tmp_path
+    async with at_proof(tmp_path) as user:
+        await user.press("ctrl+o")
+        assert isinstance(user.app.screen, HomeScreen)
+        assert user.app.screen.folder == tmp_path
 
 
 async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
-        lines = [int(text.split()[1].rstrip(":")) for text in one.findings()]
-        await one.press("n")
-        assert one.line == lines[0]
-        assert one.findings()[0].endswith(f"{lines[0]}: {one.prompt}")
-        await one.press("n", "p")
-        assert one.line == lines[0]
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        lines = [int(text.split()[1].rstrip(":")) for text in user.findings()]
+        await user.press("n")
+        assert user.line == lines[0]
+        assert user.findings()[0].endswith(f"{lines[0]}: {user.prompt}")
+        await user.press("n", "p")
+        assert user.line == lines[0]
 
 
 async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await one.press("x", "y")
-        assert not one.proof.document.unsaved
-        await one.press("enter", "x")
-        assert not one.proof.document.unsaved
-        await one.press("down")
-        assert one.proof.document.text.text(0) == "xG20 G17 F10"
-        await one.press("ctrl+z")
-        assert one.proof.document.text.data == PROGRAM
-        await one.press("ctrl+y", "escape", "ctrl+s")
+    async with at_proof(tmp_path) as user:
+        await user.press("x", "y")
+        assert not user.proof.document.unsaved
+        await user.press("enter", "x")
+        assert not user.proof.document.unsaved
+        await user.press("down")
+        assert user.proof.document.text.text(0) == "xG20 G17 F10"
+        await user.press("ctrl+z")
+        assert user.proof.document.text.data == PROGRAM
+        await user.press("ctrl+y", "escape", "ctrl+s")
         assert (tmp_path / "p.nc").read_bytes() == b"x" + PROGRAM
 
 
 async def test_an_edited_line_is_on_the_disk_when_the_cursor_has_left_it(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await one.press("enter", "x", "down")
+    async with at_proof(tmp_path) as user:
+        await user.press("enter", "x", "down")
         assert (tmp_path / ".p.nc.cutcomp-journal").exists()
-        await one.press("escape", "f8")
-        assert isinstance(one.app.screen, Question)
-        await one.press("d")
-        await one.settle()
-        assert not isinstance(one.app.screen, ProofScreen)
+        await user.press("escape", "f8")
+        assert isinstance(user.app.screen, Question)
+        await user.press("d")
+        await user.settle()
+        assert not isinstance(user.app.screen, ProofScreen)
         assert (tmp_path / "p.nc").read_bytes() == PROGRAM
         assert not (tmp_path / ".p.nc.cutcomp-journal").exists()
 
 
 async def test_the_gravest_finding_is_in_view_until_the_cursor_stands_on_another(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
-        listed = one.proof.query_one("#proof-findings", OptionList)
-        lines = [finding.line for finding in one.proof.result_findings]
-        weights = [finding.severity for finding in one.proof.result_findings]
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        listed = user.proof.query_one("#proof-findings", OptionList)
+        lines = [finding.line for finding in user.proof.result_findings]
+        weights = [finding.severity for finding in user.proof.result_findings]
         assert weights[0] is not Severity.ERROR
         assert listed.highlighted == weights.index(Severity.ERROR)
-        await one.press("n", ">")
-        await one.settle()
-        assert one.line == lines[listed.highlighted]
+        await user.press("n", ">")
+        await user.settle()
+        assert user.line == lines[listed.highlighted]
 
 
 async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
-    async with at_proof(tmp_path) as one:
-        assert one.proof.question.control == "linuxcnc"
-        await one.press("c", "home", "enter")
-        await one.settle()
-        chosen = one.proof.question.control
-        assert chosen == one.app.settings.control != "linuxcnc"
-        text = one.proof.document.text
+    async with at_proof(tmp_path) as user:
+        assert user.proof.question.control == "linuxcnc"
+        await user.press("c", "home", "enter")
+        await user.settle()
+        chosen = user.proof.question.control
+        assert chosen == user.app.settings.control != "linuxcnc"
+        text = user.proof.document.text
     assert likely_control(text, chosen) == chosen
     assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
     assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
 
 
 async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await one.press("c", "h", "h", "enter")
-        await one.settle()
-        assert one.proof.question.control == "haas:a"
-        await one.press("c", "t", "x", "enter")
-        await one.settle()
-        assert one.proof.question.control == "threeblock"
+    async with at_proof(tmp_path) as user:
+        await user.press("c", "h", "h", "enter")
+        await user.settle()
+        assert user.proof.question.control == "haas:a"
+        await user.press("c", "t", "x", "enter")
+        await user.settle()
+        assert user.proof.question.control == "threeblock"
 
 
 async def test_a_program_comes_back_with_the_tools_it_was_given_the_last_time(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
-        await with_tool(one, "2=6mm")
-        known = one.app.settings.tools_of(tmp_path / "p.nc")
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await with_tool(user, "2=6mm")
+        known = user.app.settings.tools_of(tmp_path / "p.nc")
         assert known == "1=0.25in 2=0.23622047244094488in"
-        await one.press("f8")
-        one.app.open_file(tmp_path / "p.nc")
-        await one.settle()
-        assert one.proof.question.tools.tools == read_tools(known).tools
-        assert one.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
-        assert "the last time" in one.prompt
+        await user.press("f8")
+        user.app.open_file(tmp_path / "p.nc")
+        await user.settle()
+        assert user.proof.question.tools.tools == read_tools(known).tools
+        assert user.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
+        assert "the last time" in user.prompt
     assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x").tools == {3: CutterTool(3, -0.5, unit=Unit.IN)}
 
 
 async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
-        await one.press("v")
-        assert isinstance(one.app.screen, CompareControls)
-        await one.settle()
-        rows = one.app.screen.query_one("#compared", OptionList)
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await user.press("v")
+        assert isinstance(user.app.screen, CompareControls)
+        await user.settle()
+        rows = user.app.screen.query_one("#compared", OptionList)
         assert rows.option_count >= 8
         assert rows.get_option_at_index(0).id == "linuxcnc"
         words = {option.id: str(option.prompt) for option in rows.options}
@@ -276,78 +276,78 @@ async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
         assert "Write T and the number." in words["threeblock"]
         assert not any("On the command line" in each for each in words.values())
         taken = rows.get_option_at_index(1).id
-        await one.press("down", "enter")
-        await one.settle()
-        assert one.proof.question.control == taken
+        await user.press("down", "enter")
+        await user.settle()
+        assert user.proof.question.control == taken
 
 
-async def dot(one: Proof, control: str) -> None:
+async def dot(user: Proof, control: str) -> None:
     """Draw the path of a control dotted, by the list of V."""
-    await one.press("v")
-    await one.settle()
-    rows = one.app.screen.query_one("#compared", OptionList)
+    await user.press("v")
+    await user.settle()
+    rows = user.app.screen.query_one("#compared", OptionList)
     rows.highlighted = rows.get_option_index(control)
-    await one.press("space")
-    await one.settle()
+    await user.press("space")
+    await user.settle()
 
 
 @pytest.mark.parametrize("size", [(80, 24), (200, 60)])
 async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
-    async with at_proof(tmp_path, size=size) as one:
-        await with_tool(one, "1=.75")
-        own = one.proof.result
-        await dot(one, "fanuc:a")
-        assert one.proof.result is own, "its own run is not made again"
-        assert one.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
-        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
-        assert Style.UNTAKEN in drawn(one, "proof-drawing")
-        second = one.proof.query_one("#proof-dotted", Drawing)
+    async with at_proof(tmp_path, size=size) as user:
+        await with_tool(user, "1=.75")
+        own = user.proof.result
+        await dot(user, "fanuc:a")
+        assert user.proof.result is own, "its own run is not made again"
+        assert user.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
+        assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
+        assert Style.UNTAKEN in drawn(user, "proof-drawing")
+        second = user.proof.query_one("#proof-dotted", Drawing)
         assert bool(second.region) == (size == (200, 60))
         if second.region:
-            assert Style.UNTAKEN not in drawn(one, "proof-dotted")
+            assert Style.UNTAKEN not in drawn(user, "proof-dotted")
             assert second.heading == "fanuc:a: gouges by 0.3750 at line 6"
-        await one.press("b")
-        await one.settle()
-        assert one.proof.result is own
-        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc"
-        assert Style.UNTAKEN not in drawn(one, "proof-drawing")
-        assert not one.proof.query_one("#proof-dotted", Drawing).region
+        await user.press("b")
+        await user.settle()
+        assert user.proof.result is own
+        assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
+        assert Style.UNTAKEN not in drawn(user, "proof-drawing")
+        assert not user.proof.query_one("#proof-dotted", Drawing).region
 
 
 async def test_the_dotted_path_follows_text_tool_and_choice(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one, "1=.75")
-        await dot(one, "fanuc:a")
+    async with at_proof(tmp_path) as user:
+        await with_tool(user, "1=.75")
+        await dot(user, "fanuc:a")
 
         def ends() -> tuple[str, list[float]]:
-            assert one.proof.dotted is not None
-            other = one.proof.dotted.result
+            assert user.proof.dotted is not None
+            other = user.proof.dotted.result
             return other.question.control, other.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
 
         assert ends() == ("fanuc:a", [85.725, 76.2])
-        await with_tool(one, "1=.25")
+        await with_tool(user, "1=.25")
         assert ends() == ("fanuc:a", [79.375, 76.2])
         for _ in range(4):
-            await one.press("down")
-        await one.press("enter", "end", "backspace", "5", "escape")
-        await one.settle()
+            await user.press("down")
+        await user.press("enter", "end", "backspace", "5", "escape")
+        await user.settle()
         assert ends() == ("fanuc:a", [79.375, 127.0])
-        await dot(one, "haas:a")
+        await dot(user, "haas:a")
         assert ends()[0] == "haas:a"
-        one.proof.query_one(Listing).focus()
-        await dot(one, "linuxcnc")
-        assert "already" in one.prompt
-        await one.press("c")
-        one.app.screen.query_one("#answers", OptionList).highlighted = 0
-        await one.press("enter")
-        await one.settle()
-        assert one.app._works == ()
+        user.proof.query_one(Listing).focus()
+        await dot(user, "linuxcnc")
+        assert "already" in user.prompt
+        await user.press("c")
+        user.app.screen.query_one("#answers", OptionList).highlighted = 0
+        await user.press("enter")
+        await user.settle()
+        assert user.app._works == ()
 
 
 async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict(tmp_path, monkeypatch):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one, "1=.75")
-        before, begun = one.outcome, Event()
+    async with at_proof(tmp_path) as user:
+        await with_tool(user, "1=.75")
+        before, begun = user.outcome, Event()
 
         def endless(*asked: Any) -> RanDotted:
             begun.set()
@@ -357,48 +357,48 @@ async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict
 
         monkeypatch.setattr("app.nc_proof.screen.run_dotted", endless)
         monkeypatch.setattr(Work, "stoppable", True)
-        await one.press("v")
-        await one.settle()
+        await user.press("v")
+        await user.settle()
         # nobody waits for what does not end
-        await one.pilot.press("down", "space")
+        await user.pilot.press("down", "space")
         while not begun.is_set():
-            await one.pilot.pause(0.02)
-        await one.pilot.press("escape")
-        await one.settle()
-        assert one.outcome == before
-        assert "Stopped" in one.prompt
-        assert str(one.proof.query_one("#proof-control", Label).content) == "linuxcnc"
-        assert one.app._works == ()
+            await user.pilot.pause(0.02)
+        await user.pilot.press("escape")
+        await user.settle()
+        assert user.outcome == before
+        assert "Stopped" in user.prompt
+        assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
+        assert user.app._works == ()
 
 
 async def test_a_control_of_another_language_has_no_path_to_draw(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
-        await dot(one, "klartext")
-        assert isinstance(one.app.screen, CompareControls)
-        assert "another language" in str(one.app.screen.query_one("#compare-wait", Static).content)
-        await one.press("escape", "b")
-        assert "draws its path dotted" in one.prompt
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await dot(user, "klartext")
+        assert isinstance(user.app.screen, CompareControls)
+        assert "another language" in str(user.app.screen.query_one("#compare-wait", Static).content)
+        await user.press("escape", "b")
+        assert "draws its path dotted" in user.prompt
 
 
 async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp_path):
     text = b"(BRACKET 4417)\nG20 G17 F10\nT2 M6\nG1 X0 Y-1\nG42 D5 X1 Y1\nX3\nY3\nG40 X0\nM2\n"
-    async with at_proof(tmp_path, text) as one:
-        assert first_tool(one.proof.document.text) == 2
-        await with_tool(one, ".25")
-        assert one.proof.question.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
-        await one.press("t")
-        assert "5=.5" in str(one.app.screen.query_one("#loss", Static).content)
-        await one.press(*"x", "enter")
-        assert "type a number" in str(one.app.screen.query_one("#phrase-trouble", Static).content)
-        await one.press("backspace", *".25", "enter")
-        await one.settle()
-        assert one.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
-        assert one.prompt == "Tool 5: diameter 0.25 IN."
-        await one.press("t", *"5=", "enter")
-        await one.settle()
-        assert list(one.proof.question.tools.tools) == [2]
-        assert one.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
+    async with at_proof(tmp_path, text) as user:
+        assert first_tool(user.proof.document.text) == 2
+        await with_tool(user, ".25")
+        assert user.proof.question.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
+        await user.press("t")
+        assert "5=.5" in str(user.app.screen.query_one("#loss", Static).content)
+        await user.press(*"x", "enter")
+        assert "type a number" in str(user.app.screen.query_one("#phrase-trouble", Static).content)
+        await user.press("backspace", *".25", "enter")
+        await user.settle()
+        assert user.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
+        assert user.prompt == "Tool 5: diameter 0.25 IN."
+        await user.press("t", *"5=", "enter")
+        await user.settle()
+        assert list(user.proof.question.tools.tools) == [2]
+        assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
 async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
@@ -406,62 +406,62 @@ async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
         b'0 BEGIN PGM A MM\n1 TOOL CALL "Rough D10" Z S3000 F500\n2 L X-20 Y-20 Z-5 R0 FMAX\n'
         b"3 L X+0 Y+0 RL F300\n4 L Y+50\n5 L X+50\n6 L X+70 Y+50 R0\n7 END PGM A MM\n"
     )
-    async with at_proof(tmp_path, text) as one:
-        await with_tool(one, "10")
-        assert one.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
-        assert one.prompt == "Tool ROUGH D10: diameter 10 MM."
-        assert one.proof.result.answer.stopped_at is None
-        known = one.app.settings.tools_of(tmp_path / "p.nc")
-        assert read_tools(known).tools == one.proof.question.tools.tools
-        await with_tool(one, "rough d10=12")
-        assert one.proof.question.tools.get("ROUGH D10").diameter == 12.0
-        await with_tool(one, "Rough D10=")
-        assert not one.proof.question.tools.tools
-        assert one.proof.result.answer.missing == "ROUGH D10"
+    async with at_proof(tmp_path, text) as user:
+        await with_tool(user, "10")
+        assert user.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
+        assert user.prompt == "Tool ROUGH D10: diameter 10 MM."
+        assert user.proof.result.answer.stopped_at is None
+        known = user.app.settings.tools_of(tmp_path / "p.nc")
+        assert read_tools(known).tools == user.proof.question.tools.tools
+        await with_tool(user, "rough d10=12")
+        assert user.proof.question.tools.get("ROUGH D10").diameter == 12.0
+        await with_tool(user, "Rough D10=")
+        assert not user.proof.question.tools.tools
+        assert user.proof.result.answer.missing == "ROUGH D10"
 
 
 async def test_a_line_that_is_being_typed_is_not_saved_and_says_so(tmp_path):
-    async with at_proof(tmp_path) as one:
-        title, name = one.proof.query_one("#proof-mode", Label), one.proof.query_one("#proof-file", Label)
-        await one.press("n", "enter")
+    async with at_proof(tmp_path) as user:
+        title, name = user.proof.query_one("#proof-mode", Label), user.proof.query_one("#proof-file", Label)
+        await user.press("n", "enter")
         assert (str(title.content), str(name.content)) == ("NC EDIT", "p.nc")
-        assert one.prompt.startswith("Editing.")
-        await one.press("x")
+        assert user.prompt.startswith("Editing.")
+        await user.press("x")
         assert str(name.content) == "p.nc *"
-        assert "not saved" in str(one.proof.query_one(Status).query_one("#undo", Label).content)
-        await one.press("backspace")
+        assert "not saved" in str(user.proof.query_one(Status).query_one("#undo", Label).content)
+        await user.press("backspace")
         assert str(name.content) == "p.nc"
-        await one.press("escape")
+        await user.press("escape")
         assert str(title.content) == "NC PROOF"
 
 
 async def test_a_diameter_is_shown_with_its_unit_where_the_program_has_another(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await with_tool(one, "1=.25")
-        tools = one.proof.query_one("#proof-tools", Label)
+    async with at_proof(tmp_path) as user:
+        await with_tool(user, "1=.25")
+        tools = user.proof.query_one("#proof-tools", Label)
         assert str(tools.content) == "tools 1=0.25"
-        await one.press("enter", "home", "right", "right", "backspace", "1", "down")
-        await one.settle()
-        assert one.proof.unit is Unit.MM
+        await user.press("enter", "home", "right", "right", "backspace", "1", "down")
+        await user.settle()
+        assert user.proof.unit is Unit.MM
         assert str(tools.content) == "tools 1=0.25in"
 
 
 async def test_another_name_without_an_ending_has_that_of_the_file(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    async with at_proof(tmp_path) as one:
-        await one.app.run_action("app.save_as")
-        await one.settle()
-        one.app.screen.query_one("#entry", Input).value = "other"
-        await one.press("enter")
-        await one.settle()
+    async with at_proof(tmp_path) as user:
+        await user.app.run_action("app.save_as")
+        await user.settle()
+        user.app.screen.query_one("#entry", Input).value = "other"
+        await user.press("enter")
+        await user.settle()
         assert (tmp_path / "other.nc").read_bytes() == PROGRAM
 
 
 async def test_esc_on_home_leads_to_no_empty_form(tmp_path):
-    async with at_proof(tmp_path) as one:
-        await one.press("escape", "escape")
-        assert isinstance(one.app.screen, HomeScreen)
-        assert "F2 and F3 start a new part" in one.prompt
+    async with at_proof(tmp_path) as user:
+        await user.press("escape", "escape")
+        assert isinstance(user.app.screen, HomeScreen)
+        assert "F2 and F3 start a new part" in user.prompt
 
 
 async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch):
@@ -471,19 +471,19 @@ async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch
         assert go_on.wait(20.0)
         return run(question, progress)
 
-    async with at_proof(tmp_path) as one:
-        await with_tool(one)
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
         monkeypatch.setattr("app.nc_proof.screen.run", late)
-        await one.pilot.press("enter", "end", "(", "a", ")", "ctrl+s")
-        while b"(a)" not in (tmp_path / "p.nc").read_bytes() or one.proof.document.unsaved:
-            await one.pilot.pause(0.02)
-        assert one.outcome.endswith("...")
+        await user.pilot.press("enter", "end", "(", "a", ")", "ctrl+s")
+        while b"(a)" not in (tmp_path / "p.nc").read_bytes() or user.proof.document.unsaved:
+            await user.pilot.pause(0.02)
+        assert user.outcome.endswith("...")
         go_on.set()
-        await one.settle()
-        assert not one.outcome.endswith("...")
-        assert one.proof.result is not None
-        assert one.proof.result.question.text.text(0).endswith("(a)")
-        assert one.app._works == ()
+        await user.settle()
+        assert not user.outcome.endswith("...")
+        assert user.proof.result is not None
+        assert user.proof.result.question.text.text(0).endswith("(a)")
+        assert user.app._works == ()
 
 
 @pytest.mark.parametrize(
@@ -505,37 +505,37 @@ def test_a_diameter_that_cannot_be_read_is_a_sentence():
 async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_path):
     (tmp_path / "O0007.nc").write_text("O7\nG1 X5. F100.\nM99\n")
     asked = Asked("fanuc:a", ToolTable(), shop=False, unit=None)
-    async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", asked) as one:
-        assert "runs" in one.outcome
-        assert one.proof.result is not None
-        assert one.proof.result.proof.run.moves.points[-1, 0] == 5.0
+    async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", asked) as user:
+        assert "runs" in user.outcome
+        assert user.proof.result is not None
+        assert user.proof.result.proof.run.moves.points[-1, 0] == 5.0
 
 
 async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
-    async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as one:
-        status = one.proof.query_one(Status)
+    async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as user:
+        status = user.proof.query_one(Status)
         assert "Prog Units: MM" in str(status.query_one("#units", Label).content)
-        await one.press("question_mark")
-        on_help = one.app.screen.query_one(Status)
+        await user.press("question_mark")
+        on_help = user.app.screen.query_one(Status)
         assert "Prog Units: MM" in str(on_help.query_one("#units", Label).content)
-        await one.press("escape")
-        await one.press("enter", "x", "down", "escape")
-        await one.settle()
+        await user.press("escape")
+        await user.press("enter", "x", "down", "escape")
+        await user.settle()
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
-        await one.press("ctrl+z", "ctrl+y")
+        await user.press("ctrl+z", "ctrl+y")
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
-        await one.press("ctrl+z")
+        await user.press("ctrl+z")
         assert str(status.query_one("#undo", Label).content) == "saved   redo 1"
 
 
 async def test_the_line_with_the_cursor_stays_in_view_in_a_smaller_terminal(tmp_path):
-    async with at_proof(tmp_path, b"G21\n" + b"G0 X1\n" * 10 + b"M2\n") as one:
-        await one.press(*("down",) * 11)
-        listing = one.proof.query_one(Listing)
+    async with at_proof(tmp_path, b"G21\n" + b"G0 X1\n" * 10 + b"M2\n") as user:
+        await user.press(*("down",) * 11)
+        listing = user.proof.query_one(Listing)
         assert listing.scroll_y == 0
-        await one.pilot.resize_terminal(60, 20)
-        await one.settle()
-        assert listing.scroll_y <= one.line - 1 < listing.scroll_y + listing.scrollable_content_region.height
+        await user.pilot.resize_terminal(60, 20)
+        await user.settle()
+        assert listing.scroll_y <= user.line - 1 < listing.scroll_y + listing.scrollable_content_region.height
 
 
 async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_saved(tmp_path):
@@ -546,22 +546,22 @@ async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_sav
     text = opened.document.text
     died.keep(opened.document.edited(text.with_texts(["(LEFT)", *text.texts[1:]]), 0))
     died.stop()
-    async with at_proof(tmp_path) as one:
-        assert isinstance(one.app.screen, Question)
-        await one.press("r")
-        await one.settle()
-        assert len(one.app.proofs) == 1
-        assert one.proof.query_one(Listing).document.get_line(0) == "(LEFT)"
-        await one.press("ctrl+s")
-        await one.settle()
+    async with at_proof(tmp_path) as user:
+        assert isinstance(user.app.screen, Question)
+        await user.press("r")
+        await user.settle()
+        assert len(user.app.proofs) == 1
+        assert user.proof.query_one(Listing).document.get_line(0) == "(LEFT)"
+        await user.press("ctrl+s")
+        await user.settle()
         assert (tmp_path / "p.nc").read_bytes().startswith(b"(LEFT)\r\n")
-        await one.press("f8")
-        assert isinstance(one.app.screen, HomeScreen)
+        await user.press("f8")
+        assert isinstance(user.app.screen, HomeScreen)
 
 
 async def test_the_tool_dialog_says_what_the_program_says_of_the_diameter(tmp_path):
-    async with at_proof(tmp_path, b"G20 F10\n(TOOL 1 END MILL DIAMETER 0.5000)\nG42 D1 X1 Y1\nX3\nM2\n") as one:
-        await one.press("t")
-        lines = one.app.screen.query_one("#loss", Static)
+    async with at_proof(tmp_path, b"G20 F10\n(TOOL 1 END MILL DIAMETER 0.5000)\nG42 D1 X1 Y1\nX3\nM2\n") as user:
+        await user.press("t")
+        lines = user.app.screen.query_one("#loss", Static)
         assert "The comment in line 2 says diameter 0.5000." in str(lines.content)
-        await one.press("escape")
+        await user.press("escape")

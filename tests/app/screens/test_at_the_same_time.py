@@ -11,33 +11,33 @@ from tests.app.widget_pilot import operator
 
 
 async def test_a_result_that_comes_while_the_program_ends_is_passed_over(monkeypatch):
-    async with operator("notch") as one:
+    async with operator("notch") as user:
 
         def late(*arguments: Any) -> Any:
-            while one.app.is_running:
+            while user.app.is_running:
                 time.sleep(0.001)
             return derived(*arguments)
 
         monkeypatch.setattr(owner, "derived", late)
-        await one.pilot.press("tab", "tab", "tab", "tab", "5")
+        await user.pilot.press("tab", "tab", "tab", "tab", "5")
 
 
 async def test_the_list_of_segments_opens_on_the_segment_of_the_form_and_stays_there():
-    async with operator("pocket") as one:
-        await one.press(*["pagedown"] * 4)
+    async with operator("pocket") as user:
+        await user.press(*["pagedown"] * 4)
         places = []
-        one.screen.watch(one.app, "session", lambda session: places.append(session.place.segment))
-        await one.press("f9")
+        user.screen.watch(user.app, "session", lambda session: places.append(session.place.segment))
+        await user.press("f9")
         assert set(places) == {4}
-        await one.press("down")
-        assert one.session.place.segment == 5
+        await user.press("down")
+        assert user.session.place.segment == 5
 
 
 async def test_a_segment_deleted_in_the_list_leaves_the_cursor_there():
-    async with operator("pocket") as one:
-        await one.press("f9", *["down"] * 4)
-        await one.press("delete")
-        assert (one.session.place.segment, len(one.session.block.segments)) == (4, 10)
-        assert one.app.focused is one.screen.query_one("#segments")
-        await one.press("down")
-        assert one.session.place.segment == 5
+    async with operator("pocket") as user:
+        await user.press("f9", *["down"] * 4)
+        await user.press("delete")
+        assert (user.session.place.segment, len(user.session.block.segments)) == (4, 10)
+        assert user.app.focused is user.screen.query_one("#segments")
+        await user.press("down")
+        assert user.session.place.segment == 5

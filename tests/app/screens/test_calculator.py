@@ -14,83 +14,83 @@ def part() -> Program:
     return program_of(case_of(line(x_end=5, y_end=5)))
 
 
-async def at_x_end(one: Operator) -> None:
-    await one.press("pagedown", "tab")
-    assert one.at == "x_end"
+async def at_x_end(user: Operator) -> None:
+    await user.press("pagedown", "tab")
+    assert user.at == "x_end"
 
 
-def answers(one: Operator) -> list[str]:
-    options = one.app.screen.query_one("#answers", OptionList)
+def answers(user: Operator) -> list[str]:
+    options = user.app.screen.query_one("#answers", OptionList)
     return [" ".join(str(options.get_option_at_index(at).prompt).split()) for at in range(options.option_count)]
 
 
-def trouble(one: Operator) -> str:
-    return str(one.app.screen.query_one("#number-trouble", Static).render())
+def trouble(user: Operator) -> str:
+    return str(user.app.screen.query_one("#number-trouble", Static).render())
 
 
 async def test_a_point_on_a_bolt_circle_goes_into_x_end_and_y_end():
-    async with operator(part()) as one:
-        await at_x_end(one)
-        await one.press("equals_sign", *["down"] * 3, "enter")
-        await one.press("'10", "enter", "'20", "enter", "'2*25", "enter", "'6", "enter", "'0", "enter", "'2", "enter")
-        assert answers(one) == ["X 22.5", "Y 41.65063509"]
-        await one.press("enter")
-        assert (one.at, one.value("x_end"), one.session.history.undo_count) == ("x_end", "22.5", 0)
-        await one.press("enter")
-        assert one.session.block.segments[0].x_end == Number(22.5)
-        await one.press("equals_sign", *["down"] * 3, "enter")
-        typed = [each.value for each in one.app.screen.query(Input)]
+    async with operator(part()) as user:
+        await at_x_end(user)
+        await user.press("equals_sign", *["down"] * 3, "enter")
+        await user.press("'10", "enter", "'20", "enter", "'2*25", "enter", "'6", "enter", "'0", "enter", "'2", "enter")
+        assert answers(user) == ["X 22.5", "Y 41.65063509"]
+        await user.press("enter")
+        assert (user.at, user.value("x_end"), user.session.history.undo_count) == ("x_end", "22.5", 0)
+        await user.press("enter")
+        assert user.session.block.segments[0].x_end == Number(22.5)
+        await user.press("equals_sign", *["down"] * 3, "enter")
+        typed = [each.value for each in user.app.screen.query(Input)]
         assert typed == ["10", "20", "2*25", "6", "0", "2"]
-        await one.press(*["down"] * 6, "enter", "enter")
-        assert one.session.block.segments[0].y_end == Number(41.65063509)
+        await user.press(*["down"] * 6, "enter", "enter")
+        assert user.session.block.segments[0].y_end == Number(41.65063509)
 
 
 async def test_the_answer_that_fits_the_field_is_offered_first():
-    async with operator(part()) as one:
-        await at_x_end(one)
-        await one.press("tab", "equals_sign", *["down"] * 4, "enter")
-        await one.press("'0", "enter", "'0", "enter", "'30", "enter", "'10", "enter", "enter")
-        assert (one.at, one.value("y_end")) == ("y_end", "5")
-        assert one.app.shown is not one.session
+    async with operator(part()) as user:
+        await at_x_end(user)
+        await user.press("tab", "equals_sign", *["down"] * 4, "enter")
+        await user.press("'0", "enter", "'0", "enter", "'30", "enter", "'10", "enter", "enter")
+        assert (user.at, user.value("y_end")) == ("y_end", "5")
+        assert user.app.shown is not user.session
 
 
 async def test_an_angle_takes_the_angle_of_a_triangle_from_two_sides():
-    async with operator(part()) as one:
-        await at_x_end(one)
-        while one.at != "angle":
-            await one.press("tab")
-        await one.press("equals_sign", "enter", "'3", "enter", "'3", "enter")
-        assert answers(one) == ["ANGLE 45"]
-        await one.press("enter")
-        assert one.value("angle") == "45"
+    async with operator(part()) as user:
+        await at_x_end(user)
+        while user.at != "angle":
+            await user.press("tab")
+        await user.press("equals_sign", "enter", "'3", "enter", "'3", "enter")
+        assert answers(user) == ["ANGLE 45"]
+        await user.press("enter")
+        assert user.value("angle") == "45"
 
 
 async def test_what_is_wrong_is_said_below_and_escape_leaves_the_field_as_it_was():
-    async with operator(part()) as one:
-        await at_x_end(one)
-        await one.press("'1 1/", "equals_sign", *["down"] * 2, "enter")
-        assert trouble(one) == "X OF THE POINT is blank: enter it."
-        await one.press("'1", "enter", "'0", "enter", "'0", "enter", "'0", "enter", "'5", "enter")
-        assert trouble(one) == "The point lies inside the circle: no line from it is tangent."
-        await one.press("escape")
-        assert (one.at, one.value("x_end")) == ("x_end", "1 1/")
+    async with operator(part()) as user:
+        await at_x_end(user)
+        await user.press("'1 1/", "equals_sign", *["down"] * 2, "enter")
+        assert trouble(user) == "X OF THE POINT is blank: enter it."
+        await user.press("'1", "enter", "'0", "enter", "'0", "enter", "'0", "enter", "'5", "enter")
+        assert trouble(user) == "The point lies inside the circle: no line from it is tangent."
+        await user.press("escape")
+        assert (user.at, user.value("x_end")) == ("x_end", "1 1/")
 
 
 async def test_fields_that_take_no_length_have_no_calculator_and_a_text_takes_the_sign():
-    async with operator(part()) as one:
-        await one.press("equals_sign")
-        assert one.prompt == "The calculator works on fields that take a length or an angle."
-        await one.press("f5")
-        await one.press("delete", "'A", "equals_sign", "'B", "enter")
-        assert one.session.program.setup.name == "A=B"
+    async with operator(part()) as user:
+        await user.press("equals_sign")
+        assert user.prompt == "The calculator works on fields that take a length or an angle."
+        await user.press("f5")
+        await user.press("delete", "'A", "equals_sign", "'B", "enter")
+        assert user.session.program.setup.name == "A=B"
 
 
 async def test_the_palette_opens_it_too():
-    async with operator(part()) as one:
-        await at_x_end(one)
-        await one.press("ctrl+k")
-        await one.press(*"calculator")
-        await one.pilot.pause(0.5)
-        await one.press("enter")
-        await one.pilot.pause()
-        assert type(one.app.screen).__name__ == "ChooseLine"
+    async with operator(part()) as user:
+        await at_x_end(user)
+        await user.press("ctrl+k")
+        await user.press(*"calculator")
+        await user.pilot.pause(0.5)
+        await user.press("enter")
+        await user.pilot.pause()
+        assert type(user.app.screen).__name__ == "ChooseLine"

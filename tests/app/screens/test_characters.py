@@ -26,27 +26,27 @@ async def test_a_terminal_of_ascii_gets_ascii_on_every_screen(action):
 
 
 async def test_another_set_is_taken_up_at_once_where_it_is_chosen():
-    async with operator() as one:
-        await one.press("f7", "m")
-        assert one.screen.query_one("#full-drawing", Drawing).characters == "block"
+    async with operator() as user:
+        await user.press("f7", "m")
+        assert user.screen.query_one("#full-drawing", Drawing).characters == "block"
 
 
 @pytest.mark.parametrize("action", ["form", "draw", "lookahead", "program"])
 async def test_signs_change_with_the_characters_on_the_screen_in_front(action):
-    async with operator("pocket", size=(132, 43)) as one:
+    async with operator("pocket", size=(132, 43)) as user:
         if action != "form":
-            await one.app.run_action(f"app.{action}")
-            await one.settle()
-        assert _signs(one) & set("✖▲×✓")
+            await user.app.run_action(f"app.{action}")
+            await user.settle()
+        assert _signs(user) & set("✖▲×✓")
         for _ in range(2):
-            await one.app.run_action("app.next_characters")
-            await one.settle()
-        assert one.app.characters == "ascii"
-        assert not _signs(one)
+            await user.app.run_action("app.next_characters")
+            await user.settle()
+        assert user.app.characters == "ascii"
+        assert not _signs(user)
 
 
-def _signs(one: Operator) -> set[str]:
+def _signs(user: Operator) -> set[str]:
     """The signs on the screen that only the first set of characters has."""
-    shown = [widget for widget in one.screen.walk_children(Widget) if widget.display and not widget.children]
+    shown = [widget for widget in user.screen.walk_children(Widget) if widget.display and not widget.children]
     rows = [row for widget in shown for row in widget.render_lines(Region(0, 0, *widget.size))]
     return {sign for row in rows for sign in row.text} & set("✖▲×✓")

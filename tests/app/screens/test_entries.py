@@ -16,74 +16,74 @@ from tests.app.widget_pilot import operator
 
 
 async def test_a_number_out_of_range_stays_marked_and_forbids_posting():
-    async with operator() as one:
-        await one.press(*["down"] * 9, "'-5", "enter")
-        assert (one.at, one.value("speed"), one.tag("speed")) == ("speed", "-5", "ERR")
-        assert one.prompt == "SPEED (RPM) must be a whole number from 1 to 100000, not -5."
-        assert one.session.derived_block.errors
-        await one.press("'2400", "enter")
-        assert one.tag("speed") == ""
+    async with operator() as user:
+        await user.press(*["down"] * 9, "'-5", "enter")
+        assert (user.at, user.value("speed"), user.tag("speed")) == ("speed", "-5", "ERR")
+        assert user.prompt == "SPEED (RPM) must be a whole number from 1 to 100000, not -5."
+        assert user.session.derived_block.errors
+        await user.press("'2400", "enter")
+        assert user.tag("speed") == ""
 
 
 async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setup():
-    async with operator() as one:
-        await one.press("f6", "tab", "tab", "tab")
-        assert one.at == "speed@0"
+    async with operator() as user:
+        await user.press("f6", "tab", "tab", "tab")
+        assert user.at == "speed@0"
         for text in ("-5", "1x"):
-            await one.press(f"'{text}", "enter")
-            assert (one.at, one.app.focused.value) == ("speed@0", text)
-            assert text in one.prompt
-            await one.press("tab")
-            speed = next(each for each in one.screen.query(NumberField) if each.name == "speed@0")
-            assert speed.styles.color.hex == one.app.theme_variables["c-err"].upper()
-            use = str(one.screen.query_one("#tool-use", Static).content)
+            await user.press(f"'{text}", "enter")
+            assert (user.at, user.app.focused.value) == ("speed@0", text)
+            assert text in user.prompt
+            await user.press("tab")
+            speed = next(each for each in user.screen.query(NumberField) if each.name == "speed@0")
+            assert speed.styles.color.hex == user.app.theme_variables["c-err"].upper()
+            use = str(user.screen.query_one("#tool-use", Static).content)
             assert f"ERR SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
-            await one.press("shift+tab")
-        await one.press("'3000", "enter")
-        assert one.session.program.tools[0].speed == Number(3000.0)
+            await user.press("shift+tab")
+        await user.press("'3000", "enter")
+        assert user.session.program.tools[0].speed == Number(3000.0)
 
 
 async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_segments_it_is_about():
-    async with operator() as one:
-        await one.press("'7", "enter", "tab", "delete", "down", "delete", "enter")
-        assert one.session.block.segments[6].y_end is None
-        title = str(one.screen.query_one("#verdict").border_title)
+    async with operator() as user:
+        await user.press("'7", "enter", "tab", "delete", "down", "delete", "enter")
+        assert user.session.block.segments[6].y_end is None
+        title = str(user.screen.query_one("#verdict").border_title)
         assert "segments 1-6 only" in title
-        chips = str(one.screen.query_one("#chips").render())
+        chips = str(user.screen.query_one("#chips").render())
         assert "GOUGE" in chips
-        await one.press("f10")
-        assert isinstance(one.screen, ContourScreen)
+        await user.press("f10")
+        assert isinstance(user.screen, ContourScreen)
         assert "Segments 7 and 8 need 1 more value: XY ANGLE of 7, or an end (X END or Y END)." in [
-            entry.text for entry in one.screen.entries
+            entry.text for entry in user.screen.entries
         ]
 
 
 async def test_the_only_block_stays():
-    async with operator() as one:
-        await one.press("f8", "f1")
-        assert len(one.session.program.blocks) == 1
-        assert one.session.history.undo_count == 0
+    async with operator() as user:
+        await user.press("f8", "f1")
+        assert len(user.session.program.blocks) == 1
+        assert user.session.history.undo_count == 0
 
 
 async def test_pasted_text_takes_no_field_and_presses_no_key():
-    async with operator() as one:
-        await one.press("tab", "tab", "tab", "tab")
-        one.app.post_message(events.Paste("3.5\nf1\n7"))
-        await one.settle()
-        assert one.at == "x_start"
-        assert one.session.history.undo_count == 0
-        assert len(one.session.block.segments) == 11
+    async with operator() as user:
+        await user.press("tab", "tab", "tab", "tab")
+        user.app.post_message(events.Paste("3.5\nf1\n7"))
+        await user.settle()
+        assert user.at == "x_start"
+        assert user.session.history.undo_count == 0
+        assert len(user.session.block.segments) == 11
 
 
 @pytest.mark.parametrize("text", [" b ", "b\u2028", "\tb"])
 async def test_the_cursor_leaves_fields_whose_text_a_file_has_with_blanks_around_it(text: str):
     unread = f"[block.unread]\nfinish_tool = {json.dumps(text)}\nx_start = {json.dumps(text)}\n"
     start = loads(f'format = 1\nunits = "IN"\n[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "ON"\n{unread}', "part")
-    async with operator(start) as one:
-        await one.press(*["tab"] * 3)
-        assert one.at == "finish_tool"
-        await one.press("tab")
-        assert one.at == "x_start"
-        await one.press("shift+tab")
-        assert one.at == "finish_tool"
-        assert one.session.history.undo_count == 0
+    async with operator(start) as user:
+        await user.press(*["tab"] * 3)
+        assert user.at == "finish_tool"
+        await user.press("tab")
+        assert user.at == "x_start"
+        await user.press("shift+tab")
+        assert user.at == "finish_tool"
+        assert user.session.history.undo_count == 0

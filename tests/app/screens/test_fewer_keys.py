@@ -49,17 +49,17 @@ def key_presses(keys: tuple[str, ...]) -> list[str]:
     return presses
 
 
-async def type_keys(one: Operator, keys: tuple[str, ...]) -> int:
+async def type_keys(user: Operator, keys: tuple[str, ...]) -> int:
     presses = key_presses(keys)
-    await one.press(*presses)
+    await user.press(*presses)
     return len(presses)
 
 
 async def test_the_plate_takes_at_most_seventy_keys_and_runs_on_linuxcnc(tmp_path: Path):
-    async with operator(new_program()) as one:
-        assert one.at == "tool"
-        assert await type_keys(one, PLATE) <= 70
-        program = one.session.program
+    async with operator(new_program()) as user:
+        assert user.at == "tool"
+        assert await type_keys(user, PLATE) <= 70
+        program = user.session.program
     kinds = [type(segment) for segment in program.blocks[0].segments]
     assert kinds.count(BlendSegment) == 2
     assert kinds.count(ChamferSegment) == 1
@@ -84,93 +84,93 @@ async def test_the_plate_takes_at_most_seventy_keys_and_runs_on_linuxcnc(tmp_pat
 
 
 async def test_enter_leads_from_field_to_field_that_needs_an_answer():
-    async with operator(new_program()) as one:
-        path = [one.at]
+    async with operator(new_program()) as user:
+        path = [user.at]
         for keys in (("enter",), ("l", "enter"), ("'0", "enter"), ("'0", "enter"), ("'-.2", "enter")):
-            await type_keys(one, keys)
-            path.append(one.at)
+            await type_keys(user, keys)
+            path.append(user.at)
         assert path == ["tool", "cutter_comp", "x_start", "y_start", "z_bottom", "x_end"]
-        assert one.session.place.segment == 1
+        assert user.session.place.segment == 1
 
 
 async def test_enter_on_start_goes_back_to_what_is_missing():
-    async with operator(new_program()) as one:
-        await type_keys(one, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
-        assert (one.at, one.session.place.segment) == ("x_start", 0)
+    async with operator(new_program()) as user:
+        await type_keys(user, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
+        assert (user.at, user.session.place.segment) == ("x_start", 0)
 
 
 async def test_a_new_line_becomes_another_kind_by_its_letter():
-    async with operator(new_program()) as one:
-        await type_keys(one, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
-        assert "A ARC, B BLEND ARC, C CHAMFER" in one.prompt
-        await type_keys(one, ("a",))
-        assert (one.at, str(one.screen.query_one("#segment-kind").render())) == ("direction", "ARC")
-        assert len(one.session.block.segments) == 1
+    async with operator(new_program()) as user:
+        await type_keys(user, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
+        assert "A ARC, B BLEND ARC, C CHAMFER" in user.prompt
+        await type_keys(user, ("a",))
+        assert (user.at, str(user.screen.query_one("#segment-kind").render())) == ("direction", "ARC")
+        assert len(user.session.block.segments) == 1
 
 
 async def test_b_and_c_on_segment_put_a_corner_after_it():
-    async with operator() as one:
-        await one.press("'5", "enter", "c", "'1", "enter")
-        assert isinstance(one.session.block.segments[5], ChamferSegment)
+    async with operator() as user:
+        await user.press("'5", "enter", "c", "'1", "enter")
+        assert isinstance(user.session.block.segments[5], ChamferSegment)
 
 
 async def test_the_tags_say_where_a_number_comes_from():
-    async with operator(new_program()) as one:
-        assert (one.tag("speed"), one.tag("plunge_feed"), one.tag("coolant")) == ("TOOL", "TOOL", "TOOL")
-        await type_keys(one, (*PLATE[:15], "down"))
-        assert (one.tag("x_end"), one.tag("feed")) == ("SAME", "TOOL")
-        assert one.session.derived_block.solved.segments[0].values["x_end"] == Solved(0.0, Origin.SAME)
+    async with operator(new_program()) as user:
+        assert (user.tag("speed"), user.tag("plunge_feed"), user.tag("coolant")) == ("TOOL", "TOOL", "TOOL")
+        await type_keys(user, (*PLATE[:15], "down"))
+        assert (user.tag("x_end"), user.tag("feed")) == ("SAME", "TOOL")
+        assert user.session.derived_block.solved.segments[0].values["x_end"] == Solved(0.0, Origin.SAME)
 
 
 async def test_right_arrow_past_an_empty_segment_adds_no_other():
-    async with operator() as one:
-        await one.press("ctrl+end", "right", "pagedown", "pagedown")
-        assert len(one.session.block.segments) == 12
-        assert isinstance(one.session.segment, LineSegment)
-        assert one.prompt.startswith("Nothing is typed yet in segment 12")
+    async with operator() as user:
+        await user.press("ctrl+end", "right", "pagedown", "pagedown")
+        assert len(user.session.block.segments) == 12
+        assert isinstance(user.session.segment, LineSegment)
+        assert user.prompt.startswith("Nothing is typed yet in segment 12")
 
 
 async def test_a_new_block_takes_what_the_block_before_has():
-    async with operator() as one:
-        await one.press("f8", "f2")
-        before, block = one.session.program.blocks
+    async with operator() as user:
+        await user.press("f8", "f2")
+        before, block = user.session.program.blocks
         assert (block.speed, block.z_bottom, block.cutter_comp) == (before.speed, before.z_bottom, before.cutter_comp)
         assert (block.x_start, block.segments) == (None, ())
 
 
 @pytest.mark.parametrize(("typed", "value"), [("2,5", 2.5), (",5", 0.5)])
 async def test_a_comma_is_a_decimal_point(typed, value):
-    async with operator() as one:
-        await one.press("pagedown", "tab", *[{",": "comma"}.get(letter, letter) for letter in typed], "enter")
-        assert one.session.block.segments[0].x_end == Number(value)
+    async with operator() as user:
+        await user.press("pagedown", "tab", *[{",": "comma"}.get(letter, letter) for letter in typed], "enter")
+        assert user.session.block.segments[0].x_end == Number(value)
 
 
 async def test_a_new_line_that_is_left_empty_is_gone_and_undo_goes_on_before_it():
-    async with operator() as one:
-        await one.press("tab", "'1", "enter", "ctrl+end", "right")
-        assert one.session.place.segment == 12
-        await one.press("pageup")
-        assert (len(one.session.block.segments), one.session.place.segment) == (11, 11)
-        await one.press("'5", "enter", "f2", "pagedown")
-        assert (len(one.session.block.segments), one.session.place.segment) == (11, 5)
-        await one.press("ctrl+end", "right", "f8")
-        assert len(one.session.block.segments) == 11
+    async with operator() as user:
+        await user.press("tab", "'1", "enter", "ctrl+end", "right")
+        assert user.session.place.segment == 12
+        await user.press("pageup")
+        assert (len(user.session.block.segments), user.session.place.segment) == (11, 11)
+        await user.press("'5", "enter", "f2", "pagedown")
+        assert (len(user.session.block.segments), user.session.place.segment) == (11, 5)
+        await user.press("ctrl+end", "right", "f8")
+        assert len(user.session.block.segments) == 11
 
 
 async def test_the_first_segment_of_a_new_block_repeats_the_last_feed():
-    async with operator() as one:
-        await one.press("f8", "f2", "ctrl+end", "pagedown")
-        assert one.session.place == FormPlace(2, 1)
-        assert one.session.block.segments[0].feed == Number(12.0)
+    async with operator() as user:
+        await user.press("f8", "f2", "ctrl+end", "pagedown")
+        assert user.session.place == FormPlace(2, 1)
+        assert user.session.block.segments[0].feed == Number(12.0)
 
 
 async def test_del_blanks_coolant_again():
-    async with operator() as one:
-        await one.press(*["up"] * 1)
-        while one.at != "coolant":
-            await one.press("up")
-        await one.press("f")
-        assert one.session.block.coolant is not None
-        await one.press("delete")
-        assert one.session.block.coolant is None
-        assert one.tag("coolant") == "DEF"
+    async with operator() as user:
+        await user.press(*["up"] * 1)
+        while user.at != "coolant":
+            await user.press("up")
+        await user.press("f")
+        assert user.session.block.coolant is not None
+        await user.press("delete")
+        assert user.session.block.coolant is None
+        assert user.tag("coolant") == "DEF"

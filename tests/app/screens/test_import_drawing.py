@@ -118,10 +118,10 @@ async def importer(
     path = source if isinstance(source, Path) else tmp_path / "part.dxf"
     if isinstance(source, bytes):
         path.write_bytes(source)
-    async with opening(path, unit=unit, fresh=fresh, size=size) as one:
-        await one.pilot.pause()
-        await one.ready()
-        yield one
+    async with opening(path, unit=unit, fresh=fresh, size=size) as user:
+        await user.pilot.pause()
+        await user.ready()
+        yield user
 
 
 @asynccontextmanager
@@ -138,82 +138,82 @@ async def opening(
 
 
 async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        assert one.rows == [
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        assert user.rows == [
             ["1", "OUTSIDE", "0", "4", "140.000", "40.000 x 30.000"],
             ["2", "HOLE", "HOLES", "4", "100.000", "30.000 x 20.000"],
         ]
-        assert "start X 20.000 Y 0.000  mid longest side  CW  LEFT" in one.about
-        assert "largest gap none" in one.about
-        title = str(one.importing.query_one("#import-file").render())
+        assert "start X 20.000 Y 0.000  mid longest side  CW  LEFT" in user.about
+        assert "largest gap none" in user.about
+        title = str(user.importing.query_one("#import-file").render())
         assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
-        await one.press("down")
-        assert one.importing.picture.heading == "chain 2  HOLE"
+        await user.press("down")
+        assert user.importing.picture.heading == "chain 2  HOLE"
 
 
 async def test_marked_contours_become_blocks_in_one_edit_that_undo_takes_back(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        before = one.session.program
-        await one.press("space", "down", "space", "enter")
-        await one.until(lambda: one.session.program is not before)
-        assert [block.cutter_comp for block in one.session.program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
-        assert one.session.history.undo_count == 1
-        assert type(one.app.screen).__name__ == "ContourScreen"
-        assert one.session.place == FormPlace(1)
-        await one.press("ctrl+z")
-        assert dumps(one.session.program) == dumps(before)
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        before = user.session.program
+        await user.press("space", "down", "space", "enter")
+        await user.until(lambda: user.session.program is not before)
+        assert [block.cutter_comp for block in user.session.program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
+        assert user.session.history.undo_count == 1
+        assert type(user.app.screen).__name__ == "ContourScreen"
+        assert user.session.place == FormPlace(1)
+        await user.press("ctrl+z")
+        assert dumps(user.session.program) == dumps(before)
 
 
 async def test_the_contours_come_after_the_blocks_of_the_program(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        await one.press("down", "f1")
-        await one.until(lambda: len(one.session.program.blocks[0].segments))
-        app = one.app
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        await user.press("down", "f1")
+        await user.until(lambda: len(user.session.program.blocks[0].segments))
+        app = user.app
         app.show_drawing(DATA / "d01-square.dxf")
-        await one.pilot.pause()
-        await one.ready()
-        await one.press("enter")
-        await one.until(lambda: len(one.session.program.blocks) == 2)
-        assert one.session.place == FormPlace(2)
+        await user.pilot.pause()
+        await user.ready()
+        await user.press("enter")
+        await user.until(lambda: len(user.session.program.blocks) == 2)
+        assert user.session.place == FormPlace(2)
 
 
 async def test_a_program_begun_for_a_drawing_takes_its_unit_and_others_keep_theirs(tmp_path):
     for fresh, unit in ((True, Unit.MM), (False, Unit.IN)):
-        async with importer(DATA / "d01-square.dxf", tmp_path, unit=Unit.IN, fresh=fresh) as one:
-            length = one.rows[0][4]
+        async with importer(DATA / "d01-square.dxf", tmp_path, unit=Unit.IN, fresh=fresh) as user:
+            length = user.rows[0][4]
             assert length == ("140.000" if fresh else "5.5118")
-            await one.press("enter")
-            await one.taken()
-            assert one.session.program.unit is unit
+            await user.press("enter")
+            await user.taken()
+            assert user.session.program.unit is unit
 
 
 async def test_a_drawing_without_unit_asks_for_it_with_both_sizes(tmp_path):
-    async with importer(DATA / "d04-nounits.dxf", tmp_path) as one:
-        assert isinstance(one.app.screen, Question)
-        assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in one.question.lines[0]
-        assert one.question.safe == "MM"
-        await one.press("i")
-        await one.until(lambda: one.importing.listed)
-        assert one.rows[0][4] == "3556.000"
+    async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
+        assert isinstance(user.app.screen, Question)
+        assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in user.question.lines[0]
+        assert user.question.safe == "MM"
+        await user.press("i")
+        await user.until(lambda: user.importing.listed)
+        assert user.rows[0][4] == "3556.000"
 
 
 async def test_a_unit_that_is_not_told_leaves_the_screen(tmp_path):
-    async with importer(DATA / "d04-nounits.dxf", tmp_path) as one:
-        await one.press("escape")
-        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+    async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
+        await user.press("escape")
+        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
 @pytest.mark.parametrize(("key", "taken"), [("y", True), ("enter", False), ("n", False)])
 async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
-    async with importer(DATA / "d19-cut-off.dxf", tmp_path) as one:
-        assert isinstance(one.app.screen, Question)
-        assert one.question.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
-        await one.press(key)
+    async with importer(DATA / "d19-cut-off.dxf", tmp_path) as user:
+        assert isinstance(user.app.screen, Question)
+        assert user.question.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
+        await user.press(key)
         if taken:
-            await one.until(lambda: one.importing.listed)
-            assert "what comes after it is missing" in " ".join(one.importing.help_lines())
+            await user.until(lambda: user.importing.listed)
+            assert "what comes after it is missing" in " ".join(user.importing.help_lines())
         else:
-            await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+            await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
 @pytest.mark.parametrize(
@@ -227,103 +227,103 @@ async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
     ],
 )
 async def test_what_cannot_be_listed_is_told_and_the_screen_stays(source, words, tmp_path):
-    async with importer(source, tmp_path) as one:
-        await one.until(lambda: words in one.said)
-        assert one.said.startswith(Tone.ERROR)
-        await one.press("f1", "down")
-        assert one.importing.listed is None
-        await one.press("escape")
-        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+    async with importer(source, tmp_path) as user:
+        await user.until(lambda: words in user.said)
+        assert user.said.startswith(Tone.ERROR)
+        await user.press("f1", "down")
+        assert user.importing.listed is None
+        await user.press("escape")
+        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
 async def test_a_layer_that_is_not_flat_is_left_out_by_layers(tmp_path):
     slope = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
-    async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as one:
-        assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in one.said
-        await one.press("f2")
-        assert isinstance(one.app.screen, ChooseSeveral)
-        await one.press("down", "space", "enter")
-        await one.until(lambda: one.importing.listed)
-        assert len(one.rows) == 1
+    async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as user:
+        assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in user.said
+        await user.press("f2")
+        assert isinstance(user.app.screen, ChooseSeveral)
+        await user.press("down", "space", "enter")
+        await user.until(lambda: user.importing.listed)
+        assert len(user.rows) == 1
 
 
 async def test_too_much_is_told_with_number_and_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("core.importing.dxf.MAX_ENTITIES", 3)
-    async with importer(dxf(*square(0, 0, 10)), tmp_path) as one:
-        assert "4" in one.said
-        assert "3" in one.said
+    async with importer(dxf(*square(0, 0, 10)), tmp_path) as user:
+        assert "4" in user.said
+        assert "3" in user.said
 
 
 async def test_an_open_chain_tells_its_gap_and_the_tolerance_that_joins_it(tmp_path):
-    async with importer(DATA / "d06-gap-open.dxf", tmp_path) as one:
-        assert one.rows[0][1] == "OPEN"
-        assert "would join it" in one.about
-        await one.press("f4")
-        assert isinstance(one.app.screen, NumberForm)
-        await one.press(*["backspace"] * 8, "'9", "enter")
-        assert isinstance(one.app.screen, NumberForm), "more than the largest tolerance"
-        await one.press("backspace", "'.", "'1", "enter", "enter")
-        await one.until(lambda: one.importing.contour and one.contour.closed)
-        assert one.rows[0][1] == "OUTSIDE"
+    async with importer(DATA / "d06-gap-open.dxf", tmp_path) as user:
+        assert user.rows[0][1] == "OPEN"
+        assert "would join it" in user.about
+        await user.press("f4")
+        assert isinstance(user.app.screen, NumberForm)
+        await user.press(*["backspace"] * 8, "'9", "enter")
+        assert isinstance(user.app.screen, NumberForm), "more than the largest tolerance"
+        await user.press("backspace", "'.", "'1", "enter", "enter")
+        await user.until(lambda: user.importing.contour and user.contour.closed)
+        assert user.rows[0][1] == "OUTSIDE"
 
 
 async def test_an_open_chain_asks_for_the_side_and_takes_nothing_without(tmp_path):
-    async with importer(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 10))), tmp_path) as one:
-        before = one.session.program
-        await one.press("enter")
-        await one.until(lambda: isinstance(one.app.screen, Question))
-        await one.press("enter")
-        assert one.session.program is before
-        await one.press("enter")
-        await one.until(lambda: isinstance(one.app.screen, Question))
-        await one.press("r")
-        await one.until(lambda: one.session.program is not before)
-        assert one.session.program.blocks[0].cutter_comp is CutterComp.RIGHT
+    async with importer(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 10))), tmp_path) as user:
+        before = user.session.program
+        await user.press("enter")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        await user.press("enter")
+        assert user.session.program is before
+        await user.press("enter")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        await user.press("r")
+        await user.until(lambda: user.session.program is not before)
+        assert user.session.program.blocks[0].cutter_comp is CutterComp.RIGHT
 
 
 async def test_the_branch_question_joins_a_chain_with_one_of_the_ways(tmp_path):
     ends = (line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5)))
-    async with importer(dxf(*ends), tmp_path) as one:
-        assert [row[1] for row in one.rows] == ["OPEN"] * 3
-        assert "branch at X 10.000 Y 0.000: 2 ways. B chooses." in one.about
-        await one.press("b")
-        await one.until(lambda: isinstance(one.app.screen, Question))
-        assert one.question.question == "branch at X 10.000 Y 0.000: 2 ways"
-        await one.press("1")
-        await one.until(lambda: len(one.rows) == 2)
-        assert sorted(row[3] for row in one.rows) == ["1", "2"]
-        await one.press("down", "b")
-        await one.until(lambda: "does not end at a branch" in one.said or isinstance(one.app.screen, Question))
+    async with importer(dxf(*ends), tmp_path) as user:
+        assert [row[1] for row in user.rows] == ["OPEN"] * 3
+        assert "branch at X 10.000 Y 0.000: 2 ways. B chooses." in user.about
+        await user.press("b")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        assert user.question.question == "branch at X 10.000 Y 0.000: 2 ways"
+        await user.press("1")
+        await user.until(lambda: len(user.rows) == 2)
+        assert sorted(row[3] for row in user.rows) == ["1", "2"]
+        await user.press("down", "b")
+        await user.until(lambda: "does not end at a branch" in user.said or isinstance(user.app.screen, Question))
 
 
 async def test_start_and_reverse_change_the_block(tmp_path):
-    async with importer(DATA / "d01-square.dxf", tmp_path) as one:
-        assert (one.contour.turn.name, one.contour.start) == ("CW", (20.0, 0.0))
-        await one.press("f6")
-        assert "mid longest side  CCW  RIGHT" in one.about
-        await one.press("f5", "n")
-        await one.until(lambda: one.contour.start != (20.0, 0.0))
-        assert one.contour.start == (40.0, 0.0)
-        assert "corner" in one.about
-        await one.press("f5", "x")
-        await one.until(lambda: isinstance(one.app.screen, NumberForm))
-        await one.press("backspace", "'9", "enter", "backspace", "'3", "'3", "enter")
-        await one.until(lambda: one.contour.start == (9.0, 30.0))
-        await one.press("enter")
-        await one.taken()
-        block = one.session.program.blocks[0]
+    async with importer(DATA / "d01-square.dxf", tmp_path) as user:
+        assert (user.contour.turn.name, user.contour.start) == ("CW", (20.0, 0.0))
+        await user.press("f6")
+        assert "mid longest side  CCW  RIGHT" in user.about
+        await user.press("f5", "n")
+        await user.until(lambda: user.contour.start != (20.0, 0.0))
+        assert user.contour.start == (40.0, 0.0)
+        assert "corner" in user.about
+        await user.press("f5", "x")
+        await user.until(lambda: isinstance(user.app.screen, NumberForm))
+        await user.press("backspace", "'9", "enter", "backspace", "'3", "'3", "enter")
+        await user.until(lambda: user.contour.start == (9.0, 30.0))
+        await user.press("enter")
+        await user.taken()
+        block = user.session.program.blocks[0]
         assert (block.x_start.value, block.y_start.value) == (9.0, 30.0)
         assert block.cutter_comp is CutterComp.RIGHT
 
 
 async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
-    async with importer(circle_of_lines(300), tmp_path) as one:
-        assert one.rows[0][3] == "300"
-        await one.press("f3")
-        await one.until(lambda: one.rows[0][3] == "1")
-        assert "300 lines -> 1 ARC, off by 0." in one.about
-        await one.press("f3")
-        await one.until(lambda: one.rows[0][3] == "300")
+    async with importer(circle_of_lines(300), tmp_path) as user:
+        assert user.rows[0][3] == "300"
+        await user.press("f3")
+        await user.until(lambda: user.rows[0][3] == "1")
+        assert "300 lines -> 1 ARC, off by 0." in user.about
+        await user.press("f3")
+        await user.until(lambda: user.rows[0][3] == "300")
 
 
 def spline_export(count: int) -> bytes:
@@ -334,84 +334,84 @@ def spline_export(count: int) -> bytes:
 
 
 async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_is_taken_back(tmp_path):
-    async with importer(spline_export(2000), tmp_path) as one:
-        before = dumps(one.session.program)
-        assert one.rows[0][3] == "2000"
-        await one.press("f3")
-        await one.until(lambda: one.importing.lines)
-        fitted = one.contour.fitted
+    async with importer(spline_export(2000), tmp_path) as user:
+        before = dumps(user.session.program)
+        assert user.rows[0][3] == "2000"
+        await user.press("f3")
+        await user.until(lambda: user.importing.lines)
+        fitted = user.contour.fitted
         assert fitted is not None
         assert (fitted.before, len(fitted.pieces) < 150, fitted.off <= 0.005) == (2000, True, True)
-        await one.press("enter")
-        await one.taken()
-        assert len(one.session.program.blocks[0].segments) <= len(fitted.pieces) + 1
-        await one.press("ctrl+z")
-        assert dumps(one.session.program) == before
+        await user.press("enter")
+        await user.taken()
+        assert len(user.session.program.blocks[0].segments) <= len(fitted.pieces) + 1
+        await user.press("ctrl+z")
+        assert dumps(user.session.program) == before
 
 
 async def test_more_than_five_hundred_segments_advise_fit_arcs_before_they_are_taken(tmp_path):
-    async with importer(circle_of_lines(600), tmp_path) as one:
-        await one.press("enter")
-        await one.until(lambda: isinstance(one.app.screen, Question))
-        assert "segments: the form shows them, the look-ahead of a control may not." in one.question.lines[0]
-        await one.press("enter")
-        await one.until(lambda: one.rows[0][3] == "1")
-        await one.press("enter")
-        await one.taken()
-        assert len(one.session.program.blocks[0].segments) == 1
+    async with importer(circle_of_lines(600), tmp_path) as user:
+        await user.press("enter")
+        await user.until(lambda: isinstance(user.app.screen, Question))
+        assert "segments: the form shows them, the look-ahead of a control may not." in user.question.lines[0]
+        await user.press("enter")
+        await user.until(lambda: user.rows[0][3] == "1")
+        await user.press("enter")
+        await user.taken()
+        assert len(user.session.program.blocks[0].segments) == 1
 
 
 async def test_equal_circles_fold_into_one_row_that_opens(tmp_path):
     data = dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)))
-    async with importer(data, tmp_path) as one:
-        assert [row[5] for row in one.rows] == ["50.000 x 50.000", "dia. 2.000 x 6"]
-        await one.press("down", "right")
-        assert len(one.rows) == 7
-        await one.press("down", "space", "left")
-        assert [row[0] for row in one.rows] == ["1", "-    2"]
-        await one.press("enter")
-        await one.taken()
-        assert len(one.session.program.blocks) == 1
+    async with importer(data, tmp_path) as user:
+        assert [row[5] for row in user.rows] == ["50.000 x 50.000", "dia. 2.000 x 6"]
+        await user.press("down", "right")
+        assert len(user.rows) == 7
+        await user.press("down", "space", "left")
+        assert [row[0] for row in user.rows] == ["1", "-    2"]
+        await user.press("enter")
+        await user.taken()
+        assert len(user.session.program.blocks) == 1
 
 
 async def test_the_filter_holds_back_what_does_not_match(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        await one.press("slash")
-        assert one.prompt.startswith("Type a part of a layer, kind, length or size.")
-        await one.press("'h", "'o", "'l", "'e")
-        assert [row[1] for row in one.rows] == ["HOLE"]
-        await one.press("'x")
-        assert one.rows == []
-        assert one.prompt == "No chain has 'holex' in its layer, kind, length or size. Esc shows all."
-        await one.press("enter", "up", "home", "f1", "f6", "escape", "slash", "'h", "'o", "'l", "'e")
-        await one.press("enter", "space")
-        assert one.importing.marked == {2}
-        await one.press("escape")
-        assert len(one.rows) == 2
-        assert one.prompt.startswith("Space marks")
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        await user.press("slash")
+        assert user.prompt.startswith("Type a part of a layer, kind, length or size.")
+        await user.press("'h", "'o", "'l", "'e")
+        assert [row[1] for row in user.rows] == ["HOLE"]
+        await user.press("'x")
+        assert user.rows == []
+        assert user.prompt == "No chain has 'holex' in its layer, kind, length or size. Esc shows all."
+        await user.press("enter", "up", "home", "f1", "f6", "escape", "slash", "'h", "'o", "'l", "'e")
+        await user.press("enter", "space")
+        assert user.importing.marked == {2}
+        await user.press("escape")
+        assert len(user.rows) == 2
+        assert user.prompt.startswith("Space marks")
 
 
 async def test_the_drawing_alone_zooms_and_goes_from_chain_to_chain(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as one:
-        await one.press("f7", "n", "plus")
-        assert one.importing.picture.has_focus
-        assert one.contour.number == 2
-        assert one.importing.picture.subject.view is not None
-        await one.press("0", "space", "escape")
-        assert one.importing.picture.subject.view is None
-        assert one.importing.marked == {2}
-        assert one.importing.table.has_focus
+    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
+        await user.press("f7", "n", "plus")
+        assert user.importing.picture.has_focus
+        assert user.contour.number == 2
+        assert user.importing.picture.subject.view is not None
+        await user.press("0", "space", "escape")
+        assert user.importing.picture.subject.view is None
+        assert user.importing.marked == {2}
+        assert user.importing.table.has_focus
 
 
 @pytest.mark.parametrize("size", [(60, 20), (80, 24), (132, 43)])
 async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path, size=size) as one:
-        assert one.importing.table.size.height >= 7
-        assert one.importing.picture.display is (size[0] >= 80)
-        await one.press("f7")
-        assert one.importing.picture.outer_size.width == one.importing.query_one("#desk").size.width
-        await one.press("f7", "f1")
-        await one.taken()
+    async with importer(DATA / "d14-layers.dxf", tmp_path, size=size) as user:
+        assert user.importing.table.size.height >= 7
+        assert user.importing.picture.display is (size[0] >= 80)
+        await user.press("f7")
+        assert user.importing.picture.outer_size.width == user.importing.query_one("#desk").size.width
+        await user.press("f7", "f1")
+        await user.taken()
 
 
 async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
@@ -460,11 +460,11 @@ async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatc
     monkeypatch.setattr("app.screens.import_drawing.read_and_list", wait_for_ever)
     path = tmp_path / "slow.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    async with opening(path) as one:
-        await one.pilot.pause()
-        await one.until(lambda: "Esc stops." in one.said)
-        await one.press("escape")
-        await one.until(lambda: type(one.app.screen).__name__ == "ContourScreen")
+    async with opening(path) as user:
+        await user.pilot.pause()
+        await user.until(lambda: "Esc stops." in user.said)
+        await user.press("escape")
+        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
 async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tmp_path, monkeypatch):
@@ -481,11 +481,11 @@ async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tm
     monkeypatch.setattr("app.screens.import_drawing.to_thread", late)
     path = tmp_path / "part.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    async with opening(path) as one:
-        importing = one.importing
+    async with opening(path) as user:
+        importing = user.importing
         await asyncio.wait_for(listed.wait(), 30)
-        one.app.pop_screen()
-        await one.settle()
+        user.app.pop_screen()
+        await user.settle()
         assert importing.listed is None
         assert not importing.query(ContourTable)
 

@@ -16,9 +16,9 @@ ARROW = 2
 
 @pytest.mark.parametrize("keys", [[], ["'1", "enter"], ["'2", "enter"], ["f4"], ["f6"]])
 async def test_every_choice_fits_into_its_field(keys: list[str]):
-    async with operator() as one:
-        await one.press(*keys)
-        fields = [field for field in one.screen.query(ChoiceField) if field.region.width]
+    async with operator() as user:
+        await user.press(*keys)
+        fields = [field for field in user.screen.query(ChoiceField) if field.region.width]
         assert fields
         for field in fields:
             room = field.size.width - ARROW
@@ -28,24 +28,24 @@ async def test_every_choice_fits_into_its_field(keys: list[str]):
 @pytest.mark.parametrize(("x", "y"), [(100.0, 60.0), (-1234.5, -1234.25)])
 async def test_the_start_of_a_segment_fits_beside_its_label(x: float, y: float):
     case = case_of(line(x_end=x, y_end=y), line(x_end=0, y_end=0))
-    async with operator(program_of(case)) as one:
-        await one.press("pagedown", "pagedown")
-        value = one.row("START").query_one(".value", Label)
+    async with operator(program_of(case)) as user:
+        await user.press("pagedown", "pagedown")
+        value = user.row("START").query_one(".value", Label)
         assert str(value.content) == f"{x:.3f} {y:.3f})"
         assert len(str(value.content)) <= value.size.width
 
 
 @pytest.mark.parametrize(("typed", "shown"), [("2500", "2500.000"), ("25000", "25000.0>"), ("16", "16.000")])
 async def test_a_number_without_room_is_never_shown_as_another_one(typed: str, shown: str):
-    async with operator("plate-mm") as one:
-        await one.press("f6", "tab", "tab", f"'{typed}", "enter")
-        [field] = [each for each in one.screen.query(NumberField) if each.name == "diameter@0"]
+    async with operator("plate-mm") as user:
+        await user.press("f6", "tab", "tab", f"'{typed}", "enter")
+        [field] = [each for each in user.screen.query(NumberField) if each.name == "diameter@0"]
         assert field.render_line(0).text.strip() == shown
 
 
 async def test_a_metric_feed_fits_into_its_column():
-    async with operator("plate-mm") as one:
-        await one.press("f6")
+    async with operator("plate-mm") as user:
+        await user.press("f6")
         for name, text in (("speed", "20000"), ("feed", "12000.0"), ("plunge_feed", "12000.0")):
-            [field, *_] = [each for each in one.screen.query(NumberField) if (each.name or "").startswith(f"{name}@")]
+            [field, *_] = [each for each in user.screen.query(NumberField) if (each.name or "").startswith(f"{name}@")]
             assert len(text) <= field.content_size.width, name

@@ -21,8 +21,8 @@ async def test_no_worker_writes_the_program_down(monkeypatch: pytest.MonkeyPatch
 
     for kind in (Program, DerivedBlock):
         monkeypatch.setattr(kind, "__repr__", written_down)
-    async with operator() as one:
-        await one.press("pagedown", "tab", "'1.5", "enter", "f4", "f8", "f8", "f8")
+    async with operator() as user:
+        await user.press("pagedown", "tab", "'1.5", "enter", "f4", "f8", "f8", "f8")
     assert written == []
 
 
@@ -34,9 +34,9 @@ async def test_a_digit_lays_out_nothing(monkeypatch: pytest.MonkeyPatch) -> None
         asked.append(layout)
         return refresh(self, *regions, layout=layout, **options)
 
-    async with operator() as one:
-        await one.press("pagedown", "tab", "1")
+    async with operator() as user:
+        await user.press("pagedown", "tab", "1")
         monkeypatch.setattr(NumberField, "refresh", counted)
-        await one.press("2", "3")
+        await user.press("2", "3")
     assert asked
     assert not any(asked)

@@ -21,33 +21,33 @@ from core.program.model import Number
 from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
 
-async def burst(one: Operator, *keys: str) -> None:
+async def burst(user: Operator, *keys: str) -> None:
     """All keys at once, as a slow link or a paste brings them."""
-    order = KeyOrder(one.app)
+    order = KeyOrder(user.app)
     for key in keys:
         order.take(events.Key(key, key if len(key) == 1 else None))
     while order.on_its_way:
-        await one.pilot.pause()
-    await one.settle()
+        await user.pilot.pause()
+    await user.settle()
 
 
 async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
-    async with operator() as one:
-        await burst(one, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
-        segment = one.session.block.segments[0]
+    async with operator() as user:
+        await burst(user, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
+        segment = user.session.block.segments[0]
         assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
-        assert one.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
+        assert user.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
 
 
 async def test_a_key_that_was_split_and_a_paste_without_an_end_are_told_and_what_is_half_typed_stays():
-    async with operator() as one:
-        await one.press("tab", "1")
+    async with operator() as user:
+        await user.press("tab", "1")
         for key, begins in ((TORN, "The link split a key"), (UNENDED, "Pasted text came without its end")):
-            one.app.post_message(events.Key(key, None))
-            await one.settle()
-            assert one.prompt.startswith(begins)
-        await one.press("2", "enter")
-        assert one.session.block.tool == Number(12.0)
+            user.app.post_message(events.Key(key, None))
+            await user.settle()
+            assert user.prompt.startswith(begins)
+        await user.press("2", "enter")
+        assert user.session.block.tool == Number(12.0)
 
 
 async def test_keys_behind_the_one_that_opens_a_file_go_to_that_file(part: Path, own: Path):
@@ -65,10 +65,10 @@ async def test_keys_behind_the_one_that_opens_a_file_go_to_that_file(part: Path,
 
 
 async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
-    async with operator() as one:
-        count = len(one.session.block.segments)
-        await burst(one, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
-        segment = one.session.block.segments[count]
+    async with operator() as user:
+        count = len(user.session.block.segments)
+        await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
+        segment = user.session.block.segments[count]
         assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0))
 
 
@@ -87,22 +87,22 @@ async def test_random_keys_at_once_do_what_they_do_one_by_one():
 async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch):
     """Every turn of the loop takes so long that a key needs longer than it is waited for."""
     monkeypatch.setattr(key_order, "LOOK", 0.01)
-    async with operator() as one:
+    async with operator() as user:
         loop, end = get_running_loop(), monotonic() + 4.0
 
         def busy() -> None:
             sleep(0.04)
-            if monotonic() < end and one.session.block.tool != Number(7.0):
+            if monotonic() < end and user.session.block.tool != Number(7.0):
                 loop.call_soon(busy)
 
         busy()
-        await burst(one, "ctrl+home", "tab", "7", "enter")
-        assert one.session.block.tool == Number(7.0)
+        await burst(user, "ctrl+home", "tab", "7", "enter")
+        assert user.session.block.tool == Number(7.0)
 
 
 async def test_a_program_that_is_leaving_and_takes_nothing_more_is_left_alone(monkeypatch: pytest.MonkeyPatch):
-    async with operator() as one:
-        order = KeyOrder(one.app)
+    async with operator() as user:
+        order = KeyOrder(user.app)
         with monkeypatch.context() as patch:
             patch.setattr(MessagePump, "post_message", lambda *_: False)
             patch.setattr(MessagePump, "message_queue_size", 1)

@@ -11,10 +11,10 @@ from tests.app.widget_pilot import operator
 
 @pytest.mark.parametrize(("key", "size"), [("f10", (20, 5)), ("ctrl+k", (1, 1))])
 async def test_a_page_in_a_list_without_room_is_no_step(key: str, size: tuple[int, int]) -> None:
-    async with operator() as one:
-        await one.press(key)
-        await one.pilot.resize_terminal(*size)
-        await one.press("pagedown", "pageup", "down", "pagedown")
-        await one.pilot.resize_terminal(80, 24)
-        await one.press("pageup")
-        assert isinstance(one.app.screen, Palette) or isinstance(one.app.focused, FindingsList)
+    async with operator() as user:
+        await user.press(key)
+        await user.pilot.resize_terminal(*size)
+        await user.press("pagedown", "pageup", "down", "pagedown")
+        await user.pilot.resize_terminal(80, 24)
+        await user.press("pageup")
+        assert isinstance(user.app.screen, Palette) or isinstance(user.app.focused, FindingsList)
