@@ -44,6 +44,14 @@ def test_roughing_passes_count_with_the_radius_of_their_own_tool():
     assert len(wider.row(1).rough) == 1
 
 
+def test_progress_goes_from_pass_to_pass_to_the_end():
+    shares: list[float] = []
+    judge_lookaheads(replace(SLOT, stocks=(8.0, 4.0)), shares.append)
+    assert shares == sorted(shares)
+    assert all(any(0 <= share - third / 3 <= 1 / 3 for share in shares) for third in range(3))
+    assert shares[-1] <= 1.0
+
+
 def test_blend_moves_are_part_of_what_is_judged():
     channel = CuttingSetup(lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6)), Side.LEFT, 0.25, False, 0.0, 0.0)
     assert judge_lookaheads(channel).recommended == 1

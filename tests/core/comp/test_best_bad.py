@@ -33,6 +33,12 @@ def test_segments_that_cross_beside_one_between_them_are_named():
     assert crossing.text.startswith("Segments 1 and 3 cross")
 
 
+def test_of_several_crossings_the_one_with_the_fewest_segments_between_is_named():
+    loops = lines((0, 0), (10, 0), (10, 10), (5, 10), (5, -5), (20, -5), (30, -5), (30, 5), (25, -10))
+    (crossing,) = best_path(loops, Side.LEFT, 0.25, closed=False).findings
+    assert crossing.text.startswith("Segments 6 and 8 cross")
+
+
 def test_closing_gap_is_bridged():
     gap = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0.002))
     assert len(only(gap, Side.LEFT, 0.25)) == 4

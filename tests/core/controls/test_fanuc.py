@@ -629,6 +629,29 @@ def test_a_rounding_and_a_chamfer_are_moves_of_the_program() -> None:
     assert ends(ran(f"{HEAD}G91 X50.,C10.\nY40.\nM30"))[-1] == (50.0, 40.0)
 
 
+def test_a_rounding_between_slanted_moves_is_tangent_to_both() -> None:
+    # the moves turn by 106.26 degrees: the rounding begins 5 tan(53.13) = 20/3 before the corner (30, 40)
+    done = ran(f"{HEAD}X30. Y40.,R5.\nX60. Y0\nM30")
+    line, arc, _ = flat(done)
+    assert (line.kind, line.end[:2]) == ("line", pytest.approx((26.0, 40.0 - 16.0 / 3.0)))
+    assert (arc.kind, arc.end[:2]) == ("cw", pytest.approx((34.0, 40.0 - 16.0 / 3.0)))
+    assert arc.center == pytest.approx((30.0, 40.0 - 25.0 / 3.0))
+
+
+def test_a_polar_block_without_radius_and_angle_moves_the_tool_axis_alone() -> None:
+    assert flat(ran(f"{HEAD}G16\nX10. Y90.\nZ-5.\nG15\nM30"))[-1].end == pytest.approx((0.0, 10.0, -5.0))
+
+
+def test_an_arc_from_a_place_of_the_machine_is_not_followed() -> None:
+    assert alarms(ran(f"{HEAD}G1 X10\nG91 G28 X0\nG90 G2 X5. Y5. R5.\nM30")) == [("FN-WHERE", 4)]
+
+
+def test_g110_to_g129_are_work_offsets_of_a_haas_and_g130_is_none() -> None:
+    for code in ("G110", "G129"):
+        assert not alarms(ran(f"{HEAD}{code}\nX5.\nM30", "haas:a"))
+    assert alarms(ran(f"{HEAD}G130\nX5.\nM30", "haas:a"))
+
+
 def test_a_rounding_longer_than_its_move_is_an_alarm() -> None:
     assert alarms(ran(f"{HEAD}X50.,R60.\nY40.\nM30")) == [("PS0055", 2)]
 

@@ -137,8 +137,15 @@ def test_a_difference_that_is_explained_is_one(code: str, tmp_path: Path) -> Non
     assert fared.startswith("only") or other.startswith("only")
 
 
+WORK_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
+
+
 @pytest.mark.parametrize(
-    ("code", "rule"), [("M6", "N-TOOL"), ("G49", "N-LENGTH"), ("M48", "N-OVERRIDE"), ("M62 P0", "N-OUTPUT")]
+    ("code", "rule"),
+    [
+        *(("M6", "N-TOOL"), ("G49", "N-LENGTH"), ("M48", "N-OVERRIDE"), ("M62 P0", "N-OUTPUT")),
+        *((code, "N-OFFSETS") for code in WORK_OFFSETS),
+    ],
 )
 def test_what_compensation_refuses_names_its_rule_and_g40(code: str, rule: str) -> None:
     done = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)

@@ -196,3 +196,9 @@ def test_rotation_mirror_image_scaling_and_polar_words_are_not_followed() -> Non
         assert finding.line == 2
     off = ran("G21 G14 G15 G50.1 G69 G0 X0 Y0\nX1\nM2\n", "allen-bradley:a")
     assert (off.stopped_at, off.findings) == (None, ())
+
+
+@pytest.mark.parametrize("code", ["G52 X0", "G92 X1", "G54", "G55", "G56", "G57", "G58", "G59"])
+def test_a_new_origin_interrupts_compensation(code: str) -> None:
+    done = ran(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
+    assert [finding.line for finding in told(done, "R7")] == [4]

@@ -74,6 +74,13 @@ def test_depth_while_canceling_breaks_h5() -> None:
     assert broken(*APPLY, *CONTOUR, "L Y-90 Z+50 R0") == [("H5", 10)]
 
 
+def test_depth_that_waits_for_the_end_of_a_contour_breaks_h5() -> None:
+    program = "G21 G90 G17\nG0 X-20. Y-30. Z2.\nG1 Z-5. F99\nG41 D1 Y0\nX40.\nY-60.\nZ9.\nM30\n"
+    made = run(program.encode(), "fanuc:a", end_mills({1: 10.0}))
+    assert isinstance(made, ControlRun)
+    assert [finding.line for finding in check_shop_rules(made) if finding.code == "H5"] == [7]
+
+
 def test_a_finish_within_a_diameter_of_the_component_breaks_h6() -> None:
     assert broken(*APPLY, "L X+40", "L Y-60", "L X+31", "L Y-90 R0") == [("H6", 9)]
 

@@ -93,10 +93,15 @@ def waves(count: int, radius: float) -> PieceArrays:
     return piece_arrays(Path.of(points, points[:-1], np.zeros(count, np.int8)))
 
 
+@pytest.mark.parametrize("scattered", [False, True])
 @pytest.mark.parametrize("arcs", [False, True])
 @pytest.mark.parametrize(("n", "m"), SIZES)
-def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool) -> None:
+def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool, scattered: bool) -> None:
     one, other = walk(4, n, arcs=arcs), walk(5, m, arcs=arcs)
+    if scattered:
+        # pieces that follow each other have gaps between them
+        random = np.random.default_rng(6)
+        one, other = one.take(random.permutation(n)), other.take(random.permutation(m))
     found = pairs(nearest_pairs(one, other, 1e-9))
     for part in np.linspace(0.0, 1.0, 9):
         places = at(one, np.full(len(one), part))

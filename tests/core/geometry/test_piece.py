@@ -45,4 +45,5 @@ def test_the_middle_of_a_piece_lies_on_it():
     assert Arc((1, 0), (-1, 0), (0, 0), Turn.CCW).point_at(0.5) == pytest.approx((0, 1))
     assert Arc((1, 0), (-1, 0), (0, 0), Turn.CW).point_at(0.5) == pytest.approx((0, -1))
     assert Arc((1, 0), (1, 0), (0, 0), Turn.CW).point_at(0.5) == pytest.approx((-1, 0))
+    assert Arc((6, 3), (4, 3), (5, 3), Turn.CCW).point_at(0.5) == pytest.approx((5, 4))
     assert Line((1, 2), (3, 6)).point_at(0.25) == (1.5, 3.0)

@@ -166,6 +166,13 @@ def test_depths_in_even_steps_are_pecks_and_feeds_stay_with_their_segments() -> 
     assert block.cutter_comp is CutterComp.LEFT
 
 
+def test_a_contour_brings_its_tool_into_the_table_and_the_block() -> None:
+    text = b"G21 G90 G17\nT7 M6\nG0 X-9 Y-9\nG1 G41 D7 X0 Y0 F200\nX20 Y0\nX20 Y20\nX0 Y0\nG40 X-9 Y-9\nM30\n"
+    made = imported(read_nc(text, "linuxcnc", ToolTable.of(CutterTool(7, 6.0))))
+    assert made.blocks[0].tool == Number(7.0)
+    assert [tool.diameter for tool in made.tools if tool.number == 7] == [Number(6.0)]
+
+
 def test_a_program_of_the_center_needs_side_and_diameter() -> None:
     text = SQUARE % (b"G1 X0 Y0", b"")
     with pytest.raises(NcError, match="its side and the tool's diameter are needed"):

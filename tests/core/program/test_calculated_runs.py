@@ -321,6 +321,12 @@ def test_a_line_that_keeps_a_coordinate_keeps_it_inside_a_run() -> None:
     assert str(getattr(block.segments[1].values["y_end"], "origin", "")) == "SAME"
 
 
+def test_a_line_offset_from_its_parallel_may_be_on_either_side() -> None:
+    case = case_of(line(x_end=60, y_end=0), line(length=65), line(parallel=1, offset=25, x_end=10))
+    heights = [plain(answer)[-1]["y_end"] for answer in solved(case).runs[0].answers]
+    assert heights == pytest.approx([25.0, -25.0, 25.0, -25.0])
+
+
 def test_parallel_and_point_at_distance_have_all_their_answers() -> None:
     case = case_of(line(point_x=50, point_y=20, point_dist=10, x_end=-90))
     for answer in solved(case).runs[0].answers:

@@ -68,6 +68,12 @@ def test_after_a_pocket_relative_words_start_from_an_unknown_place() -> None:
     assert codes(made)[-2:] == [("CYCLE", 6), ("POSITION", 7)]
 
 
+@pytest.mark.parametrize("number", [26, 28, 400, 421])
+def test_a_cycle_that_moves_the_contour_or_measures_it_is_not_followed(number: int) -> None:
+    made = runs("L X+1 Y+1 Z+1 FMAX", f"CYCL DEF {number} SOMETHING", "L X+5 F9")
+    assert codes(made)[-1] == ("BEYOND", 5)
+
+
 def test_the_values_of_a_cycle_are_parameters() -> None:
     assert points(runs("L X+0 Y+0 Z+9 R0 FMAX", *DRILLING, "L X+Q204 FMAX"))[-1] == (50, 0, 9)
 
