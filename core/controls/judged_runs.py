@@ -1,4 +1,4 @@
-"""Judged runs: what a control's path does to the contour that the program describes, by the program's lines."""
+"""Judged runs show what a control's path does to the contour that the program describes, by program line."""
 
 from __future__ import annotations
 
@@ -40,16 +40,16 @@ from core.verify.surface import Leads
 from core.verify.verdict import Gouge, OverRun, Verdict
 
 MAX_GOUGES: Final = 20
-"""Gouges of a stretch that have a finding each, deepest first."""
+"""Most gouges of a result that get a finding each, deepest first."""
 
 JUDGED: Final = 0.8
-"""Share of the work that is done when each stretch is judged, and its contours are still to be compared."""
+"""Progress when every stretch is judged; comparing their contours with one another takes the rest."""
 
 MAX_LINES: Final = 6
-"""Lines that a finding of several places names."""
+"""Most line numbers that one finding lists."""
 
 LIMIT_RULES: Final = frozenset({"LIMIT", "FN-ENDLESS"})
-"""The rules by which a run ends that repeats too much to be followed."""
+"""The rules that end a run because it repeats too much to follow."""
 
 CAM_ROUNDING: Final = 0.0127 + ROUNDING
 """Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
@@ -59,7 +59,7 @@ CAM_ROUNDING: Final = 0.0127 + ROUNDING
 class ToleratedArc:
     """The arc whose radii at its start and its end differ most, and its line.
 
-    `slack`: by how much the uneven arcs of surface and path raise the tolerance.
+    `slack`: how much the uneven arcs of surface and path raise the tolerance.
     """
 
     first: float
@@ -70,7 +70,7 @@ class ToleratedArc:
 
 @dataclass(frozen=True, slots=True)
 class PassedOver:
-    """Moves above the part that pass over it: their lowest place and their lines."""
+    """Moves above the part that pass over it: their lowest height and their lines."""
 
     height: float
     lines: tuple[int, ...]
@@ -80,17 +80,16 @@ class PassedOver:
 class Judged:
     """A compensated stretch, the surface it cuts, the center path with its leads, and the verdict on them.
 
-    Surface and center path are without the passes that they repeat, each by itself; `lines` are those of the whole
-    surface, since of two equal passes one may be kept of the surface and the other of the path.
-    `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, which
-    is doubtful where they are `long_leads` or, there and back at a corner, `corner_leads`; `lead_gouges` is what is cut
-    of them, measured with `lead_slack` of extra tolerance: they may be surface after all.
-    `by_itself`: the side changed where it begins, and what is cut on the other side is not judged.  `open_lines`: the
-    lines of all of an open contour among closed ones, of which this is the first part.  `unseen_gouges`: how many are
-    too shallow for a digit of the program's unit, and are not in the verdict.  `above`: moves above the contour that
-    are not judged.  `uncompensated`, of a run's first part: what moves without compensation cut of all contours, and
-    `of_others` what compensated moves cut of contours of other stretches.  `loops` are around outside corners and no
-    surface.
+    Repeated passes are removed from surface and center path separately; `lines` covers the whole surface, because of
+    two equal passes the surface may keep one and the path the other.  `leads` are programmed moves treated as leads
+    because a closed contour begins after or ends before them, which is doubtful if they are `long_leads` or
+    `corner_leads` (out and back at a corner); `lead_gouges` are the cuts into them, measured with `lead_slack` of extra
+    tolerance, because they may be surface after all.  `by_itself`: the side changes within the stretch, and cuts into
+    its other parts are not judged.  `open_lines`: all lines of an open contour among closed ones, if this result is its
+    first part.  `unseen_gouges` counts gouges too shallow for a digit of the program's unit; the verdict leaves them
+    out.  `above`: moves above the contour, which are not judged.  On a run's first result, `uncompensated` has the cuts
+    of moves without compensation into all contours, and `of_others` the cuts of compensated moves into contours of
+    other stretches.  `loops` go around outside corners and are not surface.
     """
 
     stretch: Stretch
@@ -115,7 +114,7 @@ class Judged:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Contours:
-    """Contours of which only those near a path are judged; `owners`: which one each box of a piece belongs to."""
+    """Contours that can be searched for those near a path; `owners`: the index of each piece box's contour."""
 
     paths: list[Path]
     pieces: BoxTree
@@ -123,26 +122,26 @@ class Contours:
 
     @staticmethod
     def of(paths: list[Path]) -> Contours:
-        """These contours; at least one."""
+        """Index these contours, of which there must be at least one."""
         boxes = np.concatenate([path.boxes for path in paths], axis=1)
         return Contours(paths, BoxTree.of(boxes), np.repeat(np.arange(len(paths)), [len(path) for path in paths]))
 
     def near(self, center: Path, radius: float) -> list[Path]:
-        """The contours that the cutter may reach along a path."""
-        found = [np.unique(self.owners[pieces]) for _, pieces in near_pairs(center.boxes, self.pieces, radius)]
-        return [self.paths[row] for row in np.unique(np.concatenate(found)).tolist()] if found else []
+        """Return the contours that the cutter may reach along a path."""
+        rows = [np.unique(self.owners[pieces]) for _, pieces in near_pairs(center.boxes, self.pieces, radius)]
+        return [self.paths[row] for row in np.unique(np.concatenate(rows)).tolist()] if rows else []
 
 
 def smallest_gouge(unit: Unit) -> float:
-    """Millimeters below which a gouge is none: half of the last digit that a control shows in this unit."""
+    """Return the millimeters below which a gouge is ignored: half the last digit a control shows in this unit."""
     return to_mm(0.5 * 10.0 ** -decimals_shown(Kind.LENGTH, unit), unit)
 
 
 def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...]:
-    """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines.
+    """Return the verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines.
 
-    There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
-    would be judged against one another.
+    A run given up as endless has no verdicts: its own finding says so, and the same moves a thousand times over would
+    be judged against one another.
     """
     if any(finding.code in LIMIT_RULES for finding in run.findings):
         return ()
@@ -163,7 +162,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
 
 
 def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour]:
-    """The contours of these results with how high each is cut."""
+    """Return the contours of these results, each with its highest cut and the difference in arc radii it accepts."""
     return [
         CutContour(
             result.surface, result.stretch, highest_cut(result.stretch), _accepted_difference(run, result.surface)
@@ -173,7 +172,7 @@ def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour
 
 
 def _seen(result: Judged, least: float) -> Judged:
-    """The result with the gouges that are at least so deep."""
+    """Return the result without its gouges shallower than `least`; `unseen_gouges` counts those of the verdict."""
     verdict = result.verdict
     gouges = tuple(gouge for gouge in verdict.gouges if gouge.depth >= least)
     lead_gouges = tuple(gouge for gouge in result.lead_gouges if gouge.depth >= least)
@@ -184,14 +183,13 @@ def _seen(result: Judged, least: float) -> Judged:
 
 
 def programmed_surface(stretch: Stretch) -> Path:
-    """What is programmed between the moves that lead in and out."""
+    """Return what is programmed between the lead-in and lead-out moves."""
     programmed = stretch.programmed
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
 def _judge_without_moves_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
-    """The verdicts on a stretch; where it gouges, without its moves at this height or higher if that leaves fewer
-    gouges."""
+    """Judge a stretch; if it gouges, omit its moves at `height` or higher if that leaves fewer gouges."""
     whole = _judge_stretch(run, stretch)
     if not any(result.verdict.gouges or result.verdict.wrong_side for result in whole):
         return whole
@@ -205,28 +203,28 @@ def _count_gouges(results: Sequence[Judged]) -> int:
 
 
 def _judge_pieces(run: ControlRun, stretch: Stretch, parted: Divided) -> list[Judged]:
-    """The verdicts on the pieces of a stretch, each with what it cuts of the others."""
+    """Return the verdicts on the pieces of a stretch, each with its cuts into the surfaces of the others."""
     judged = [_judge_stretch(run, piece) for piece in parted.pieces]
     surfaces = {path_key(result.surface): result.surface for results in judged for result in results}
     contours = Contours.of(list(surfaces.values()))
     unjudged: list[Judged] = []
     for results in judged:
-        own, center = {path_key(result.surface) for result in results}, results[0].center
-        others = [contour for contour in contours.near(center, stretch.radius) if path_key(contour) not in own]
+        surface_keys, center = {path_key(result.surface) for result in results}, results[0].center
+        others = [contour for contour in contours.near(center, stretch.radius) if path_key(contour) not in surface_keys]
         more, unknown, slack = _cuts_of(run, stretch, center, others)
         results[0] = _with_gouges(results[0], more, slack, (*others, center))
         unjudged += unknown
     results = _with_unjudged([result for results in judged for result in results], unjudged)
-    over = (*parted.links, *(lead for lead in parted.leads if _passes_over(run, stretch, lead, contours)))
-    if over:
-        lines = sorted({line for moves in over for line in moves.lines[1:].tolist()})
-        lowest = min(float(moves.points[:, 2].min()) for moves in over)
+    passing = (*parted.links, *(lead for lead in parted.leads if _passes_over(run, stretch, lead, contours)))
+    if passing:
+        lines = sorted({line for moves in passing for line in moves.lines[1:].tolist()})
+        lowest = min(float(moves.points[:, 2].min()) for moves in passing)
         results[0] = replace(results[0], above=PassedOver(lowest, tuple(lines)))
     return results
 
 
 def _passes_over(run: ControlRun, part: Stretch, lead: Moves, contours: Contours) -> bool:
-    """Whether a lead would cut contours, were it as low as they are."""
+    """True if a lead would cut contours if it were as low as they are."""
     path = lead.path()
     return bool(_cuts_of(run, part, path, contours.near(path, part.radius))[0])
 
@@ -234,7 +232,7 @@ def _passes_over(run: ControlRun, part: Stretch, lead: Moves, contours: Contours
 def _cuts_of(
     run: ControlRun, part: Stretch, center: Path, contours: Sequence[Path]
 ) -> tuple[list[Gouge], list[Judged], float]:
-    """What a path cuts of contours, those of them that cannot be judged, and the tolerance that uneven arcs add."""
+    """Return a path's cuts into contours, the contours that cannot be judged, and the tolerance uneven arcs add."""
     gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for contour in contours:
         accepted = _accepted_difference(run, contour, center)
@@ -248,7 +246,7 @@ def _cuts_of(
 
 
 def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Sequence[Path]) -> Judged:
-    """The result with more gouges, and with the most uneven arc of these paths where that raises the tolerance."""
+    """Return the result with more gouges, and the most uneven arc of these paths if it raises the tolerance."""
     if not result.verdict.judged:
         return result
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
@@ -258,10 +256,10 @@ def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Seq
 
 
 def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
-    """The verdicts on a stretch; where its side or radius changes, on each part with those that are in force there.
+    """Return the verdicts on a stretch, for each part with the side and radius in force there.
 
-    A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
-    the side changes it is not judged, and a finding says so.
+    A part may also cut the surface of another part.  Such cuts count if the side is the same in all parts; if the side
+    changes they are not judged, and a finding says so.
     """
     surface, parts = programmed_surface(stretch), stretch.parts()
     split = split_where_it_closes(surface) if len(parts) == 1 else SplitContours.of(surface)
@@ -287,7 +285,7 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
 
 
 def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Judged]:
-    """The results and those that are not judged for another reason than one of them."""
+    """Return the results, and of the unjudged ones one for each reason that no result gives."""
     reasons = {result.verdict.uneven_arc for result in results if not result.verdict.judged}
     more = {result.verdict.uneven_arc: result for result in unjudged if result.verdict.uneven_arc not in reasons}
     return [*results, *more.values()]
@@ -296,16 +294,16 @@ def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Ju
 def _with_other_parts(
     run: ControlRun, result: Judged, whole: Path, contours: tuple[RowRange, ...], rows: RowRange
 ) -> tuple[Judged, list[Judged]]:
-    """With what is cut of all contours outside the part's rows, and those of them that cannot be judged.
+    """Add the cuts into contours outside the part's rows; also return the contours that cannot be judged.
 
-    A subprogram's lines may be in several parts.
+    Gouges are assigned by row, because a subprogram's lines may be in several parts.
     """
     part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
     accepted = _accepted_difference(run, whole, result.center)
     more, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
-        # each by itself, for a pass of another part is no repetition of one of this part
+        # each separately, because a pass of another part does not repeat one of this part
         surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
         verdict = judge(surface, part.side, part.radius, result.center, accepted)
         if not verdict.judged:
@@ -318,7 +316,7 @@ def _with_other_parts(
 
 
 def _numbered(verdict: Verdict, surface: Path) -> Verdict:
-    """The verdict with the number of an uneven arc of the surface instead of its row."""
+    """Return the verdict with an uneven arc of the surface given by its number instead of its row."""
     arc = verdict.uneven_arc
     if arc is None or not arc.on_surface:
         return verdict
@@ -326,7 +324,7 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
 
 
 def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[RowRange]) -> list[Judged]:
-    """The verdict on each contour among moves of one side and radius; the first of them has the leads."""
+    """Return the verdict on each contour of a part with one side and radius; the first one has the leads."""
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
     results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
@@ -358,7 +356,7 @@ def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequen
 
 
 def _center_path(run: ControlRun, stretch: Stretch) -> Path:
-    """The tool's center, each pass once; where it only stands, a line of no length."""
+    """Return the tool's center path without repeated passes; if the tool stands still, a line of no length."""
     moves = run.moves.part(stretch.first, stretch.last)
     center = without_repeats(moves.path(stretch.plane))
     if len(center) or not len(moves):
@@ -368,25 +366,25 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
 
 
 def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
-    """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
+    """Judge one contour with the whole center path; moves along other contours are never on its wrong side."""
     lines = frozenset(contour.numbers.tolist())
     surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
     leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
     if stretch.radius <= GOUGE or contours > 1:
-        # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
+        # a center on the contour itself has no side, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
     return Judged(stretch, surface, center, verdict, lines, loops=loops)
 
 
 def _accepted_difference(run: ControlRun, *paths: Path) -> float:
-    """Millimeters by which the control that made this run lets the radii of an arc of this size differ."""
+    """Return how far in millimeters the run's control lets the radii of the largest of these arcs differ."""
     radii = [float(path.radii[path.turns != 0].max(initial=0.0)) for path in paths]
     return max(ARC_RADII, arc_tolerance(run.control).largest_difference(max(radii), run.unit) + GOUGE)
 
 
 def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
-    """The arc of these paths whose radii differ most, None where they add no more tolerance than ARC_RADII."""
+    """Return the arc of these paths whose radii differ most; None if neither it nor `slack` exceeds ARC_RADII."""
     worst, difference = None, ARC_RADII if slack <= ARC_RADII else ON_PATH
     for path in paths:
         arms = path.ends - path.centers
@@ -400,7 +398,7 @@ def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
 
 
 def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
-    """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
+    """Return findings with lines: gouges, wrong sides and unjudged paths are errors, the rest warnings or notes."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
     return (
@@ -428,13 +426,13 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
 
 
 def _with_axes(finding: Finding, plane: Plane) -> Finding:
-    """The finding with the names of a plane's axes."""
+    """Return the finding with the names of a plane's axes in its text."""
     first, second, _ = ("XYZ"[axis] for axis in plane.axes)
     return replace(finding, text=finding.text.replace("X {x} Y {y}", f"{first} {{x}} {second} {{y}}"))
 
 
 def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
-    """Once, that some gouges are too shallow for a digit."""
+    """Return one finding that counts the gouges too shallow for a digit, if any."""
     count = sum(result.unseen_gouges for result in results)
     if not count:
         return ()
@@ -444,20 +442,20 @@ def _unseen(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
 
 
 def deepest_gouge(results: tuple[Judged, ...]) -> tuple[float, int | None]:
-    """The deepest gouge of a run in millimeters with its line; 0 and None if there is none, None for a line unknown."""
+    """Return a run's deepest gouge in millimeters and its line: 0 and None without one, None for an unknown line."""
     gouges = [gouge for result in results for gouge in result.verdict.gouges]
     deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
     return (deepest.depth, _line(deepest.path_number)) if deepest else (0.0, None)
 
 
 def first_unjudged(results: tuple[Judged, ...]) -> tuple[bool, int | None]:
-    """Whether a contour of a run cannot be judged, and the line of the first one."""
+    """Return whether a contour of a run cannot be judged, and the line of the first such contour."""
     result = next((result for result in results if not result.verdict.judged), None)
     return result is not None, None if result is None else _first_line(result.center)
 
 
 def _line(number: float) -> int | None:
-    """The program's line that a piece of a path has as its number; 0 is a move that belongs to no line."""
+    """Return the program line in a path piece's number; None for 0, a move that belongs to no line."""
     return int(number) or None
 
 
@@ -466,14 +464,14 @@ def _first_line(path: Path) -> int | None:
 
 
 def _by_itself(result: Judged) -> Iterator[Finding]:
-    """Says that a part is judged by itself."""
+    """Warn that a part is judged by itself."""
     text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
     if result.by_itself:
         yield Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))
 
 
 def _uncompensated(result: Judged) -> Iterator[Finding]:
-    """Moves without compensation through a contour: a warning, for what stood there may be cut away by then."""
+    """Warn of moves without compensation through a contour; no error, since its wall may be cut away by then."""
     for cut in result.uncompensated:
         code, move = ("RAPID", "rapid") if cut.rapid else ("FEED", "move without compensation")
         at, line = cut.gouge.surface_at, _line(cut.gouge.path_number)
@@ -485,7 +483,7 @@ def _uncompensated(result: Judged) -> Iterator[Finding]:
 
 
 def _cuts_of_others(result: Judged) -> Iterator[Finding]:
-    """Cuts into the contours of other stretches: warnings, for a wall may be meant to be cut, as by a slot."""
+    """Warn of cuts into contours of other stretches; no error, since a slot, say, may be meant to cut the wall."""
     deepest = sorted(result.of_others, key=lambda cut: -cut.gouge.depth)
     for cut in deepest[:MAX_GOUGES]:
         into = (
@@ -500,7 +498,7 @@ def _cuts_of_others(result: Judged) -> Iterator[Finding]:
 
 
 def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
-    """Rapids under compensation at the depth of the cut, once a line."""
+    """Warn of rapids under compensation at the depth of the cut, once per line."""
     moves = {move.line: move for result in results for move in rapid_walls(result.stretch)}
     text = "This rapid under compensation runs at the depth of the cut, Z {0}. Write G1, or raise the tool before it."
     return tuple(
@@ -510,7 +508,7 @@ def _rapid_walls(results: Sequence[Judged]) -> tuple[Finding, ...]:
 
 
 def _above(result: Judged) -> Iterator[Finding]:
-    """Says that moves above the part pass over it and are not judged: no program says how high it is."""
+    """Warn that moves above the part are not judged, because no program says how high the part is."""
     above = result.above
     if above is None:
         return
@@ -521,14 +519,14 @@ def _above(result: Judged) -> Iterator[Finding]:
 
 
 def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
-    """The uneven arcs of judged parts that raise the tolerance, each line once, where it does so most."""
+    """Return the uneven arcs of judged parts that raise the tolerance; for each line the one that raises it most."""
     uneven = [(result, result.uneven) for result in results if result.uneven and result.verdict.judged]
     uneven.sort(key=lambda pair: pair[1].slack)
     return dict({arc.line: (result, arc) for result, arc in uneven if arc.slack > 0.0}.values())
 
 
 def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
-    """Says that an arc has two radii, which the control accepts, and how it is judged; warns beyond CAM_ROUNDING."""
+    """Report an arc with two radii that the control accepts, and how it is judged; warn beyond CAM_ROUNDING."""
     if arc is None:
         return []
     text = "Arc radius {0} at its start, {1} at its end: judged at a radius between them, with {value} extra tolerance."
@@ -554,7 +552,7 @@ def _cuts(result: Judged) -> list[Finding]:
 
 
 def _unjudged(result: Judged) -> Finding:
-    """Why nothing is known of a path."""
+    """Return the error that says why a path cannot be judged."""
     arc, line = result.verdict.uneven_arc, _first_line(result.center)
     if arc is None:
         text = "Not judged: a coordinate or the tool radius is too large for any machine."
@@ -566,8 +564,8 @@ def _unjudged(result: Judged) -> Finding:
 
 
 def _gouge(gouge: Gouge, radius: float) -> Finding:
-    fine = gouge.depth < SHOWN
-    depth = "less than {0}" if fine else "{value}" + or_more(gouge, radius)
+    too_small = gouge.depth < SHOWN
+    depth = "less than {0}" if too_small else "{value}" + or_more(gouge, radius)
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}."
     line = _line(gouge.path_number)
     return Finding(
@@ -576,13 +574,13 @@ def _gouge(gouge: Gouge, radius: float) -> Finding:
         text,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(DIGIT,) if fine else (),
+        lengths=(DIGIT,) if too_small else (),
         line=line,
     )
 
 
 def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
-    """That gouged lines may be no surface at all: nothing in a program says where a contour begins."""
+    """Warn that gouged lines may not be surface: nothing in a program says where a contour begins."""
     if not gouged & result.open_lines:
         return []
     first, last = int(min(result.open_lines)), int(max(result.open_lines))
@@ -594,7 +592,7 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
 
 
 def _leads(result: Judged) -> Iterator[Finding]:
-    """Says that moves are treated as leads, and what is cut of them."""
+    """Report moves that are treated as leads, and the cuts into them."""
     if not result.leads:
         return
     text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
@@ -617,7 +615,7 @@ def _leads(result: Judged) -> Iterator[Finding]:
 
 
 def _corner_loops(result: Judged) -> Iterator[Finding]:
-    """Says that a contour crosses itself to go around an outside corner."""
+    """Report that a contour crosses itself to go around an outside corner."""
     for loop in result.loops:
         lines = enumerated("line", loop.numbers)
         text = f"Loop around the corner X {{x}} Y {{y}}: what lies beyond it on {lines} is no wall."
@@ -628,9 +626,9 @@ def _corner_loops(result: Judged) -> Iterator[Finding]:
 
 
 def _contact(result: Judged) -> list[Finding]:
-    """Moves between the leads that leave the surface by more than the radius, or run against it.
+    """Report moves between the leads that leave the surface by more than the radius, or run backwards along it.
 
-    Some controls leave it at every corner: several such places are one finding.
+    Some controls leave it at every corner, so several such places make one finding.
     """
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
@@ -638,14 +636,14 @@ def _contact(result: Judged) -> list[Finding]:
     if any(numbers[row] in lines for row in result.verdict.loose):
         cuts = air_cuts(result.surface, result.stretch.radius, result.center)
         away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
-    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
+    first_lines = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
     listed = contact_findings(away, against)
-    told = [replace(finding, segment=None, line=line) for finding, line in zip(listed, begun, strict=True)]
-    return told if len(away) < 2 else [*told[: -len(away)], _several(told[-len(away) :])]
+    located = [replace(finding, segment=None, line=line) for finding, line in zip(listed, first_lines, strict=True)]
+    return located if len(away) < 2 else [*located[: -len(away)], _several(located[-len(away) :])]
 
 
 def _several(away: Sequence[Finding]) -> Finding:
-    """Several places where a path cuts air, at the one that is farthest off the part."""
+    """Merge several air cuts into one finding, at the place farthest from the part."""
     lines = list(dict.fromkeys(str(finding.line) for finding in away))
     more = " ..." if len(lines) > MAX_LINES else ""
     text = f"The path cuts air at {len(away)} places (lines {', '.join(lines[:MAX_LINES])}{more}), "
@@ -654,7 +652,7 @@ def _several(away: Sequence[Finding]) -> Finding:
 
 
 def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
-    """Leads are at a path's two ends, or have lines of their own."""
+    """True if an air cut is not a lead: leads are at a path's two ends, or have lines of their own."""
     ends = {tuple(center.points[0].tolist()), tuple(center.points[-1].tolist())}
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
@@ -664,16 +662,16 @@ def _uncut(result: Judged) -> list[Finding]:
     if not verdict.judged or not verdict.uncut:
         return []
     worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
-    fine = worst.thickness < SHOWN
-    thick = "less than {2}" if fine else "at most {value}"
+    too_small = worst.thickness < SHOWN
+    thick = "less than {2}" if too_small else "at most {value}"
     text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
-    lengths = (verdict.uncut_length, verdict.surface_length, *((DIGIT,) if fine else ()))
+    lengths = (verdict.uncut_length, verdict.surface_length, *((DIGIT,) if too_small else ()))
     line, at = int(worst.first_number), worst.thickest
     return [Finding("UNCUT", Severity.WARNING, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
 
 
 def _crossing(result: Judged) -> list[Finding]:
-    """Says that the contour's ends run past its corner, or that it crosses itself."""
+    """Report that the contour's ends run past its corner, or that it crosses itself."""
     verdict, line = result.verdict, _first_line(result.surface)
     if verdict.over_run is not None:
         return [_over_run(verdict.over_run, result.surface)]
@@ -685,7 +683,7 @@ def _crossing(result: Judged) -> list[Finding]:
 
 
 def _over_run(over_run: OverRun, surface: Path) -> Finding:
-    """Says that the contour's ends are leads; a warning where the first or the last point may be wrong."""
+    """Report that the contour's ends are leads; warn if its first or last point, or a lead, may be wrong."""
     if not over_run.doubtful and over_run.lead_numbers:
         which = enumerated("line", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."
