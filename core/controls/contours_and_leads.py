@@ -1,4 +1,4 @@
-"""Contours and leads: which moves of a compensated stretch are contours, and which only lead to them."""
+"""Contours and leads: the moves of a compensated stretch that are contours, and those that only lead to them."""
 
 from __future__ import annotations
 
@@ -17,48 +17,48 @@ MAX_LEAD_MOVES: Final = 2
 """Most moves that may lead in, out, or from one contour to the next: a line and an arc.  More are surface."""
 
 MAX_CONTOURS: Final = 32
-"""With more contours than this all moves count as surface: each contour is judged with the whole path."""
+"""Most contours of a path; beyond this all moves count as surface, as each contour is judged with the whole path."""
 
 BLEND: Final = radians(1.0)
-"""How far the directions of a lead and of the contour may be apart where they run on tangent."""
+"""Largest angle between the directions of a lead and of the contour at which they still run on tangent."""
 
 LONG: Final = 0.5
-"""Share of the longest contour from which on moves that lead to one or away from it may be walls."""
+"""Share of the longest contour beyond which moves that lead to or from a contour may be walls."""
 
 OVERLAP: Final = 1e-3
-"""Radians between the directions of a wall and of a move that runs along it again, with rounded ends."""
+"""Largest angle in radians between a wall and a move that runs along it again, with rounded ends."""
 
 RowRange = tuple[int, int]
 """First row and one after the last."""
 
 
 def contours_of(path: Path) -> tuple[RowRange, ...]:
-    """The contours as ranges of their pieces' rows, ascending; rows in none of them are leads.
+    """Return the contours as ranges of their pieces' rows, ascending; rows outside them are leads.
 
-    A closed run of pieces is a contour, the longest one before all others.  What is before, between and after closed
-    ones is a contour too where it has more than MAX_LEAD_MOVES pieces, an open one: nothing says that it is no surface.
-    Pieces behind the longest one that run along its beginning again count as neither.
+    A closed run of pieces is a contour; the longest one is taken first.  Pieces before, between and after closed runs
+    are an open contour if there are more than MAX_LEAD_MOVES of them, because nothing says that they are not surface.
+    Pieces after the longest run that repeat its beginning belong to no contour.
     """
     whole = (0, len(path))
     if not len(path):
         return (whole,)
-    places = _places(path)
+    point_ids = _point_ids(path)
     sums = _sums(path)
-    longest = _longest(sums, places)
+    longest = _longest(sums, point_ids)
     if longest is None:
         return (whole,)
-    longest = _between_leads(path, sums, places, longest)
-    behind = _behind_overlap(path, longest)
-    contours = (*_within(sums, places, (0, longest[0])), longest, *_within(sums, places, (behind, len(path))))
+    longest = _between_leads(path, sums, point_ids, longest)
+    after = _end_of_overlap(path, longest)
+    contours = (*_within(sums, point_ids, (0, longest[0])), longest, *_within(sums, point_ids, (after, len(path))))
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
 def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, frozenset[float]]:
-    """The open contours of a path among closed ones, with their lines: they may only lead to the closed ones."""
+    """Return the open contours among closed ones, with their lines: they may only lead to the closed ones."""
     if len(contours) == 1:
         return {}
-    places = _places(path)
-    open_rows = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
+    point_ids = _point_ids(path)
+    open_rows = [rows for rows in contours if point_ids[rows[0]] != point_ids[rows[1]]]
     return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
 
 
@@ -66,7 +66,7 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
 class SplitContours:
     """A path with lines split where contours close within them, its contours, and the open ones among closed ones.
 
-    `open_lines` has all lines of each of these.
+    `open_lines` has all lines of each open contour.
     """
 
     path: Path
@@ -75,16 +75,16 @@ class SplitContours:
 
     @staticmethod
     def of(path: Path) -> SplitContours:
-        """The contours of a path as it is."""
+        """Find the contours of a path without splitting its lines."""
         contours = contours_of(path)
         return SplitContours(path, contours, open_contours(path, contours))
 
 
 def split_where_it_closes(path: Path) -> SplitContours:
-    """The path with lines split in two that run on over the point at which the contour begins.
+    """Split in two the lines that run past the point at which the contour begins.
 
-    It begins behind at most MAX_LEAD_MOVES moves, or ends before so many.  Contours are cut a little further than to
-    where they close, once more as a whole, or from a start beyond their corner.
+    The contour begins after at most MAX_LEAD_MOVES moves, or ends before as many.  Programs cut it a little past the
+    point where it closes, cut all of it once more, or start beyond its corner.
     """
     split = _split_at_start(path)
     if split is None and contours_of(path) == ((0, len(path)),):
@@ -97,9 +97,9 @@ def split_where_it_closes(path: Path) -> SplitContours:
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
-    """The path with lines split in two that run on over the point behind its first moves, of most moves first.
+    """Split the lines that run past the point after the first moves; try the most first moves first.
 
-    Once split on the line, and once at the point itself, which may be off the line by rounding.
+    Return the path split on the line, and split at the point itself, which may be off the line by rounding.
     """
     directions = path.start_directions
     for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
@@ -114,22 +114,22 @@ def _split_at_start(path: Path) -> tuple[Path, Path] | None:
 
 
 def _split_at_corner(path: Path) -> Path | None:
-    """The path with its last line split where its first one ends, of leads there and back beyond a corner.
+    """Split the last line where the first one ends, if they are leads out and back beyond a corner.
 
-    Or with its first line split where its last one begins.
+    Or split the first line where the last one begins.
     """
     if len(path) < 4 or np.abs(path.points[0] - path.points[-1]).max() > CLOSED:
         return None
-    for way, turned in ((path, False), (path.reversed(), True)):
-        row = len(way) - 1
-        if not way.turns[0] and _runs_over(way, way.points[1], way.end_directions[row])[row]:
-            split = _split(way, [row], way.points[1:2])
-            return split.reversed() if turned else split
+    for directed, is_reversed in ((path, False), (path.reversed(), True)):
+        row = len(directed) - 1
+        if not directed.turns[0] and _runs_over(directed, directed.points[1], directed.end_directions[row])[row]:
+            split = _split(directed, [row], directed.points[1:2])
+            return split.reversed() if is_reversed else split
     return None
 
 
 def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
-    """(n,) whether a piece is a line that runs over a point, in a direction, with both ends away from it."""
+    """Return (n,) whether a piece is a line over a point, in direction `way`, with both ends away from the point."""
     steps, along = point - path.starts, path.start_directions
     reach, off = (steps * along).sum(axis=1), np.abs(steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
     inside = (reach > CLOSED) & (reach < path.lengths - CLOSED)
@@ -138,23 +138,23 @@ def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
 
 
 def _split(path: Path, rows: list[int], at: Floats) -> Path:
-    """The path with lines in two pieces of their number each, parted at points (m, 2)."""
-    behind = [row + 1 for row in rows]
-    points, centers = np.insert(path.points, behind, at, axis=0), np.insert(path.centers, behind, at, axis=0)
-    turns, numbers = np.insert(path.turns, behind, 0), np.insert(path.numbers, behind, path.numbers[rows])
+    """Return the path with lines split in two at points (m, 2); both pieces keep the line's number."""
+    after = [row + 1 for row in rows]
+    points, centers = np.insert(path.points, after, at, axis=0), np.insert(path.centers, after, at, axis=0)
+    turns, numbers = np.insert(path.turns, after, 0), np.insert(path.numbers, after, path.numbers[rows])
     return Path.of(points, centers, turns, numbers)
 
 
 def has_long_leads(path: Path, contours: tuple[RowRange, ...]) -> bool:
-    """Whether the moves before the first contour, behind the last one or between two are long beside the longest."""
+    """True if the moves before, between or after contours are long compared with the longest contour."""
     length = np.concatenate((np.zeros(1), np.cumsum(path.lengths)))
     ends = length[[0, *(row for both in contours for row in both), len(path)]]
-    ways, around = ends[1::2] - ends[::2], ends[2::2] - ends[1:-1:2]
-    return bool(ways.max() > LONG * around.max())
+    gaps, perimeters = ends[1::2] - ends[::2], ends[2::2] - ends[1:-1:2]
+    return bool(gaps.max() > LONG * perimeters.max())
 
 
 def leads_at_corner(path: Path, contours: tuple[RowRange, ...]) -> bool:
-    """Whether a line there and back at a corner of a contour is taken for its leads: it may be a wall run twice."""
+    """True if a line out and back at a corner of a contour is treated as its leads; it may be a wall run twice."""
     for first, last in contours:
         lines = first > 0 and last < len(path) and not path.turns[first - 1] and not path.turns[last]
         back = lines and np.abs(path.points[first - 1] - path.points[last + 1]).max() <= CLOSED
@@ -164,13 +164,13 @@ def leads_at_corner(path: Path, contours: tuple[RowRange, ...]) -> bool:
 
 
 def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
-    """The rows of leads that blend into a contour or out of it: in line with it up to an arc, and what is beyond it.
+    """Return the rows of leads that blend into or out of a contour: in line with it up to an arc, and beyond.
 
-    Nothing programs a surface so: they are leads, not only taken for them.
+    No program has surface of this kind: these moves certainly are leads.
     """
     rows = set[int]()
     ends = [0, *(row for both in contours for row in both), len(path)]
-    for first, last in zip(ends[::2], ends[1::2], strict=True):  # the ways from one contour to the next
+    for first, last in zip(ends[::2], ends[1::2], strict=True):  # the moves between contours
         outward, inward = range(first - 1, last), range(last, first - 1, -1)
         if (first > 0 and _blends(path, outward)) or (last < len(path) and _blends(path, inward)):
             rows.update(range(first, last))
@@ -178,7 +178,7 @@ def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
 
 
 def _blends(path: Path, rows: range) -> bool:
-    """Whether from the contour's row, the first, the next ones run on tangent up to an arc."""
+    """True if the rows from the contour's row, the first, outward run on tangent up to an arc."""
     for near, far in pairwise(rows):
         before, after = min(near, far), max(near, far)
         if float(path.end_directions[before] @ path.start_directions[after]) < cos(BLEND):
@@ -189,46 +189,46 @@ def _blends(path: Path, rows: range) -> bool:
 
 
 def contour_of(path: Path) -> RowRange:
-    """The rows of the one contour without its leads; all rows where there are several, or none that is closed."""
+    """Return the rows of the only contour without its leads; all rows if there are several or none is closed."""
     contours = contours_of(path)
     return contours[0] if len(contours) == 1 else (0, len(path))
 
 
-def _places(path: Path) -> list[int]:
-    """The place of each of the path's points: the index of an earlier one within CLOSED of it, or its own."""
-    places = list[int]()
+def _point_ids(path: Path) -> list[int]:
+    """Return for each point of the path the index of an earlier point within CLOSED of it, or its own index."""
+    point_ids = list[int]()
     firsts = defaultdict[tuple[int, int], list[int]](list)
     points, cells = path.points.tolist(), np.floor(path.points / CLOSED).astype(np.int64).tolist()
     for index, (point, (column, row)) in enumerate(zip(points, cells, strict=True)):
         around = ((column + across, row + up) for across in (0, -1, 1) for up in (0, -1, 1))
         near = (first for cell in around for first in firsts.get(cell, ()) if dist(points[first], point) <= CLOSED)
-        place = next(near, index)
-        places.append(place)
-        if place == index:
+        point_id = next(near, index)
+        point_ids.append(point_id)
+        if point_id == index:
             firsts[column, row].append(index)
-    return places
+    return point_ids
 
 
-def _longest(sums: Floats, places: list[int]) -> RowRange | None:
-    """The run of most pieces that ends where it begins and encloses something."""
+def _longest(sums: Floats, point_ids: list[int]) -> RowRange | None:
+    """Return the closed run of the most pieces that encloses something."""
     first_seen: dict[int, int] = {}
     best = (0, 0)
-    for index, place in enumerate(places):
-        begin = first_seen.setdefault(place, index)
+    for index, point_id in enumerate(point_ids):
+        begin = first_seen.setdefault(point_id, index)
         if index - begin > best[1] - best[0] and _encloses(sums, (begin, index)):
             best = (begin, index)
     return best if best[1] else None
 
 
-def _between_leads(path: Path, sums: Floats, places: list[int], rows: RowRange) -> RowRange:
-    """The closed run inside a closed one that starts and ends with a lead.
+def _between_leads(path: Path, sums: Floats, point_ids: list[int], rows: RowRange) -> RowRange:
+    """Return the closed run inside a closed one that starts and ends with a lead.
 
-    That is a line there and back in the middle of a wall or off a corner, or an arc of a quarter turn at most, in line
-    with the wall: around a square corner both arcs of a blend may begin and end at one point.  In a bore they may be
-    half a turn.
+    These leads are a line out and back in the middle of a wall or off a corner, or arcs of at most a quarter turn in
+    line with the wall: around a square corner both arcs of a blend may begin and end at one point.  In a bore they may
+    be half a turn.
     """
     begin, end = rows[0] + 1, rows[1] - 1
-    if begin >= end or places[begin] != places[end] or not _encloses(sums, (begin, end)):
+    if begin >= end or point_ids[begin] != point_ids[end] or not _encloses(sums, (begin, end)):
         return rows
     if not path.turns[begin - 1] and not path.turns[end]:
         return (begin, end) if _leads_off(path, begin, end) else rows
@@ -239,10 +239,10 @@ def _between_leads(path: Path, sums: Floats, places: list[int], rows: RowRange) 
 
 
 def _leads_off(path: Path, begin: int, end: int) -> bool:
-    """Whether the line behind row `end` leads off the closed run that begins and ends there.
+    """True if the line in row `end` leads off the closed run that begins and ends there.
 
-    It does from the middle of a wall, and at a corner square to both walls at least or straight on from one of them:
-    any other may be a wall that is run twice by mistake.
+    It does from the middle of a wall, and at a corner if it is at least square to both walls or continues one of them;
+    any other line may be a wall that is run twice by mistake.
     """
     before, after = -path.end_directions[end - 1], path.start_directions[begin]
     off = path.start_directions[end]
@@ -252,30 +252,30 @@ def _leads_off(path: Path, begin: int, end: int) -> bool:
 
 
 def _inside_of_circle(path: Path, arcs: tuple[int, int], rows: RowRange) -> bool:
-    """Whether rows are one circle, and arcs that touch it lie inside of it."""
+    """True if the rows are one circle, and the arcs that touch it lie inside it."""
     turns, centers, radii = (values[slice(*rows)] for values in (path.turns, path.centers, path.radii))
     circle = bool(turns[0] and (turns == turns[0]).all() and np.abs(centers - centers[0]).max() <= CLOSED)
     return circle and all(path.turns[arc] == turns[0] and path.radii[arc] < radii[0] for arc in arcs)
 
 
-def _within(sums: Floats, places: list[int], rows: RowRange) -> list[RowRange]:
-    """The contours among rows outside the longest one: closed runs in their order, and what is long between them."""
+def _within(sums: Floats, point_ids: list[int], rows: RowRange) -> list[RowRange]:
+    """Return the contours among rows outside the longest one: closed runs, and long open runs between them."""
     begin, end = rows
-    last_seen = {places[index]: index for index in range(begin, end + 1)}
+    last_seen = {point_ids[index]: index for index in range(begin, end + 1)}
     contours: list[RowRange] = []
-    at = open_from = begin
-    while at < end:
-        close = last_seen[places[at]]
-        if close > at and _encloses(sums, (at, close)):
-            contours += [*_open((open_from, at)), (at, close)]
-            at = open_from = close
+    row = open_start = begin
+    while row < end:
+        close = last_seen[point_ids[row]]
+        if close > row and _encloses(sums, (row, close)):
+            contours += [*_open((open_start, row)), (row, close)]
+            row = open_start = close
         else:
-            at += 1
-    return [*contours, *_open((open_from, end))]
+            row += 1
+    return [*contours, *_open((open_start, end))]
 
 
 def _sums(path: Path) -> Floats:
-    """(4, n + 1) twice the area and the length up to each of the path's points, and the point from the first one."""
+    """Return (4, n + 1) twice the area and the length up to each of the path's points, and its x, y from the first."""
     corners = (path.points - path.points[:1]).T
     areas = corners[0, :-1] * corners[1, 1:] - corners[1, :-1] * corners[0, 1:]
     areas += np.where(path.turns != 0, path.radii**2 * (path.sweeps - np.sin(path.sweeps)), 0.0)
@@ -284,23 +284,23 @@ def _sums(path: Path) -> Floats:
 
 
 def _encloses(sums: Floats, rows: RowRange) -> bool:
-    """Whether a closed run is more than a way there and back; the gap of rounding at its end is closed by a line."""
-    (begun, before, x0, y0), (ended, behind, x1, y1) = sums[:, rows].T.tolist()
-    area = ended - begun + x1 * y0 - y1 * x0
-    return bool(abs(area) > CLOSED * (behind - before))
+    """True if a closed run is more than a way out and back; a line closes the gap that rounding leaves at its end."""
+    (first_area, first_length, x0, y0), (last_area, last_length, x1, y1) = sums[:, rows].T.tolist()
+    area = last_area - first_area + x1 * y0 - y1 * x0
+    return bool(abs(area) > CLOSED * (last_length - first_length))
 
 
-def _behind_overlap(path: Path, rows: RowRange) -> int:
-    """The first row behind a closed run that does not run along its beginning again."""
+def _end_of_overlap(path: Path, rows: RowRange) -> int:
+    """Return the first row after a closed run that does not run along its beginning again."""
     first, last = rows
-    behind = last
-    while behind < len(path) and behind - last < last - first and _runs_along(path, behind, first + behind - last):
-        behind += 1
-    return behind
+    after = last
+    while after < len(path) and after - last < last - first and _runs_along(path, after, first + after - last):
+        after += 1
+    return after
 
 
 def _runs_along(path: Path, row: int, other: int) -> bool:
-    """Whether a piece runs along another one from its start, no longer than that."""
+    """True if a piece runs along another one from its start, and is no longer than that one."""
     apart = [path.points[row] - path.points[other]]
     if path.turns[row]:
         apart.append(path.centers[row] - path.centers[other])

@@ -1,9 +1,9 @@
-"""Corner rules: how a control joins the offsets of two elements at their corner, at its entry and at its exit.
+"""Corner rules say how a control joins the offsets of two elements at their corner, at its entry and at its exit.
 
-`join` is the one algorithm: it takes two elements, the signed tool radius and a control's `CornerRules`, and gives the
-`Joint`: where the first offset ends, what leads from there, and where the second one starts.  E1 is the offset point at
-the end of the first element, E2 that at the start of the second, M the miter point, Q1 and Q2 the ends of both offsets
-prolonged by the radius.  Entries, exits and changes of the radius are joints too.
+`join` is the central algorithm: from two elements, the signed tool radius and a control's `CornerRules` it makes the
+`Joint`: where the first offset ends, the moves from there, and where the second one starts.  E1 is the offset point at
+the end of the first element, E2 the one at the start of the second, M the miter point, Q1 and Q2 the ends of the two
+offsets extended by the radius.  Entries, exits and changes of the radius are joints too.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from core.controls.compensation.elements import (
 from core.geometry.piece import Point
 
 SAME_POINT: Final = 1e-9
-"""Millimeters within which the axes are taken to stand at a point already."""
+"""Millimeters within which the axes count as being at a point already."""
 
 RIGHT_ANGLE: Final = pi / 2 + 1e-9
-"""Turns up to this are prolonged to the miter point."""
+"""Turns up to this angle are extended to the miter point."""
 
 
 class CornerKind(Enum):
-    """What a corner is to a tool on one side of the path."""
+    """The kind of a corner for a tool on one side of the path."""
 
     TANGENT = auto()
     INSIDE = auto()
@@ -47,32 +47,32 @@ class Outside(Enum):
     ARC = auto()
     """An arc of the tool radius about the corner."""
     LINES = auto()
-    """Up to a right angle over M, beyond it over Q1 and Q2."""
+    """Over M up to a right angle, over Q1 and Q2 beyond it."""
     MITER_OR_ARC = auto()
-    """Up to a right angle over M, beyond it an arc between two lines, over Q1 and Q2 at an arc."""
+    """Over M up to a right angle; beyond it by an arc between two lines, else over Q1 and Q2."""
     MITER_OR_ANY_ARC = auto()
-    """Up to a right angle over M, beyond it an arc, whatever meets there."""
+    """Over M up to a right angle; beyond it by an arc, between lines and arcs alike."""
     MEETING = auto()
-    """By the meeting of the two offsets, as at an inside corner."""
+    """At the meeting of the two offsets, as at an inside corner."""
 
 
 class Inside(Enum):
     """How a control joins two offsets at an inside corner."""
 
     NEAREST = auto()
-    """At the meeting nearest to the corner."""
+    """At the meeting nearest the corner."""
     BY_SIDE = auto()
-    """At the first meeting outside an arc along a line, of two arcs by the side they bend to; LinuxCNC's choice."""
+    """At the meeting LinuxCNC picks, by the side of the arc the tool is on; for two arcs also by the second's turn."""
     OPEN = auto()
-    """Not at all: straight from E1 to E2."""
+    """No joining: straight from E1 to E2."""
 
 
 class CornerRules(NamedTuple):
     """The corner rules of a control, as data.
 
-    `tangent`: radians up to which a corner is none; `touching`: millimeters between E1 and E2 up to which it is none.
-    `reversal`: radians short of half a turn from which on a corner is outside whatever its sign; with `hooks` it is
-    inside off or onto an arc that has the cutter outside of it.  `rapid_straight`: a rapid goes straight to E2.
+    Corners count as tangent up to a turn of `tangent` radians, or with E1 and E2 at most `touching` millimeters apart.
+    Turns within `reversal` radians of half a turn are outside corners whatever their sign; with `hooks` they are inside
+    off or onto an arc that has the cutter outside it.  `rapid_straight`: a rapid goes straight to E2, not by an arc.
     """
 
     tangent: float = SAME_DIRECTION
@@ -85,10 +85,10 @@ class CornerRules(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """How two offsets meet: the first one ends, straight moves lead to each point of `through`, the second one starts.
+    """How two offsets meet: the first ends at `end`, straight moves go to each point of `through`, the second begins.
 
-    `center`: the last of the way to `start` is an arc about it on the tool's side.  `missed`: the offsets of an inside
-    corner do not meet.
+    `center`: the last move, to `start`, is an arc about this point on the tool's side.  `missed`: the offsets of an
+    inside corner do not meet.
     """
 
     end: Point
@@ -100,20 +100,20 @@ class Joint(NamedTuple):
 
     @property
     def moves(self) -> int:
-        """How many moves lead from the end to the start."""
+        """The number of moves from `end` to `start`."""
         last = self.through[-1] if self.through else self.end
         apart = abs(last[0] - self.start[0]) > SAME_POINT or abs(last[1] - self.start[1]) > SAME_POINT
         return len(self.through) + (self.center is not None or apart)
 
 
 def inward_turn(first: Element, second: Element, offset: float) -> float:
-    """The turn at a corner, radians, positive toward the tool; a reversal turns away from it."""
+    """Return the turn at a corner in radians, positive toward the tool; a reversal turns away from it."""
     angle = turn_angle(first, second) * (1 if offset > 0.0 else -1)
     return -pi if abs(angle) > pi - SAME_DIRECTION else angle
 
 
 def corner_kind(first: Element, second: Element, offset: float, rules: CornerRules) -> CornerKind:
-    """What the corner between two elements is to a tool `offset` to their left."""
+    """Return the kind of the corner between two elements for a tool `offset` to their left."""
     inward = inward_turn(first, second, offset)
     if not offset:
         return CornerKind.TANGENT
@@ -131,7 +131,7 @@ def _touch(first: Element, second: Element, offset: float, within: float) -> boo
 
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
-    """The joint of two elements that follow each other, the tool `offset` millimeters to their left."""
+    """Return the joint of two consecutive elements, with the tool `offset` millimeters to their left."""
     kind = corner_kind(first, second, offset, rules)
     end, start = offset_end(first, offset), offset_start(second, offset)
     if kind is CornerKind.TANGENT:
@@ -139,19 +139,19 @@ def join(first: Element, second: Element, offset: float, rules: CornerRules) -> 
     if kind is CornerKind.INSIDE and rules.inside is Inside.OPEN:
         return Joint(end, start, corner=kind)
     if kind is CornerKind.INSIDE or rules.outside is Outside.MEETING:
-        point = _met(first, second, offset, rules.inside)
+        point = _meeting_point(first, second, offset, rules.inside)
         return Joint(end, start, corner=kind, missed=True) if point is None else Joint(point, point, corner=kind)
     return _outside(first, second, offset, rules)._replace(corner=kind)
 
 
-def _met(first: Element, second: Element, offset: float, rule: Inside) -> Point | None:
+def _meeting_point(first: Element, second: Element, offset: float, rule: Inside) -> Point | None:
     if rule is not Inside.BY_SIDE:
         return meeting(first, second, offset)
     points = meetings(first, second, offset, offset)
-    return points[_by_side(first, second, offset) if len(points) > 1 else 0] if points else None
+    return points[_index_by_side(first, second, offset) if len(points) > 1 else 0] if points else None
 
 
-def _by_side(first: Element, second: Element, offset: float) -> int:
+def _index_by_side(first: Element, second: Element, offset: float) -> int:
     if not first.turn:
         return 1 if second.turn * offset > 0.0 else 0
     if not second.turn:
@@ -167,24 +167,24 @@ def _outside(first: Element, second: Element, offset: float, rules: CornerRules)
         return Joint(end, start, (start,)) if straight else Joint(end, start, center=second.start)
     if abs(angle) <= RIGHT_ANGLE:
         point = miter(first.end, first.end_direction, angle, offset)
-        return _over(first, second, (end, point, point, start))
+        return _joint_over(first, second, (end, point, point, start))
     lines_only = not first.turn and not second.turn
     if rules.outside is Outside.MITER_OR_ANY_ARC or (rules.outside is Outside.MITER_OR_ARC and lines_only):
         return Joint(end, start, center=second.start)
-    leaving, coming = _prolonged(first, second, offset)
-    return _over(first, second, (end, leaving, coming, start))
+    leaving, coming = _extended(first, second, offset)
+    return _joint_over(first, second, (end, leaving, coming, start))
 
 
-def _prolonged(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
-    """Q1 and Q2."""
+def _extended(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
+    """Return Q1 and Q2."""
     end, start, reach = offset_end(first, offset), offset_start(second, offset), abs(offset)
     return point_along(end, first.end_direction, reach), point_along(start, second.start_direction, -reach)
 
 
-def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Point]) -> Joint:
-    """The joint over E1, the end of the first one's prolongation, the start of the second one's, E2.
+def _joint_over(first: Element, second: Element, points: tuple[Point, Point, Point, Point]) -> Joint:
+    """Return the joint over E1, the end of the first one's extension, the start of the second one's, and E2.
 
-    A line is prolonged itself; an arc ends at its offset point and the prolongation is a block of its own.
+    A line itself is extended; an arc ends at its offset point, and its extension is a block of its own.
     """
     end, leaving, coming, start = points
     through = () if not first.turn else (leaving,)
@@ -194,10 +194,10 @@ def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Po
 
 
 def entry_joint(entering: Element, first: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
-    """How the entry move joins the contour's first element.
+    """Return the joint of the entry move and the contour's first element.
 
-    `direct` (type A) goes straight to E2; type B goes around outside corners by `rule`.  The manual shows the polylines
-    of type B in figures alone; they agree with those of other makers.
+    `direct` (type A) goes straight to E2; type B goes around outside corners by `rule`.  The manual shows type B's
+    polylines only in figures; they agree with those of other makers.
     """
     start = offset_start(first, offset)
     if direct or inward_turn(entering, first, offset) >= 0.0:
@@ -206,7 +206,7 @@ def entry_joint(entering: Element, first: Element, offset: float, rule: Outside,
 
 
 def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
-    """Type B's way from the last element to where the exit move starts: the mirror image of the entry."""
+    """Return type B's joint from the last element to the start of the exit move, the mirror image of the entry."""
     end = offset_end(last, offset)
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
@@ -214,7 +214,7 @@ def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) ->
 
 
 def _around_lead(first: Element, second: Element, offset: float, rule: Outside, element: Element) -> Joint:
-    """The way around the outside corner of an element and its entry or exit move; M alone up to a right angle."""
+    """Return the joint around the outside corner at an entry or exit; unless by arc, M alone up to a right angle."""
     angle = turn_angle(first, second)
     if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
         point = miter(first.end, first.end_direction, angle, offset)
@@ -222,13 +222,13 @@ def _around_lead(first: Element, second: Element, offset: float, rule: Outside, 
     end, start = offset_end(first, offset), offset_start(second, offset)
     if rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn):
         return Joint(end, start, center=second.start)
-    return Joint(end, start, _prolonged(first, second, offset))
+    return Joint(end, start, _extended(first, second, offset))
 
 
 def offset_change_joint(first: Element, second: Element, old: float, new: float) -> Joint:
-    """The radius or the side changes: from E1 with the old one to E2 with the new one.
+    """Return the joint at a change of radius or side: from E1 with the old offset to E2 with the new one.
 
-    Where the side changes at an arc, the meeting of the two offsets is taken if there is one.
+    If the side changes at an arc, the joint is the meeting of the two offsets, if they meet.
     """
     if old * new < 0.0 and (first.turn or second.turn):
         point = meeting(first, second, old, new)
@@ -238,10 +238,10 @@ def offset_change_joint(first: Element, second: Element, old: float, new: float)
 
 
 def vector_end(last: Element, vector: Point, offset: float) -> Point:
-    """The end of the last element as the vector of an exit block moves it, by one radius at most.
+    """Return the end of the last element as the vector of an exit block moves it, by at most one radius.
 
-    The vector's line through the programmed end is offset to the tool's side; where it meets the offset path is the new
-    point.  A vector along the path shifts the point against the vector by the radius.
+    The line along the vector through the programmed end is offset to the tool's side; the new point is where it meets
+    the offset path.  A vector along the path moves the point against the vector by the radius.
     """
     end, reach, size = offset_end(last, offset), abs(offset), hypot(*vector)
     if not size:
@@ -250,5 +250,5 @@ def vector_end(last: Element, vector: Point, offset: float) -> Point:
     point = meeting(last, line_element(last.end, towards), offset)
     if point is None:
         return point_along(end, vector, -reach / size)
-    way = (point[0] - end[0], point[1] - end[1])
-    return point_along(end, way, 1.0 if hypot(*way) <= reach else reach / hypot(*way))
+    shift = (point[0] - end[0], point[1] - end[1])
+    return point_along(end, shift, 1.0 if hypot(*shift) <= reach else reach / hypot(*shift))

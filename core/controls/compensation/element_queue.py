@@ -1,6 +1,6 @@
-"""Element queue: holds each offset element until the next one is known, and joins the two by the corner rules.
+"""The element queue holds each offset element until the next one is known, and joins the two by the corner rules.
 
-`OneMoveQueue` is the queue as LinuxCNC runs it, and RosettaCNC's entry `normal` after it.
+`OneMoveQueue` is LinuxCNC's queue; RosettaCNC's entry `normal` follows it.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from core.units import Unit
 
 
 class ElementQueue(Recorder):
-    """Offset elements being joined; `offset` is the tool radius in millimeters, positive with the tool on the left.
+    """Joins offset elements; `offset` is the tool radius in millimeters, positive with the tool on the left.
 
-    `held` waits for the next element and starts at `start`; `standing` are moves across the plane that wait with it.
+    `held` waits for the next element and starts at `start`; `standing` are moves along the tool axis that wait with it.
     """
 
     rules = CornerRules()
@@ -42,18 +42,18 @@ class ElementQueue(Recorder):
         return Side.LEFT if self.offset > 0.0 else Side.RIGHT
 
     def joint(self, first: Element, second: Element) -> Joint:
-        """How this control joins two elements."""
+        """Return this control's joint of two elements."""
         return join(first, second, self.offset, self.rules)
 
     def backwards(self, element: Element) -> None:
-        """A trimmed element would run against its programmed direction."""
+        """Handle a trimmed element that would run against its programmed direction; by default do nothing."""
 
     def feed_of(self, element: Element) -> float:
-        """The feed at which an offset element runs."""
+        """Return the feed at which an offset element runs."""
         return element.feed
 
     def hold(self, element: Element) -> None:
-        """Takes the next element in; the one before it can run now."""
+        """Take in the next element, and run the one before it, whose end is now known."""
         self.note(element)
         if not element.moves and self.held is not None:
             self.standing.append(element)
@@ -67,13 +67,13 @@ class ElementQueue(Recorder):
         self.elements += 1
 
     def release(self, end: Point) -> None:
-        """Runs what is held to a point, and moves across the plane there."""
+        """Run the held element to a point, and the waiting moves along the tool axis there."""
         if self.held is not None and self.start is not None and runs_back(self.held, self.start, end):
             self.backwards(self.held)
         self.run_held(end)
 
     def run_held(self, end: Point) -> None:
-        """Runs what is held to a point, without a look at its direction."""
+        """Run the held element to a point without checking its direction."""
         held, standing = self.held, self.standing
         self.held, self.standing = None, []
         if held is None:
@@ -88,7 +88,7 @@ class ElementQueue(Recorder):
             self.straight(element, end)
 
     def release_at_end(self) -> None:
-        """Runs what is held to the offset point at its end."""
+        """Run the held element to the offset point at its end."""
         if self.held is not None:
             self.release(offset_end(self.held, self.offset))
         self.start = None
@@ -97,7 +97,7 @@ class ElementQueue(Recorder):
 NOSE_DIRECTIONS: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
     {1: (1, -1), 2: (-1, -1), 3: (-1, 1), 4: (1, 1), 5: (1, 0), 6: (0, -1), 7: (-1, 0), 8: (0, 1)}
 )
-"""Lathe orientation: in which direction of Z and X the controlled point lies from the nose's center, in radii."""
+"""Direction in Z and X from the nose's center to the controlled point, in radii, by lathe orientation."""
 
 NO_FIT: Final = "The cutter does not fit into this corner without gouging. Use a smaller cutter or open the corner."
 
@@ -108,7 +108,7 @@ ARC_RUN_AT_STOP: Final = (
 
 @dataclass(frozen=True, slots=True)
 class AlarmCodes:
-    """The ids of a control's rules for the same faults."""
+    """A control's rule ids for the faults that `OneMoveQueue` detects."""
 
     entry: str
     arc_radius: str
@@ -117,10 +117,10 @@ class AlarmCodes:
 
 
 class OneMoveQueue(ElementQueue):
-    """The queue of LinuxCNC: one move of the plane is held, with the moves of Z after it.
+    """The queue of LinuxCNC: it holds one move of the plane and the moves along the tool axis after it.
 
-    The first move ends at its own offset point.  `first`: it is still to come.  `ran`: what is held has run at a
-    program stop, and only the corner with the next move is still to come.
+    The first move ends at its own offset point.  `first`: it has yet to come.  `ran`: the held move has run at a
+    program stop, and only its corner with the next move has yet to come.
     """
 
     rules = CornerRules(tangent=0.05, reversal=0.05, inside=Inside.BY_SIDE, hooks=True, rapid_straight=True)
@@ -134,14 +134,14 @@ class OneMoveQueue(ElementQueue):
         self.nose: Point = (0.0, 0.0)
 
     def turn_on(self, offset: float, orientation: int = 0) -> None:
-        """Compensation is on from the next move on; a lathe tool's orientation shifts its moves by the nose radius."""
+        """Start compensation with the next move; a lathe tool's orientation shifts moves by the nose radius."""
         self.offset = offset
-        ways = NOSE_DIRECTIONS.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
-        self.nose = (ways[0] * abs(offset), ways[1] * abs(offset))
+        direction = NOSE_DIRECTIONS.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
+        self.nose = (direction[0] * abs(offset), direction[1] * abs(offset))
         self.active = self.first = True
 
     def turn_off(self, line: int) -> None:
-        """G40: what is held ends at its offset point."""
+        """G40: run the held move to its offset point."""
         if self.active and self.offset and not self.first:
             self._run_out(line)
             self.no_arc = True
@@ -149,7 +149,7 @@ class OneMoveQueue(ElementQueue):
         self.active, self.first = False, True
 
     def close(self) -> None:
-        """The end of the program: what is held ends at its offset point."""
+        """End of the program: run the held move to its offset point."""
         if self.held is not None:
             self._run_out((self.standing or [self.held])[-1].line)
 
@@ -160,7 +160,7 @@ class OneMoveQueue(ElementQueue):
             self.run_held(end)
 
     def run_out_at_stop(self) -> None:
-        """A program stop: what is held runs to its own offset point, and no later corner changes that."""
+        """Program stop: run the held move to its own offset point, which no later corner changes."""
         held = self.held
         if held is None:
             return
@@ -168,7 +168,7 @@ class OneMoveQueue(ElementQueue):
         self.held, self.start, self.ran = held, None, True
 
     def run_held(self, end: Point) -> None:
-        """Runs what is held to a point, without a look at its direction; what ran at a stop does not run again."""
+        """Run the held move to a point without checking its direction; if it ran at a stop, do not run it again."""
         if not self.ran:
             super().run_held(end)
             return
@@ -177,25 +177,25 @@ class OneMoveQueue(ElementQueue):
             self.straight(element, end)
 
     def straight(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
-        """A straight move, of a lathe tool's controlled point."""
+        """Make a straight move of a lathe tool's controlled point."""
         super().straight(element, self._controlled(end), at_start_height=at_start_height)
 
     def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
-        """An arc, of a lathe tool's controlled point."""
+        """Make an arc of a lathe tool's controlled point."""
         super().arc_about(element, self._controlled(end), self._controlled(center), turn, height)
 
     def _controlled(self, point: Point) -> Point:
         return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
 
     def readable_position(self, programmed: Point3) -> Point3:
-        """Under compensation where the held move would end, were it not changed by the next one."""
+        """Return where the held move would end if the next one did not change it; else the programmed point."""
         if not self.active or self.held is None:
             return programmed
         first, second = offset_end(self.held, self.offset)
         return solid(first, second, flat(programmed, self.plane)[2], self.plane)
 
     def travel(self, element: Element) -> None:
-        """One element: alone, as entry, or against what is held."""
+        """Run one element: by itself, as the entry, or joined to the held one."""
         if element.turn and self.no_arc:
             text = "The first move after G40 is straight; write a line before the arc."
             self.log.stop(self.alarms.arc_exit, text, element.line, 1)
@@ -211,7 +211,7 @@ class OneMoveQueue(ElementQueue):
             self.standing.append(element)
 
     def _enter(self, element: Element) -> None:
-        """The first move: longer than the radius, to the offset point at its own end."""
+        """Take in the first move, which must be longer than the radius and ends at its own offset point."""
         length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
         if length <= abs(self.offset):
             text = "The entry move is {0} long; it must be longer than the radius {1}."
@@ -225,24 +225,24 @@ class OneMoveQueue(ElementQueue):
         self.held, self.standing, self.first = self._as_entry(element), [], False
 
     def _as_entry(self, element: Element) -> Element:
-        """The entry as it runs; LinuxCNC does not check whether a later trim turns it around."""
+        """Return the entry as it runs; LinuxCNC does not check whether a later trim turns it around."""
         if not element.turn:
             return element._replace(start_direction=(0.0, 0.0))
         return element._replace(start=element.end, center=self._entry_center(element))
 
     def _entry_center(self, element: Element) -> Point:
-        """The center of the entry arc: to the offset point at its end, with the programmed tangent there."""
+        """Return the center of the entry arc: to the offset point at its end, with the programmed tangent there."""
         (sx, sy), (ex, ey), (cx, cy) = element.start, offset_end(element, self.offset), element.center
         half = hypot(sx - ex, sy - ey) / 2
         reach = hypot(cx - ex, cy - ey) or 1.0
-        way = ((cx - ex) / reach, (cy - ey) / reach)
-        lean = ((sx - ex) * way[0] + (sy - ey) * way[1]) / (2 * half)
+        inward = ((cx - ex) / reach, (cy - ey) / reach)
+        lean = ((sx - ex) * inward[0] + (sy - ey) * inward[1]) / (2 * half)
         if abs(lean) < 1e-6:
             self._too_small(element)
-        return ex + way[0] * half / lean, ey + way[1] * half / lean
+        return ex + inward[0] * half / lean, ey + inward[1] * half / lean
 
     def _check_radius(self, element: Element) -> None:
-        # the interpreter looks at the arc's end, whose radius may be another one
+        # the interpreter takes the radius at the arc's end, which may differ
         at_end = dist(element.end, element.center) - element.turn * self.offset
         if element.turn and (at_end <= 0.0 or not fits(element, self.offset)):
             self._too_small(element)
@@ -252,7 +252,7 @@ class OneMoveQueue(ElementQueue):
         self.log.stop(self.alarms.arc_radius, text, element.line, 1, lengths=(element.radius, abs(self.offset)))
 
     def _follow(self, held: Element, element: Element) -> None:
-        """A further move in the plane, against the one that is held; no trim, no look at its direction."""
+        """Join a move to the held one, whose direction is checked inside, and outside before a line."""
         self._check_radius(element)
         joint = self.joint(held, element)
         if self.ran and held.turn and joint.corner is CornerKind.INSIDE:
@@ -268,14 +268,14 @@ class OneMoveQueue(ElementQueue):
         self.held, self.start = element, None if unchecked else joint.start
 
     def _check(self, held: Element, end: Point, line: int) -> None:
-        """A held move that would run backwards, or around an arc nearly once more, stops the program."""
+        """Stop the program if the held move would run backwards, or around its arc nearly once more."""
         if self.start is None:
             return
         if held.turn:
             traveled = sweep(self.start, end, held.center, held.turn) or tau
             back = traveled > element_sweep(held) + (0.001 if self.unit is Unit.IN else 0.0254)
         else:
-            way = held.start_direction
-            back = (end[0] - self.start[0]) * way[0] + (end[1] - self.start[1]) * way[1] < 0.0
+            direction = held.start_direction
+            back = (end[0] - self.start[0]) * direction[0] + (end[1] - self.start[1]) * direction[1] < 0.0
         if back:
             self.log.stop(self.alarms.concave, NO_FIT, line, 1, at=held.end)

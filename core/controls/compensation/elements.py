@@ -1,7 +1,7 @@
-"""Elements: programmed lines and arcs in a plane, their offset points, and where the offsets of two of them meet.
+"""Elements are programmed lines and arcs in a plane, with their offset points and the meetings of their offsets.
 
-The tool radius comes signed: positive with the tool on the left.  P is the programmed corner, E1 the offset point at
-the end of the first element, E2 that at the start of the second, both at right angles to their element.
+The tool radius is signed: positive with the tool on the left.  P is the programmed corner, E1 the offset point at the
+end of the first element, E2 the one at the start of the second, each at right angles to its element.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from core.geometry.carrier import Carrier, meeting_places
 from core.geometry.piece import Point
 
 SAME_DIRECTION: Final = 1e-9
-"""Radians below which two directions are one, and by which rounding may carry an arc past its end."""
+"""Radians within which two directions are equal, and by which rounding may carry an arc past its end."""
 
 
 class Element(NamedTuple):
-    """A programmed line or arc in its plane, with what its control needs later.
+    """A programmed line or arc in its plane, with the data that its control needs later.
 
-    Start, end and center (of a line its start), `turn` 0, +1 or -1, unit directions at start and end ((0, 0) for a
-    line without length); standing coordinates at both ends; feed in millimeters per minute, source line and column.
+    Start, end and center (for a line its start); `turn` 0, +1 or -1; unit directions at start and end ((0, 0) without
+    length); coordinates across the plane at both ends; feed in millimeters per minute, source line and column.
     """
 
     start: Point
@@ -38,12 +38,12 @@ class Element(NamedTuple):
 
     @property
     def radius(self) -> float:
-        """Radius of an arc, at its start."""
+        """The radius of an arc, at its start."""
         return hypot(self.start[0] - self.center[0], self.start[1] - self.center[1])
 
     @property
     def moves(self) -> bool:
-        """Whether anything moves in the plane."""
+        """True if the element moves in the plane."""
         return self.turn != 0 or self.start != self.end
 
 
@@ -51,7 +51,7 @@ def line_element(
     start: Point, end: Point, start_height: float = 0.0, end_height: float = 0.0, rapid: bool = False,
     feed: float = 0.0, line: int = 0, column: int = 1,
 ) -> Element:  # fmt: skip
-    """A straight element, in the plane alone where no more is given."""
+    """Return a line; height, feed and source are optional."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
     way = (dx / size, dy / size) if size else (0.0, 0.0)
@@ -62,7 +62,7 @@ def arc_element(
     start: Point, end: Point, center: Point, turn: int, start_height: float = 0.0, end_height: float = 0.0,
     feed: float = 0.0, line: int = 0, column: int = 1,
 ) -> Element:  # fmt: skip
-    """A circular element, in the plane alone where no more is given; equal ends are the full circle."""
+    """Return an arc, a full circle if its ends are equal; height, feed and source are optional."""
     start_direction, end_direction = tangent(start, center, turn), tangent(end, center, turn)
     return Element(
         start, end, center, turn, start_direction, end_direction, start_height, end_height, False, feed, line, column
@@ -70,58 +70,58 @@ def arc_element(
 
 
 def tangent(at: Point, center: Point, turn: int) -> Point:
-    """Unit direction of travel at a point of an arc."""
+    """Return the unit direction of travel at a point of an arc."""
     dx, dy = at[0] - center[0], at[1] - center[1]
     size = hypot(dx, dy) or 1.0
     return -turn * dy / size, turn * dx / size
 
 
 def offset_point(at: Point, way: Point, offset: float) -> Point:
-    """The offset point of `at`: `offset` to the left of a direction."""
+    """Return the offset point of `at`, which is `offset` to the left of a direction."""
     return at[0] - offset * way[1], at[1] + offset * way[0]
 
 
 def offset_start(element: Element, offset: float) -> Point:
-    """E2: the offset point at an element's start."""
+    """Return E2, the offset point at an element's start."""
     return offset_point(element.start, element.start_direction, offset)
 
 
 def offset_end(element: Element, offset: float) -> Point:
-    """E1: the offset point at an element's end."""
+    """Return E1, the offset point at an element's end."""
     return offset_point(element.end, element.end_direction, offset)
 
 
 def turn_angle(first: Element, second: Element) -> float:
-    """The angle from the end of one element to the start of the next, radians, positive to the left."""
+    """Return the angle from the end of one element to the start of the next, radians, positive to the left."""
     (ax, ay), (bx, by) = first.end_direction, second.start_direction
     return atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
 def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
-    """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turn_angle`."""
+    """Return M, where the offsets of two straight directions meet outside the corner; `angle` is from `turn_angle`."""
     x, y = offset_point(corner, way, offset)
     reach = abs(offset) * tan(abs(angle) / 2)
     return x + reach * way[0], y + reach * way[1]
 
 
 def point_along(at: Point, way: Point, distance: float) -> Point:
-    """The point `distance` further along a direction."""
+    """Return the point `distance` further along a direction."""
     return at[0] + distance * way[0], at[1] + distance * way[1]
 
 
 def offset_radius(element: Element, offset: float) -> float:
-    """Radius of an arc's offset; 0 or less where the tool is too large to run inside it."""
+    """Return the radius of an arc's offset; 0 or less if the tool is too large to run inside it."""
     return element.radius - element.turn * offset
 
 
 def meeting(
     first: Element, second: Element, offset: float, other: float | None = None, *, beyond_center: bool = False
 ) -> Point | None:  # fmt: skip
-    """Where the offsets of two elements meet nearest to P; None if nowhere.
+    """Return the meeting of the offsets of two elements that is nearest to P; None if there is none.
 
-    Lines count beyond their ends and arcs as whole circles: whether the point lies on what is left of the elements
-    is for the control to say.  `other` is the second element's offset where it is not the first one's.
-    `beyond_center`: an inside arc smaller than the tool has its offset on the other side of its center.
+    Lines count beyond their ends and arcs as whole circles: the control must check whether the point lies on what is
+    left of the elements.  `other` is the second element's offset if it differs from the first one's.  `beyond_center`:
+    an inside arc smaller than the tool has its offset on the other side of its center.
     """
     points = meetings(first, second, offset, offset if other is None else other, beyond_center=beyond_center)
     corner = first.end
@@ -131,26 +131,26 @@ def meeting(
 def meetings(
     first: Element, second: Element, offset: float, other: float, *, beyond_center: bool = False
 ) -> tuple[Point, ...]:  # fmt: skip
-    """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
+    """Return every meeting of the offsets of two elements; none if an inside arc has no offset."""
     if not beyond_center and not (fits(first, offset) and fits(second, other)):
         return ()
     return tuple((place.real, place.imag) for place in meeting_places(_carrier(first, offset), _carrier(second, other)))
 
 
 def _carrier(element: Element, offset: float) -> Carrier:
-    """The endless line or whole circle of an element's offset."""
+    """Return the endless line or the whole circle of an element's offset."""
     if element.turn:
         return Carrier(complex(*element.center), 0j, abs(offset_radius(element, offset)))
     return Carrier(complex(*offset_end(element, offset)), complex(*element.end_direction), 0.0)
 
 
 def fits(element: Element, offset: float) -> bool:
-    """Whether the tool can run along an element at all: not inside an arc that is no larger than it."""
+    """True if the tool can run along an element; inside an arc it must be smaller than the arc."""
     return not element.turn or offset_radius(element, offset) > 0.0
 
 
 def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
-    """The angle traveled from start to end, 0 <= sweep < a full turn; equal ends are 0."""
+    """Return the angle traveled from start to end, 0 <= sweep < a full turn; 0 for equal ends."""
     first = atan2(start[1] - center[1], start[0] - center[0])
     last = atan2(end[1] - center[1], end[0] - center[0])
     angle = (turn * (last - first)) % tau
@@ -158,15 +158,15 @@ def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
 
 
 def element_sweep(element: Element) -> float:
-    """The angle an arc travels, a full turn for a full circle."""
+    """Return the angle an arc travels; a full turn for a full circle."""
     return sweep(element.start, element.end, element.center, element.turn) or tau
 
 
 def runs_back(element: Element, start: Point, end: Point) -> bool:
-    """Does a compensated element from `start` to `end` run against the programmed one?
+    """True if a compensated element from `start` to `end` runs against the programmed one.
 
-    A line does when it points the other way; an arc when its trims have crossed, so that it would have to go nearly
-    all the way around: its sweep grows by more than half a turn.
+    A line does if it points the other way; an arc if its trims have crossed, so that it would go nearly all the way
+    around: its sweep grows by more than half a turn.
     """
     if element.turn:
         traveled = sweep(start, end, element.center, element.turn)

@@ -1,4 +1,4 @@
-"""Recorder: the moves a control makes, and the compensated stretches among them with what was programmed there."""
+"""The recorder collects the moves a control makes, and its compensated stretches with what was programmed there."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class _OpenStretch:
 
 
 def record_programmed(tape: Tape, element: Element, plane: Plane) -> None:
-    """Puts an element on a tape as it is programmed in a plane."""
+    """Record an element on a tape as it is programmed in a plane."""
     target = solid(*element.end, element.end_height, plane)
     if element.turn:
         center = solid(*element.center, element.end_height, plane)
@@ -37,10 +37,10 @@ def record_programmed(tape: Tape, element: Element, plane: Plane) -> None:
 
 
 class Recorder:
-    """Moves of programmed elements, without compensation unless a control adds it.
+    """Records the moves of programmed elements, without compensation unless a control adds it.
 
-    `active`: compensation is in force.  `plane` and `unit` are those in force.  `leaving`: compensation is canceled and
-    the next move in the plane still belongs to the stretch.
+    `active`: compensation is in force.  `plane` and `unit` are those in force.  `leaving`: compensation is canceled,
+    but the next move in the plane still belongs to the stretch.
     """
 
     def __init__(self, log: Log) -> None:
@@ -54,7 +54,7 @@ class Recorder:
         self._open: _OpenStretch | None = None
 
     def travel(self, element: Element) -> None:
-        """One programmed element."""
+        """Run one programmed element."""
         if element.turn:
             self.arc(element, element.end, element.center)
         else:
@@ -63,14 +63,14 @@ class Recorder:
             self.close_stretch()
 
     def straight(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
-        """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
+        """Make an element's straight move to a point of its plane, at the height of its end or still of its start."""
         target = solid(*end, element.start_height if at_start_height else element.end_height, self.plane)
         self.tape.straight(target, 0.0 if element.rapid else element.feed, element.line, rapid=element.rapid)
 
     def arc(self, element: Element, end: Point, center: Point) -> None:
-        """An element's own arc, or its offset, to a point of its plane.
+        """Make an element's arc, or its offset, to a point of its plane.
 
-        A full circle ends where it starts: what rounding has put between its ends would make next to no arc of it.
+        A full circle ends where it starts: a rounding gap between its ends would leave almost no arc.
         """
         here = self.here
         if element.start == element.end and dist(end, here) <= ON_PATH:
@@ -78,12 +78,12 @@ class Recorder:
         self.arc_about(element, end, center, element.turn, element.end_height)
 
     def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
-        """Any arc at an element's feed."""
+        """Make any arc at an element's feed."""
         target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
         self.tape.arc(target, middle, turn, self.plane, element.feed, element.line)
 
     def run_joint(self, joint: Joint, element: Element, offset: float) -> None:
-        """The way of a joint, from the end of one offset to the start of the next element."""
+        """Make the moves of a joint, from the end of one offset to the start of the next element's offset."""
         for point in joint.through:
             self.straight(element, point, at_start_height=True)
         if joint.center is not None:
@@ -93,28 +93,28 @@ class Recorder:
 
     @property
     def here(self) -> Point:
-        """Where the axes stand, in the plane."""
+        """The position of the axes, in the plane."""
         return flat(self.tape.last, self.plane)[:2]
 
     def readable_position(self, programmed: Point3) -> Point3:
-        """Where a program reads that the axes stand, millimeters; without compensation the programmed point."""
+        """Return the axis position that a program reads, millimeters; uncompensated, the programmed point."""
         return programmed
 
     def open_stretch(self, side: Side, radius: float, element: Element) -> None:
-        """Compensated moves begin with this element; whatever is on the tape is before them."""
+        """Begin a stretch of compensated moves with this element; moves already on the tape come before it."""
         self.close_stretch()
         start = Tape(solid(element.start[0], element.start[1], element.start_height, self.plane))
         self._open = _OpenStretch(side, abs(radius), self.plane, len(self.tape) - 1, start)
 
     @property
     def stretch_open(self) -> bool:
-        """Whether compensated moves are being gathered."""
+        """True while compensated moves are being collected."""
         return self._open is not None
 
     def change_stretch(self, side: Side, radius: float, before: int, across: int) -> None:
-        """From the element noted last on the stretch has this side and radius.
+        """Give the stretch this side and radius from the element noted last on.
 
-        `before` moves are still to be made up to there with the old one, and `across` from there to the new one.
+        `before` moves with the old ones are yet to be made up to there, and then `across` moves to the new ones.
         """
         stretch = self._open
         if stretch is None:
@@ -125,21 +125,21 @@ class Recorder:
             stretch.changes.append(Change(len(stretch.programmed) - 1, row, row + across, side, abs(radius)))
 
     def begin_stretch(self, side: Side, radius: float) -> None:
-        """The stretch has this side and radius from its first element on."""
+        """Give the stretch this side and radius from its first element on."""
         if self._open is not None:
             self._open.side, self._open.radius = side, abs(radius)
 
     def note(self, element: Element) -> None:
-        """An element programmed under compensation."""
+        """Record an element programmed under compensation."""
         if self._open is not None:
             record_programmed(self._open.programmed, element, self.plane)
 
     def leave(self) -> None:
-        """Compensation is canceled: the next motion in the plane still belongs to the stretch."""
+        """Note that compensation is canceled; the next motion in the plane still belongs to the stretch."""
         self.leaving = self._open is not None
 
     def close_stretch(self) -> None:
-        """Nothing more belongs to the stretch."""
+        """End the open stretch, if any, and keep it."""
         opened, self._open, self.leaving = self._open, None, False
         if opened is None:
             return
