@@ -1,1 +1,1 @@
-"""A contour written as a compensated program for a control, and read back through that control's rules."""
+"""This package writes contours as compensated programs for a control and reads them back through its rules."""

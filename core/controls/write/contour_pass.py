@@ -1,8 +1,8 @@
-"""Contour pass: one pass along a contour at one depth, as the elements that a control's own compensation runs along.
+"""A contour pass is one pass along a contour at one depth, as elements for a control's own compensation.
 
-What the look-ahead deleted is left out, and its neighbors meet where their own lines and arcs do.  A blend arc on the
-tool's path is programmed as an arc about the same center, larger by the tool's radius: the tool inside of it runs the
-blend.
+Elements that the look-ahead deleted are left out, and the lines and arcs next to them are extended until they meet.  A
+blend arc on the tool's path is programmed as an arc about the same center, larger by the tool's radius: the tool runs
+the blend inside it.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
 MAX_GAP: Final = 0.001
-"""Millimeters from which on two programmed elements do not join."""
+"""Largest gap in millimeters across which two programmed elements still join."""
 
 
 class CenterMove(NamedTuple):
-    """A move of the tool's center as it is to be made: its end, its feed (None at rapid), as an arc turn and center."""
+    """A move of the tool's center as it must be made: end, feed (None at rapid), and an arc's turn and center."""
 
     x: float
     y: float
@@ -45,9 +45,9 @@ class CenterMove(NamedTuple):
 
 
 class WrittenLine(NamedTuple):
-    """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it.
+    """A line of a program being written, the segment it cuts, and whether it only leads to or from that.
 
-    `travel` is the move that the line must make where nothing is compensated.
+    `travel` is the move that the line must make without compensation.
     """
 
     text: str
@@ -58,11 +58,11 @@ class WrittenLine(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class ContourPass:
-    """How a pass along a contour at one depth is made: millimeters, millimeters per minute, revolutions per minute.
+    """How to make a pass along a contour at one depth: millimeters, millimeters per minute, revolutions per minute.
 
-    The pass is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
-    number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
-    `block` is the number of the MILL CONTOUR block that the pass is of, None where it is of none.
+    The pass is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are by segment number.  The
+    tool approaches at height `travel`, moves at rapid down to `near`, at feed to `depth`, and up to `leave`.  `block`
+    is the number of the pass's MILL CONTOUR block, None if it has none.
     """
 
     tool: int
@@ -80,14 +80,14 @@ class ContourPass:
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class CompensatedPass(ContourPass):
-    """A pass and the compensated contour it goes along."""
+    """A pass and the compensated contour that it follows."""
 
     compensated: Compensated
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class UncompensatedPass(ContourPass):
-    """A pass without compensation, move by move; the first one is a rapid in the plane at the height `travel`."""
+    """A pass without compensation, move by move; the first one is a rapid in the plane at height `travel`."""
 
     travels: tuple[CenterMove, ...]
 
@@ -97,7 +97,7 @@ PassToWrite = CompensatedPass | UncompensatedPass
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ProgrammedElements:
-    """The elements of a contour in order, and the segment each belongs to."""
+    """The elements of a contour in order, and the segment number of each."""
 
     elements: tuple[Element, ...]
     segments: tuple[float, ...]
@@ -105,7 +105,7 @@ class ProgrammedElements:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PassWithLeads:
-    """A pass with its leads: the elements, the points it is entered from and left to, and its offset's number.
+    """A pass with its leads: the elements, the points where it starts and ends, and its offset number.
 
     The entry ends at the programmed point `to`.
     """
@@ -121,9 +121,9 @@ class PassWithLeads:
 
 @dataclass(frozen=True, slots=True)
 class PathEnd:
-    """One end of the tool's path: `at` on it, the direction `way` along it and `off` away from the part.
+    """One end of the tool's path: the point `at`, the direction `way` along the path and `off` away from the part.
 
-    `corner` is the programmed point that belongs to `at`.  With a blend the path is entered and left along `off`.
+    `corner` is the programmed point that belongs to `at`.  With a blend the tool enters and leaves along `off`.
     """
 
     at: Point
@@ -134,12 +134,12 @@ class PathEnd:
 
 
 def not_written(text: str, segment: float | None = None, *, lengths: tuple[float, ...] = ()) -> Finding:
-    """Why a control's own program is not written."""
+    """Return the error that says why a control's own program is not written."""
     return Finding("NOTWRITTEN", Severity.ERROR, text, segment=segment, lengths=lengths)
 
 
 def programmed_elements(compensated: Compensated) -> ProgrammedElements | Finding:
-    """The elements that survive, the overlap's once more, cut to what is run of them; or why there are none."""
+    """Return the surviving elements, then the overlap's again, cut to what is run; or why there are none."""
     if not len(compensated.path):
         return not_written("There is no path to write.")
     if bool(compensated.bridged.any()):
@@ -166,9 +166,9 @@ def programmed_elements(compensated: Compensated) -> ProgrammedElements | Findin
 
 
 def _rows(compensated: Compensated) -> list[int]:
-    """Rows of the contour that the path and its overlap run along.
+    """Return the rows of the contour that the path and its overlap run along.
 
-    The way from the path's end to its start, which a corner of next to no angle leaves there, is no element.
+    A move from the path's end to its start, left there by a corner of almost no angle, is not an element.
     """
     again = dict.fromkeys(overlap(compensated).numbers.tolist())
     numbers = [*compensated.path.numbers.tolist(), *again]
@@ -177,34 +177,34 @@ def _rows(compensated: Compensated) -> list[int]:
 
 
 def overlap(compensated: Compensated) -> Path:
-    """What is run of the path once more before it is left."""
+    """Return the part of the path that is run once more before the tool leaves it."""
     out = compensated.lead_out
     return out.part(0, len(out) - 1) if blend_of(compensated) else out
 
 
 def blend_of(compensated: Compensated) -> float:
-    """Radius of the blend moves, 0 for none."""
+    """Return the radius of the blend moves; 0 without them."""
     lead = compensated.lead_in
     return float(lead.radii[0]) if len(lead) else 0.0
 
 
 def element_of(piece: Piece) -> Element:
-    """A line or an arc of a path as an element."""
+    """Return a line or an arc of a path as an element."""
     if isinstance(piece, Arc):
         return arc_element(piece.start, piece.end, piece.center, int(piece.turn))
     return line_element(piece.start, piece.end)
 
 
 def _whole(whole: Element, cut: Element) -> Element:
-    """A full circle stays a full circle where rounding has moved an end."""
+    """Return a cut element; a full circle stays one even if rounding has moved an end."""
     apart = hypot(cut.start[0] - cut.end[0], cut.start[1] - cut.end[1])
     return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < MAX_GAP / 1000 else cut
 
 
 def _rebuilt(element: Element) -> Element:
-    """The element with the directions its ends have now; a line for an arc that ends next to its start.
+    """Return the element with directions for its new ends; a short arc that ends next to its start becomes a line.
 
-    The digits of most controls cannot tell such an end from the start, and some take the arc for the full circle.
+    The digits of most controls cannot tell such an end from the start, and some take the arc for a full circle.
     """
     (x, y), (ex, ey) = element.start, element.end
     short = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
@@ -214,7 +214,7 @@ def _rebuilt(element: Element) -> Element:
 
 
 def _surface(element: Element, point: Point, offset: float) -> Point:
-    """The point of an element that belongs to a point of its offset."""
+    """Return the point of an element that belongs to a point of its offset."""
     if not element.turn:
         return offset_point(point, element.start_direction, -offset)
     share = element.radius / offset_radius(element, offset)
@@ -223,17 +223,17 @@ def _surface(element: Element, point: Point, offset: float) -> Point:
 
 
 def path_begin(compensated: Compensated) -> PathEnd:
-    """Where and how the tool's path begins."""
+    """Return where and how the tool's path begins."""
     return _end(compensated, compensated.whole, compensated.lead_in, 1)
 
 
 def path_finish(compensated: Compensated) -> PathEnd:
-    """Where and how the tool's path ends; `way` is still the direction of travel."""
+    """Return where and how the tool's path ends; `way` is still the direction of travel."""
     return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
 
 
 def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathEnd:
-    """The end a path begins with; `sense` -1 for a reversed one."""
+    """Return the end at which `whole` begins; `sense` is -1 for a reversed path."""
     at, blend = _point(whole, 0), blend_of(compensated)
     if blend:
         (cx, cy), (ex, ey) = lead.centers[0].tolist(), lead.points[1].tolist()
@@ -255,6 +255,6 @@ def _point(path: Path, index: int) -> Point:
 
 
 def number_text(value: float, unit: Unit, decimals: int) -> str:
-    """A length in millimeters as a number of program units, without needless zeros and never -0; `2.` for 2."""
+    """Return millimeters as a number in program units, without needless zeros and never -0; `2.` for 2."""
     text = f"{from_mm(value, unit):.{decimals}f}".rstrip("0")
     return "0." if text in ("0.", "-0.") else text

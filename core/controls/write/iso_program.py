@@ -1,7 +1,7 @@
-"""ISO program: compensated contours written for a word-address control's own G41 or G42.
+"""ISO programs are compensated contours written for a word-address control's own G41 or G42.
 
-The contour is written as typed, the control offsets it.  The tool goes down away from the part, enters along a straight
-line onto the blend, and leaves the same way; where there is no blend the line itself ends on the path.
+The contour is written as typed, and the control offsets it.  The tool goes down away from the part, enters along a
+straight line onto the blend, and leaves the same way; without a blend the line itself ends on the path.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm
 
 FIRST_STOCK_OFFSET: Final = 51
-"""Offsets from this number on hold the radii of runs that leave stock."""
+"""First offset number for the radii of runs that leave stock."""
 
 CORNER_TOLERANCE: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 """How far the machine may leave the path at a corner, in program units."""
@@ -34,7 +34,7 @@ CORNER_TOLERANCE: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """What holds for the whole program: unit, work offset (54 to 59), the corners of a 9/Series (G39 or G39.1)."""
+    """Settings for the whole program: unit, work offset (54 to 59), corner code of a 9/Series (G39 or G39.1)."""
 
     unit: Unit
     work_offset: int = 54
@@ -42,7 +42,7 @@ class Frame:
 
 
 def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, float], int]:
-    """The number under which a control finds the radius of a tool that leaves a stock."""
+    """Return the numbers under which a control finds the radii, by tool and by the stock it leaves."""
     numbers: dict[tuple[int, float], int] = {}
     free = count(FIRST_STOCK_OFFSET)
     for cut in cuts:
@@ -53,7 +53,7 @@ def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, flo
 
 
 def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
-    """The tool or offset table the program counts on, in millimeters; none where the text itself has the diameters."""
+    """Return the tool or offset table that the program needs, in millimeters; none if its text has the diameters."""
     if style.radius is Radius.DATA:
         return ToolTable()
     numbers = offsets(cuts, style)
@@ -69,14 +69,14 @@ def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
 def write_iso(
     cuts: Sequence[PassWithLeads | UncompensatedPass], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
 ) -> tuple[WrittenLine, ...]:
-    """The lines of the program; `remarks` are ready comment lines and stand first."""
+    """Return the lines of the program; `remarks` are ready comment lines, which follow the style's head."""
     return tuple(_Writer(style, frame).program(cuts, remarks))
 
 
 class _Writer:
     """Writes words in one style.
 
-    `feed`, `height` and `at` are what stands, as text, and `tool_length` what the next rapid in Z has to name.
+    `feed`, `height` and `at` are the modal state, as text; `tool_length` has the words for the next rapid in Z.
     """
 
     def __init__(self, style: IsoStyle, frame: Frame) -> None:
@@ -90,7 +90,7 @@ class _Writer:
     def program(
         self, cuts: Sequence[PassWithLeads | UncompensatedPass], remarks: Sequence[str]
     ) -> Iterator[WrittenLine]:
-        """Everything from the first line to the end."""
+        """Yield all lines, from the first one to the end."""
         yield from (WrittenLine(text) for text in self.style.head)
         yield from (WrittenLine(remark) for remark in remarks if self.style.comments)
         unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
@@ -110,7 +110,7 @@ class _Writer:
         yield from (WrittenLine(text) for text in self.style.tail)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
-        """The change of tool, of its data, of the speed."""
+        """Yield the changes of tool, tool data and speed."""
         speed = f"S{speed_text(cut.speed)}"
         changed = before is None or before.tool != cut.tool
         if changed and before is not None:
@@ -121,14 +121,14 @@ class _Writer:
             self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
             if self.style.length:
-                # in a block of its own some controls would move Z by the length at once
+                # in a block of its own, some controls would move Z by the length at once
                 self.tool_length = ("G43", f"H{cut.tool}")
             yield self.words(speed, "M3")
         elif before.speed != cut.speed:
             yield WrittenLine(speed)
 
     def cut(self, run: PassWithLeads) -> Iterator[WrittenLine]:
-        """One run: down away from the part, in, along, out, up."""
+        """Yield one run: down away from the part, in, along, out, up."""
         cut, shape = run.contour_pass, run.shape
         in_plunge = self.style.radius is Radius.DATA
         down = ("G1", self.code(run)) if in_plunge else ("G1",)
@@ -147,7 +147,7 @@ class _Writer:
         yield from self.rapid(cut.leave)
 
     def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
-        """One run without compensation, as its moves are."""
+        """Yield one run without compensation, move by move."""
         yield from self.rapid(run.travel)
         first, *rest = run.travels
         yield self.words("G0", *self.place((first.x, first.y)))._replace(travel=first)
@@ -155,7 +155,7 @@ class _Writer:
             yield from self.traveled(travel)
 
     def traveled(self, travel: CenterMove) -> Iterator[WrittenLine]:
-        """A move with the axes that move in it; none where nothing does as written."""
+        """Yield a move with the words that change; nothing if it makes no move as written."""
         start, height = self.at, self.height
         self.height, place = f"Z{self.length(travel.z)}", self.place((travel.x, travel.y))
         up = (self.height,) if self.height != height else ()
@@ -168,18 +168,18 @@ class _Writer:
         yield self.words(*words, *(() if travel.feed is None else self.feed_word(travel.feed)))._replace(travel=travel)
 
     def rapid(self, height: float) -> Iterator[WrittenLine]:
-        """To a height, where the tool is not there yet."""
+        """Yield a rapid to a height, unless the tool is there already."""
         text = f"Z{self.length(height)}"
         if text != self.height:
             self.height, length, self.tool_length = text, self.tool_length, ()
             yield self.words("G0", *length, text)
 
     def code(self, run: PassWithLeads) -> str:
-        """G41 with the tool on the left."""
+        """Return G41 with the tool on the left, else G42."""
         return "G41" if run.side is Side.LEFT else "G42"
 
     def switch(self, run: PassWithLeads) -> tuple[str, ...]:
-        """What turns compensation on in the block of the entry."""
+        """Return the words that turn compensation on in the entry block."""
         code, cut = self.code(run), run.contour_pass
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
@@ -188,7 +188,7 @@ class _Writer:
         return code, f"D{run.offset_number}"
 
     def element(self, element: Element, feed: float, segment: float) -> Iterator[WrittenLine]:
-        """One element; what is no move as written is left out."""
+        """Yield one element; skip it if it makes no move as written."""
         start, end = self.at, self.place(element.end)
         whole = element.turn != 0 and element.start == element.end
         if start == end and not whole:
@@ -198,7 +198,7 @@ class _Writer:
         yield self.words(code, *end, *center, *self.feed_word(feed), segment=segment)
 
     def center(self, center: Point, start: tuple[str, str]) -> tuple[str, str]:
-        """I and J: from the origin, or from the start as it is written."""
+        """Return I and J, from the origin or from the start as written."""
         unit = self.frame.unit
         x, y = (from_mm(value, unit) for value in center)
         if not self.style.absolute:
@@ -207,16 +207,16 @@ class _Writer:
         return f"I{number_text(x, Unit.MM, digits)}", f"J{number_text(y, Unit.MM, digits)}"
 
     def place(self, point: Point) -> tuple[str, str]:
-        """X and Y."""
+        """Return the words X and Y, and keep them as the position."""
         self.at = f"X{self.length(point[0])}", f"Y{self.length(point[1])}"
         return self.at
 
     def length(self, value: float) -> str:
-        """A length in millimeters, with its decimal point."""
+        """Return a length in millimeters as text in program units, with its decimal point."""
         return number_text(value, self.frame.unit, self.style.digits(self.frame.unit))
 
     def feed_word(self, feed: float) -> tuple[str, ...]:
-        """F where it changes."""
+        """Return the F word if the feed changes."""
         text = f"F{number_text(feed, self.frame.unit, 3)}"
         if text == self.feed:
             return ()
@@ -224,10 +224,10 @@ class _Writer:
         return (text,)
 
     def words(self, *words: str, segment: float | None = None) -> WrittenLine:
-        """Words as a line."""
+        """Return words as a line."""
         return WrittenLine((" " if self.style.spaced else "").join(words), segment)
 
 
 def speed_text(speed: float) -> str:
-    """A spindle speed without a needless decimal."""
+    """Return a spindle speed without a needless decimal."""
     return f"{speed:.1f}".removesuffix(".0")

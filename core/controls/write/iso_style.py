@@ -1,4 +1,4 @@
-"""How each word-address control wants its own G41 and G42 programs written: frozen data."""
+"""ISO styles say, as frozen data, how each word-address control wants its own G41 and G42 programs written."""
 
 from __future__ import annotations
 
@@ -15,35 +15,35 @@ class EntryRule(Enum):
     """Where the first compensated move ends, which decides where it must start."""
 
     SQUARE_TO_NEXT = auto()
-    """Square to the start of the next element: it may come from anywhere."""
+    """Square to the start of the next element: the entry may come from anywhere."""
     TANGENT = auto()
-    """On the tangent to the tool where it stands: it must come along the tool's path."""
+    """On the tangent to the tool at its position: the entry must come along the tool's path."""
     SQUARE_TO_ITSELF = auto()
-    """Square to itself: it must run as the next element does."""
+    """Square to the entry itself: it must run in the direction of the next element."""
 
 
 class Radius(Enum):
-    """How a program says the radius."""
+    """How a program states the tool radius."""
 
     DATA = auto()
     """`T1//.5` in the text."""
     DIAMETER = auto()
-    """`D` and the tool's number; `G41.1 D` and a diameter where the run leaves stock."""
+    """`D` and the tool number; `G41.1 D` and a diameter if the run leaves stock."""
     REDUCED = auto()
-    """`D` and the tool's number, with `I` less where the run leaves stock."""
+    """`D` and the tool number; also `I` with the stock, negative, if the run leaves any."""
     OFFSET = auto()
-    """`D` and the number of an offset."""
+    """`D` and an offset number."""
 
 
 @dataclass(frozen=True, slots=True)
 class IsoStyle:
-    """A control's way of being written to.
+    """How to write for a control.
 
-    `inch` and `metric` are its codes for the units, `safe` the codes that stand before anything moves; `{offset}` in
-    them is the work offset.  `decimals` of inches and of millimeters.  `absolute`: I and J count from the origin.
-    `merged`: lines on one line are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the
-    tool's length.  `spaced`: words stand apart.  `corner_code` sets the way around outside corners, whatever was in
-    force before; empty where a control has one way only.  `head` and `tail` stand around the whole text.
+    `inch` and `metric` are its unit codes, `safe` the lines before anything moves, with `{offset}` for the work offset.
+    `decimals` are for inches and for millimeters.  `absolute`: I and J count from the origin.  `merged`: collinear
+    lines are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the tool length.  `spaced`:
+    spaces separate words.  `corner_code` sets how the tool goes around outside corners, whatever was in force before;
+    empty if a control has one way only.  `head` and `tail` enclose the whole text.
     """
 
     inch: str
@@ -63,11 +63,11 @@ class IsoStyle:
 
     @property
     def writes_work_offset(self) -> bool:
-        """Whether the program selects a work offset."""
+        """True if the program selects a work offset."""
         return any("{offset}" in line for line in self.safe)
 
     def digits(self, unit: Unit) -> int:
-        """Decimals of a length."""
+        """Return the decimals of a length."""
         return self.decimals[0 if unit is Unit.IN else 1]
 
 
@@ -116,4 +116,4 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
         ),
     }
 )
-"""By a control's full name."""
+"""The styles, by a control's full name."""

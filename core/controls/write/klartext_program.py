@@ -1,7 +1,7 @@
-"""Klartext program: compensated contours written with RL and RR.
+"""Klartext programs are compensated contours written with RL and RR.
 
-The contour is written, not the tool's path: the control offsets it.  Blend moves become APPR CT and DEP CT over 90
-degrees; without them the tool goes down on the path's first point and RL takes effect there.
+The contour is written, not the tool's path, and the control offsets it.  Blend moves become APPR CT and DEP CT over 90
+degrees; without them the tool goes down on the path's first point, and RL takes effect there.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm, to_mm
 
 KLARTEXT_DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
-"""Decimals the control takes."""
+"""Decimals that the control accepts."""
 
 _Run = tuple[CompensatedPass, ProgrammedElements] | UncompensatedPass | PassWithLeads
 
@@ -37,7 +37,7 @@ _Run = tuple[CompensatedPass, ProgrammedElements] | UncompensatedPass | PassWith
 def write_klartext(
     cuts: Sequence[PassToWrite], name: str, unit: Unit, remarks: Sequence[str] = ()
 ) -> tuple[WrittenLine, ...] | Finding:
-    """The lines of the program; or why the control would not run one of these paths by its own compensation."""
+    """Return the lines of the program, or why the control's own compensation would not run one of these paths."""
     runs: list[_Run] = []
     for cut in cuts:
         if isinstance(cut, UncompensatedPass):
@@ -52,20 +52,20 @@ def write_klartext(
 
 
 def write_klartext_contours(runs: Sequence[PassWithLeads], unit: Unit) -> tuple[WrittenLine, ...]:
-    """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
+    """Return the lines of a program that enters and leaves contours square to them, with APPR LN and DEP LN."""
     return tuple(_Writer(unit).program(runs, [run.contour_pass for run in runs], "CONTOUR", ()))
 
 
 @dataclass(frozen=True, slots=True)
 class _Writer:
-    """Writes blocks in a unit."""
+    """Writes blocks in one unit."""
 
     unit: Unit
 
     def program(
         self, runs: Sequence[_Run], passes: Sequence[ContourPass], name: str, remarks: Sequence[str]
     ) -> Iterator[WrittenLine]:
-        """Everything from BEGIN PGM to END PGM: remarks after a semicolon, TOOL DEF of every tool, the runs."""
+        """Yield all lines from BEGIN PGM to END PGM: remarks after a semicolon, every tool's TOOL DEF, the runs."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield WrittenLine(f"BEGIN {frame}")
         yield from (WrittenLine(f"; {remark}") for remark in remarks)
@@ -83,7 +83,7 @@ class _Writer:
         yield WrittenLine(f"END {frame}")
 
     def led(self, run: PassWithLeads) -> Iterator[WrittenLine]:
-        """A run with straight leads: down away from the contour, square to it, along, square away, up."""
+        """Yield a run with straight leads: down away from the contour, square to it, along, square away, up."""
         cut, shape = run.contour_pass, run.shape
         (x, y), (cx, cy) = run.start, run.to
         length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
@@ -96,7 +96,7 @@ class _Writer:
         yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
 
     def elements(self, cut: ContourPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
-        """The elements of a run with their feeds, an arc on two lines."""
+        """Yield the elements of a run with their feeds; an arc takes two lines."""
         for element, segment in zip(shape.elements, shape.segments, strict=True):
             end, feed = self.place(element.end), f"F{self.feed(cut.feeds[int(segment)])}"
             if element.turn:
@@ -106,7 +106,7 @@ class _Writer:
                 yield WrittenLine(f"L {end} {feed}", segment)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
-        """TOOL CALL where the tool, its speed or what it leaves changes; then up."""
+        """Yield TOOL CALL if the tool, its speed or its stock changes; then the move up."""
         same = before is not None and (before.tool, before.stock, before.speed) == (cut.tool, cut.stock, cut.speed)
         if not same:
             stock = f" DR{self.length(cut.stock)}" if cut.stock else ""
@@ -114,7 +114,7 @@ class _Writer:
         yield WrittenLine(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
 
     def cut(self, cut: CompensatedPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
-        """One run: down, in, along, out, up."""
+        """Yield one run: down, in, along, out, up."""
         whole = cut.compensated.whole
         (x, y), (bx, by) = whole.points[0].tolist(), whole.points[-1].tolist()
         yield WrittenLine(f"L {self.place((x, y))} R0 FMAX")
@@ -130,7 +130,7 @@ class _Writer:
         yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
 
     def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
-        """One run without compensation, as its moves are."""
+        """Yield one run without compensation, move by move."""
         x, y, z = self.at((0.0, 0.0), run.travel)
         for travel in run.travels:
             start, (x, y, z) = (x, y, z), self.at((travel.x, travel.y), travel.z)
@@ -151,23 +151,23 @@ class _Writer:
                 yield WrittenLine(f"CP IPA{sense}{angle:.6f} {z} DR{sense} R0 {feed}", travel=travel)
 
     def at(self, point: Point, height: float) -> tuple[str, str, str]:
-        """X, Y and Z as words."""
+        """Return X, Y and Z as words."""
         return f"X{self.length(point[0])}", f"Y{self.length(point[1])}", f"Z{self.length(height)}"
 
     def turned(self, start: tuple[str, str, str], end: tuple[str, str], travel: CenterMove) -> float:
-        """Degrees that a helix turns between places as they are written."""
+        """Return the degrees that a helix turns between its ends as written."""
         (sx, sy), (ex, ey) = ([to_mm(float(word[1:]), self.unit) for word in words[:2]] for words in (start, end))
         return degrees(sweep((sx, sy), (ex, ey), travel.center, travel.turn) or tau)
 
     def place(self, point: Point) -> str:
-        """X and Y."""
+        """Return X and Y as words."""
         return f"X{self.length(point[0])} Y{self.length(point[1])}"
 
     def length(self, value: float) -> str:
-        """A length with its sign, as fine as the control takes it."""
+        """Return a length with its sign, as fine as the control accepts."""
         text = f"{from_mm(value, self.unit):+.{KLARTEXT_DECIMALS[self.unit]}f}".rstrip("0").rstrip(".")
         return "+0" if text in ("+0", "-0", "+", "-") else text
 
     def feed(self, value: float) -> str:
-        """A feed."""
+        """Return a feed as text."""
         return f"{from_mm(value, self.unit):.3f}".rstrip("0").rstrip(".")

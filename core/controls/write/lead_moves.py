@@ -1,4 +1,4 @@
-"""Lead moves: the straight moves into a compensated contour and out of it, as each word-address control needs them."""
+"""Lead moves are the straight moves into and out of a compensated contour, as each word-address control needs them."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from core.tolerance import GOUGE
 from core.verify.judge import judge
 
 LEAD_LENGTHS: Final = (2.0, 1.25, 1.05, 0.5, 0.25, 0.1)
-"""Lengths of the straight leads in radii, longest first; the first that cuts nothing is taken."""
+"""Lengths of the straight leads in tool radii, longest first; the first that cuts nothing is used."""
 
 MIN_SQUARE_LENGTH: Final = 1.0
-"""Radii that the entry must be longer than where it ends square to itself."""
+"""Tool radii that an entry must exceed if it ends square to itself."""
 
 ON_LINE: Final = 1e-6
-"""Millimeters by which the joint of two lines may lie off the line they are merged to."""
+"""Millimeters that the joint of two lines may lie off the line that replaces them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -34,7 +34,7 @@ class ProtectedContour:
     radius: float
 
     def gouge(self, lead: Sequence[Piece]) -> float:
-        """How deep a lead cuts; the whole cutter where that cannot be judged."""
+        """Return how deep a lead cuts; the cutter's diameter if that cannot be judged."""
         verdict = judge(self.path, self.side, self.radius, Path.from_pieces(list(lead)))
         return verdict.depth if verdict.judged else 2.0 * self.radius
 
@@ -48,9 +48,9 @@ def clear_leads(
     into: Sequence[Piece] = (),
     off: Sequence[Piece] = (),
 ) -> tuple[Point, Point] | float:
-    """Where the longest leads that cut nothing start and end; or how deep the shortest ones cut.
+    """Return where the longest leads that cut nothing start and end, or how deep the shortest ones cut.
 
-    Lengths are in this radius.  `into` follows the lead in, `off` comes before the lead out.
+    Lengths are multiples of `radius`.  `into` follows the lead-in; `off` precedes the lead-out.
     """
     depth = 0.0
     for length in LEAD_LENGTHS:
@@ -65,7 +65,7 @@ def clear_leads(
 
 
 def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
-    """Where the entry starts: `length` away from where it ends, on the line the control needs it on."""
+    """Return where the entry starts: `length` from its end, on the line that the control needs."""
     at = end.corner if style.entry is EntryRule.SQUARE_TO_ITSELF else end.at
     if end.blend or style.entry is EntryRule.SQUARE_TO_NEXT:
         return point_along(at, end.off, length)
@@ -75,9 +75,9 @@ def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
 def with_blends(
     shape: ProgrammedElements, first: PathEnd, last: PathEnd, radius: float, segments: tuple[float, float]
 ) -> ProgrammedElements:
-    """With the blends as programmed arcs, a tool's radius larger than those of the center: the tool runs inside them.
+    """Add the blends as programmed arcs, larger than the center's by the tool's radius: the tool runs inside them.
 
-    `segments` are the numbers of both arcs.
+    `segments` are the numbers of the two arcs.
     """
     if not first.blend:
         return shape
@@ -89,7 +89,7 @@ def with_blends(
 
 
 def merged(shape: ProgrammedElements) -> ProgrammedElements:
-    """With lines that continue one another as one, under the first one's segment."""
+    """Return the elements with lines that continue one another merged, under the first one's segment."""
     elements, segments = [shape.elements[0]], [shape.segments[0]]
     for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
         if _continues(elements[-1], element):

@@ -1,8 +1,8 @@
-"""Read-back: a written program run on its own control, and its path compared with the intended one.
+"""Read-back runs a written program on its own control and compares its path with the intended one.
 
-The control's path must be the block's within two of the last digits written, a thousandth of a millimeter at least.
-A path that differs passes only where it gouges nothing and leaves nothing more uncut than the block's, with a note that
-says how far it differs; everything else is refused with the place and the reason.
+The control's path must match the block's within two of the last digits written or 0.001 mm, whichever is more.  A path
+that differs passes only if it gouges nothing and leaves no more uncut than the block's, with a note that says how far
+it differs; everything else is refused with the place and the reason.
 """
 
 from __future__ import annotations
@@ -39,17 +39,17 @@ MIN_TOLERANCE: Final = 0.001
 """Millimeters by which the control's path may always differ."""
 
 MAX_CENTER_SHIFT: Final = 0.01
-"""Millimeters by which an arc's center may be moved to even out its radii."""
+"""Millimeters that an arc's center may move to even out its radii."""
 
 MAX_COMPARED_PIECES: Final = 4000
-"""Pieces of a path up to which paths that differ are compared; a longer one must be the same piece by piece."""
+"""Most pieces of a path that is compared if it differs; a longer one must match piece by piece."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Intended:
-    """A program as it was written, and the cuts it is for; `last_digit` in millimeters.
+    """A program as written, and the cuts it is for; `last_digit` is in millimeters.
 
-    `leads`: the control's path has a move into the block's path and one out of it that are not the block's.
+    `leads`: the control's path has a move into the block's path and one out of it that the block's does not have.
     """
 
     control: str
@@ -62,12 +62,12 @@ class Intended:
 
     @property
     def shown_control(self) -> str:
-        """The control's name for people."""
+        """The control's name as operators know it."""
         return shown_name(self.control)
 
     @property
     def text(self) -> str:
-        """The program."""
+        """The text of the program."""
         return "\n".join(line.text for line in self.lines) + "\n"
 
     @property
@@ -76,12 +76,12 @@ class Intended:
         return max(MIN_TOLERANCE, 2 * self.last_digit)
 
     def segment(self, line: int | float | None) -> float | None:
-        """The segment a line of the program cuts."""
+        """Return the segment that a line of the program cuts."""
         return self.lines[int(line) - 1].segment if line and line <= len(self.lines) else None
 
 
 def read_back(intended: Intended) -> tuple[Finding, ...]:
-    """The control's answer to its program: errors where it is refused, and the notes on it."""
+    """Return the control's answer to its program: errors if it is refused, and the notes on it."""
     made = run(intended.text.encode("ascii"), intended.control, intended.tools, intended.unit)
     assert not isinstance(made, UnknownControl), made.text
     stopped = _stopped(made, intended)
@@ -101,15 +101,15 @@ def read_back(intended: Intended) -> tuple[Finding, ...]:
             return (not_written("A compensated run does not stay at its depth."),)
         if key not in answers:
             answers[key] = compare_path(moves.path(), cut, intended)
-    found = [answer for answer in answers.values() if answer is not None]
-    errors = dict.fromkeys(answer for answer in found if answer.severity is Severity.ERROR)
-    differing = [answer for answer in found if answer.severity is not Severity.ERROR]
+    findings = [answer for answer in answers.values() if answer is not None]
+    errors = dict.fromkeys(answer for answer in findings if answer.severity is Severity.ERROR)
+    differing = [answer for answer in findings if answer.severity is not Severity.ERROR]
     worst = sorted(differing, key=lambda note: note.lengths)[-1:]
     return (*errors, *worst, *_warnings(made, intended))
 
 
 def different_move(made: ControlRun, intended: Intended) -> Finding | None:
-    """A move without compensation that the control does not make as intended."""
+    """Return an error if the control does not make a move without compensation as intended."""
     moves = made.moves
     here: Point | None = None
     for number, line in enumerate(intended.lines, 1):
@@ -117,24 +117,24 @@ def different_move(made: ControlRun, intended: Intended) -> Finding | None:
         if travel is None:
             continue
         before, here = here, (travel.x, travel.y)
-        # the last move up to this line: a line that leads to where the tool stands already makes none
+        # the last move up to this line: a line to the tool's current position makes none
         row = int(np.searchsorted(moves.lines, number, side="right")) - 1
         differs = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
         if differs and (int(moves.lines[row]) == number or travel.turn):
             return not_written(f"{intended.shown_control} runs line {number} of the program as a different move.")
-        offs = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
+        errors = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
         if travel.turn:
             center = np.abs(moves.centers[row, :2] - travel.center)
-            offs = np.concatenate((offs, center, (_length_difference(moves, row, before, travel),)))
+            errors = np.concatenate((errors, center, (_length_difference(moves, row, before, travel),)))
         # a comparison with NaN is false
-        if not (offs <= intended.tolerance).all():
+        if not (errors <= intended.tolerance).all():
             text = f"{intended.shown_control} ends line {number} of the program {{0}} off."
-            return not_written(text, lengths=(float(offs.max()),))
+            return not_written(text, lengths=(float(errors.max()),))
     return None
 
 
 def _length_difference(moves: Moves, row: int, before: Point | None, travel: CenterMove) -> float:
-    """Millimeters by which an arc's length differs: by a turn, where its ends became one point."""
+    """Return how far an arc's length differs in millimeters: a full turn if its ends became one point."""
     if before is None:
         return 0.0
     (x, y), (ex, ey) = moves.points[row - 1 : row + 1, :2].tolist()
@@ -144,7 +144,7 @@ def _length_difference(moves: Moves, row: int, before: Point | None, travel: Cen
 
 
 def _stopped(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
-    """The alarms, with the segments they belong to."""
+    """Return the alarms with the segments they belong to."""
     alarms = tuple(_alarm(finding, intended) for finding in made.findings if finding.severity is Severity.ERROR)
     return alarms or ((not_written("The control stops."),) if made.stopped_at is not None else ())
 
@@ -155,7 +155,7 @@ def _alarm(finding: Finding, intended: Intended) -> Finding:
 
 
 def _warnings(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
-    """The control's warnings, each rule once."""
+    """Return the control's warnings, one for each rule."""
     first = {finding.code: finding for finding in reversed(made.findings) if finding.severity is Severity.WARNING}
     return tuple(
         Finding(code, Severity.WARNING, finding.text, intended.segment(finding.line), lengths=finding.lengths)
@@ -164,14 +164,14 @@ def _warnings(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
 
 
 def _level(made: ControlRun, stretch: Stretch, cut: CompensatedPass, intended: Intended) -> bool:
-    """All of a compensated run is at feed and at its depth."""
+    """True if all of a compensated run is at feed and at its depth."""
     rows = slice(stretch.first + 1, stretch.last)
     heights = made.moves.points[rows, 2]
     return not bool(made.moves.rapid[rows].any()) and bool((np.abs(heights - cut.depth) <= intended.tolerance).all())
 
 
 def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Finding | None:
-    """What there is to say of the path the control makes, against the block's: an error, or a note where it differs."""
+    """Compare the control's path with the block's; return an error, a note if it differs, or None."""
     whole, tolerance = cut.compensated.whole, intended.tolerance
     inner = made.part(1, len(made) - 1) if intended.leads and len(made) > 2 else made
     if same_pieces(inner, whole, tolerance):
@@ -179,7 +179,7 @@ def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Findin
     elif max(len(inner), len(whole)) > MAX_COMPARED_PIECES:
         return not_written("The control's path differs, and is too long to compare.")
     else:
-        # seen from the block's side a distance has no line of the program, so the path's first one stands for it
+        # a distance measured from the block's path has no line of the program; the first one stands in for it
         first = float(inner.numbers[0]) if len(inner) else 0.0
         both = largest_distance(inner, whole), (largest_distance(whole, inner)[0], first)
         apart, number = both[int(np.argmax([distance for distance, _ in both]))]
@@ -191,8 +191,8 @@ def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> Findin
 
 
 def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
-    """Whether two paths are the same piece by piece, apart from pieces of next to no length."""
-    # a length that is not a number is not short
+    """True if two paths match piece by piece, apart from pieces of almost no length."""
+    # a length of NaN is not short
     kept, wanted = ~(made.lengths <= tolerance), ~(whole.lengths <= tolerance)
     if int(kept.sum()) != int(wanted.sum()) or not np.array_equal(made.turns[kept], whole.turns[wanted]):
         return False
@@ -202,9 +202,9 @@ def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
 
 
 def largest_distance(path: Path, other: Path) -> tuple[float, float]:
-    """How far the ends, quarters and middles of a path's pieces are from another path at most, and that piece's number.
+    """Return the largest distance of a path's ends, quarters and middles from another path, and the piece's number.
 
-    NaN counts as the largest distance; of several pieces as far off the first one counts.
+    NaN counts as the largest distance; of several pieces equally far off the first one counts.
     """
     if not path.lengths.any() or not other.lengths.any():
         return (np.inf, 0.0) if path.lengths.any() or other.lengths.any() else (0.0, 0.0)
@@ -214,7 +214,7 @@ def largest_distance(path: Path, other: Path) -> tuple[float, float]:
 
 
 def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *, differs: bool) -> Finding | None:
-    """What the control's path does wrong: leads that cut, and where the path differs, gouges and what is left."""
+    """Return what the control's path does wrong: leads that cut, and if it differs, gouges and uncut surface."""
     contour, side = cut.compensated.contour, cut.compensated.side
     verdicts = [judge(contour, side, *judged) for judged in _judged_paths(made, inner, cut, differs=differs)]
     if not all(verdict.judged for verdict in verdicts):
@@ -241,7 +241,7 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
 
 
 def _judged_paths(made: Path, inner: Path, cut: CompensatedPass, *, differs: bool) -> list[tuple[float, Path]]:
-    """The radius and the path to be judged: all of a path that differs, and its stock too, or the leads alone."""
+    """Return the radii and paths to judge: a path that differs as a whole, with its stock too; else the leads alone."""
     size = cut.diameter / 2
     if differs:
         return [(size, _evened(made)), *([(cut.compensated.radius, _evened(inner))] if cut.stock else [])]
@@ -249,7 +249,7 @@ def _judged_paths(made: Path, inner: Path, cut: CompensatedPass, *, differs: boo
 
 
 def _evened(path: Path) -> Path:
-    """The path with one radius at both ends of each arc whose ends and center are parted by rounding."""
+    """Return the path with equal radii at both ends of each arc whose ends and center rounding has moved."""
     rows = path.turns.nonzero()[0]
     points, centers = as_complex(path.points), as_complex(path.centers).copy()
     moved, _ = even_centers(points[rows], points[rows + 1], centers[rows], path.turns[rows])
@@ -258,5 +258,5 @@ def _evened(path: Path) -> Path:
 
 
 def _length_left(verdict: Verdict, intended: Intended) -> float:
-    """Length of surface left, without what only rounding leaves."""
+    """Return the length of surface left uncut, without what rounding alone leaves."""
     return sum(stretch.length for stretch in verdict.uncut if stretch.thickness > intended.tolerance)

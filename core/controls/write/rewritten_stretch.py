@@ -1,6 +1,6 @@
-"""Rewritten stretch: a compensated stretch of a run as a pass for another control, with leads that cut nothing.
+"""A rewritten stretch is a compensated stretch of a run as a pass for another control, with leads that cut nothing.
 
-Elements are numbered from 1 in their order; the lead in has the number 0, the lead out one more than the last.
+Elements are numbered from 1 in their order; the lead-in has number 0, the lead-out one more than the last element.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from core.geometry.piece import Arc, Piece, Point, Turn
 from core.tolerance import JOINED
 
 BLEND_RADII: Final = (0.0, 1.0, 0.5, 0.25, 0.1)
-"""Radii, in radii of the tool, of the quarter arcs between a straight lead and the contour; none is tried first."""
+"""Radii, in tool radii, of the quarter arcs between a straight lead and the contour; no arc is tried first."""
 
 MIN_LIFT: Final = 10.0
-"""Millimeters from a contour's depth up to where the tool travels, at least."""
+"""Least height in millimeters from a contour's depth up to where the tool travels."""
 
 DEFAULT_FEED: Final = 100.0
 """Millimeters per minute where the program gives no feed."""
@@ -34,14 +34,14 @@ DEFAULT_FEED: Final = 100.0
 
 @dataclass(frozen=True, slots=True)
 class NotTranslated:
-    """Why a run's contours cannot be written for another control; the end of a sentence."""
+    """Why a run's contours cannot be written for another control, as the end of a sentence."""
 
     text: str
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RewrittenStretch:
-    """A stretch's programmed elements, their lines in the program, its surface, and how it is run."""
+    """A stretch's programmed elements, their lines in the program, its surface, and how to run it."""
 
     shape: ProgrammedElements
     lines: tuple[int, ...]
@@ -50,7 +50,7 @@ class RewrittenStretch:
     surface: Path
 
     def end(self, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
-        """The path's begin (`sense` 1) or its end (-1), with a quarter arc of radius `blend` or 0."""
+        """Return the path's start (`sense` 1) or end (-1), with a quarter arc of radius `blend`, or none for 0."""
         radius, off = self.stretch.radius, offset_point((0.0, 0.0), way, self.stretch.side.sign)
         at = point_along(point_along(corner, off, radius + blend), way, -sense * blend)
         if not blend:
@@ -59,7 +59,7 @@ class RewrittenStretch:
 
 
 def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> RewrittenStretch | NotTranslated:
-    """A stretch of a run, with a tool's number; or why it cannot be written for another control."""
+    """Return a stretch of a run with a tool's number, or why it cannot be written for another control."""
     moves = stretch.programmed
     line = int(moves.lines[min(1, len(moves) - 1)])
     if stretch.plane is not Plane.XY:
@@ -81,7 +81,7 @@ def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> Rewri
 
 
 def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
-    """Rows of the programmed moves that are the contour; an entry or exit along an arc counts, as not all have that."""
+    """Return the contour's rows in the programmed moves; an entry or exit arc counts, as not all controls allow it."""
     moves, entry, end = stretch.programmed, stretch.entry, len(stretch.programmed) - stretch.exit
     if entry == 1 and moves.turns[1]:
         entry = 0
@@ -104,7 +104,7 @@ def _contour_pass(source: ControlRun, stretch: Stretch, rows: NDArray[np.intp], 
 
 
 def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> PassWithLeads | NotTranslated:
-    """The stretch with the first leads that cut nothing, in a control's style; `blends`: with quarter arcs too."""
+    """Return the stretch with the first leads that cut nothing, in a control's style; `blends` allows quarter arcs."""
     stretch, radius, turn = source.stretch, source.stretch.radius, Turn(source.stretch.side.sign)
     shape = merged(source.shape) if style.merged else source.shape
     first, last = shape.elements[0], shape.elements[-1]
@@ -122,7 +122,7 @@ def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> Pa
 
 
 def _blend(end: PathEnd, turn: Turn, sense: int) -> tuple[Piece, ...]:
-    """The quarter arc between a straight lead and the tool's path, at its begin (`sense` 1) or its end (-1)."""
+    """Return the quarter arc between a straight lead and the tool's path, at its start (`sense` 1) or end (-1)."""
     if not end.blend:
         return ()
     center = point_along(end.at, end.way, sense * end.blend)

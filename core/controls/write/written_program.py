@@ -1,4 +1,4 @@
-"""Written program: contours as the program of a control that compensates by itself, confirmed by reading it back."""
+"""Written programs are contours for a control that compensates by itself, confirmed by reading them back."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from core.finding import Finding, Severity
 from core.units import to_mm
 
 Remarks = Callable[[Sequence[Finding]], Sequence[str]]
-"""From the notes on a program to its first lines."""
+"""A function that makes a program's first lines from the notes on it."""
 
 WRITTEN_AGAIN: Final = 2
-"""How often a program is written, since notes on it stand in its own first lines."""
+"""Most times that a program is written, because its own first lines contain the notes on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class NotWritten:
 def write_program(
     cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
-    """The program of a control by its full name; `remarks` makes its first lines of the notes on it."""
+    """Return the program for a control, by full name; `remarks` makes its first lines from the notes on it."""
     if is_klartext(control):
         return _klartext(cuts, control, frame, name, remarks)
     return _iso(cuts, control, frame, remarks)
@@ -78,8 +78,8 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
     led: dict[Compensated, PassWithLeads | Finding] = {}
     for cut in cuts:
         if isinstance(cut, CompensatedPass) and cut.compensated not in led:
-            found = _led(cut, style, numbers[cut.tool, cut.stock])
-            led[cut.compensated] = replace(found, block=cut.block) if isinstance(found, Finding) else found
+            result = _with_clear_leads(cut, style, numbers[cut.tool, cut.stock])
+            led[cut.compensated] = replace(result, block=cut.block) if isinstance(result, Finding) else result
     refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
     if refusals:
         return NotWritten(refusals)
@@ -95,14 +95,14 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
 
 
 def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding], offset: int) -> PassWithLeads:
-    """A cut with the leads that all cuts of its contour have."""
+    """Return a cut with the leads that all cuts of its contour share."""
     run = led[cut.compensated]
     assert isinstance(run, PassWithLeads)
     return replace(run, contour_pass=cut, offset_number=offset)
 
 
-def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:
-    """The cut with the longest leads that cut nothing."""
+def _with_clear_leads(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:
+    """Return the cut with the longest leads that cut nothing, or why there is none."""
     compensated, radius = cut.compensated, cut.compensated.radius
     first, last = path_begin(compensated), path_finish(compensated)
     leads = clear_leads(
@@ -122,7 +122,7 @@ def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | 
 
 
 def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
-    """The program once its control confirms it, with the notes in it."""
+    """Return the program, with the notes in it, once its control confirms it."""
     notes: tuple[Finding, ...] = ()
     for _ in range(WRITTEN_AGAIN):
         intended = write(notes)
