@@ -1,4 +1,4 @@
-"""Compared contours: two programs compared by the contours they describe, whatever their languages."""
+"""Compared contours show where two programs, in whatever languages, describe different contours."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from core.geometry.piece_arrays import at, piece_arrays
 from core.tolerance import ON_PATH
 
 APART: Final = 0.0005
-"""Millimeters from which on two paths or contours differ."""
+"""Millimeters above which two paths or contours differ."""
 
 MAX_PAIRS: Final = 20_000_000
-"""Places times pieces that are measured; of longer contours fewer places are."""
+"""Most measurements, points times pieces; longer contours are measured at fewer points."""
 
 
 @dataclass(frozen=True, slots=True)
 class Parting:
-    """Where two paths part: the first line, the line at which they are farthest apart, and how far in millimeters."""
+    """Where two paths part: the first line, the line where they are farthest apart, and how far in millimeters."""
 
     line: int
     farthest: int
@@ -43,12 +43,12 @@ class ContourPair:
 
     @property
     def same(self) -> bool:
-        """Whether both describe one contour, cut on the same side."""
+        """True if both describe one contour, cut on the same side."""
         return self.first is None and self.second is None and self.same_side
 
 
 def contours(first: ControlRun, second: ControlRun) -> tuple[ContourPair, ...]:
-    """The compensated stretches of two runs in pairs, without their leads."""
+    """Return the compensated stretches of two runs in pairs, compared without their leads."""
     pairs = zip(first.stretches, second.stretches, strict=False)
     return tuple(_pair(number, *pair) for number, pair in enumerate(pairs, 1))
 
@@ -61,7 +61,7 @@ def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
 
 
 def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
-    """Where a path is farther than `tolerance` from another one, by its lines; None if nowhere."""
+    """Return where a path is farther than `tolerance` from another one, by its lines; None if nowhere."""
     if not path.lengths.any():
         return None
     if not other.lengths.any():
@@ -75,12 +75,12 @@ def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
 
 
 def distances(path: Path, other: Path, shares: tuple[float, ...]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """(k,) how far places at these shares of a path's pieces are from another path, and (k,) the rows of the pieces.
+    """Return (k,) distances to another path from points at these shares of a path's pieces, and (k,) the pieces' rows.
 
-    Both paths have pieces; of long ones only a few places are measured.
+    Both paths must have pieces; long ones are measured at only a few points.
     """
     pieces, onto = piece_arrays(path), piece_arrays(other)
-    places = np.concatenate([at(pieces, np.full(len(pieces), share)) for share in shares])
-    step = max(1, len(places) * len(onto) // MAX_PAIRS)
-    off = [float(np.min(distance(onto, np.full(len(onto), place)))) for place in places[::step]]
+    points = np.concatenate([at(pieces, np.full(len(pieces), share)) for share in shares])
+    step = max(1, len(points) * len(onto) // MAX_PAIRS)
+    off = [float(np.min(distance(onto, np.full(len(onto), point)))) for point in points[::step]]
     return np.array(off), np.tile(pieces.rows, len(shares))[::step]

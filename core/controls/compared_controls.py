@@ -1,4 +1,4 @@
-"""Compared controls: one program on all controls, which run it, stop or gouge, and where their paths part."""
+"""Compared controls show which controls run a program, stop or gouge, and where their paths part."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from core.geometry.path import EMPTY, Floats, Path
 from core.units import Unit
 
 MIN_WRITTEN_APART: Final = 0.001
-"""The same where one of them is written anew, or two of its last digits where that is more."""
+"""Millimeters above which a rewritten path differs, unless two of its last digits are more."""
 
 MAX_POINT_PAIRS: Final = 1_000_000
-"""Pairs of points of one line that are measured."""
+"""Most pairs of points that are measured for one line."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compared:
-    """A control's run of the program; `parts` is where it leaves the path of the control `of`, the first that runs it.
+    """A control's run of the program; `parts` is where it leaves the path of control `of`, the first that runs it.
 
-    `by` names the control whose contour was translated where this one does not read the program's language.
+    `by` names the control whose contour was translated if this one does not read the program's language.
     """
 
     control: str
@@ -45,7 +45,7 @@ class Compared:
 
 @dataclass(frozen=True, slots=True)
 class OtherLanguage:
-    """A control that does not read the program's language, and why it is not compared by the contour either."""
+    """A control that does not read the program's language, and why its contour is not compared either."""
 
     control: str
     why: str = ""
@@ -58,11 +58,11 @@ def compare(
     library: ProgramLibrary = NO_LIBRARY,
     reference: str = "",
 ) -> tuple[Compared | OtherLanguage, ...]:
-    """The program on every control, in the registry's order; `unit` where it names none, inches if none is given.
+    """Run the program on every control, in the registry's order; `unit` applies if it names none, inches by default.
 
-    The `reference`, by its full name, comes before the others, which are compared with it if it runs the program.  A
-    control of another language gets the contour as the first control that runs the program to its end reads it, or as
-    one that stops for the tool's radius would with a thinner tool.
+    The `reference`, by its full name, comes first, and the others are compared with it if it runs the program.  A
+    control of another language gets the contour as read by the first control that runs the program to its end, or by
+    one that stops for the tool's radius, then run with a thinner tool.
     """
     first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []
@@ -90,7 +90,7 @@ def _row(done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "")
 
 
 def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compared | OtherLanguage:
-    """The contours of the first run on a control of another language; `paths`: where the paths part too."""
+    """Run the first run's contours on a control of another language; `paths`: also find where the paths part."""
     if first is None:
         return OtherLanguage(control, "no control runs this program to the end")
     made = run_by_contour(first, control)
@@ -102,7 +102,7 @@ def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compa
 
 
 def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Parting | None:
-    """Where the paths along the contours of two runs part, leads left out; the other one may have stopped early."""
+    """Return where the paths along the contours of two runs part, without leads; the other may have stopped early."""
     for ours, theirs in zip(first.stretches, other.stretches, strict=False):
         lines = set(theirs.programmed.lines.tolist())
         path, other_path = _along(first, ours, lines), _along(other, theirs, lines)
@@ -115,14 +115,14 @@ def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Par
 
 
 def _along(done: ControlRun, stretch: Stretch, lines: set[int]) -> Path:
-    """A stretch's path from the first to the last piece that belongs to a line of the contour."""
+    """Return a stretch's path from the first to the last piece that belongs to a line of the contour."""
     path = done.moves.part(stretch.first, stretch.last).path(stretch.plane)
     rows = [row for row, line in enumerate(path.numbers.tolist()) if line and int(line) in lines]
     return path.part(rows[0], rows[-1] + 1) if rows else EMPTY
 
 
 def parting(first: Moves, other: Moves) -> Parting | None:
-    """Where two lists of moves of one program part, line by line; None if they are the same as far as both go.
+    """Return where two lists of moves of one program part, line by line; None if all lines that both have agree.
 
     Each point that a line's moves go through is compared with the nearest one of the other list.
     """
@@ -136,7 +136,7 @@ def parting(first: Moves, other: Moves) -> Parting | None:
 
 
 def _points_by_line(moves: Moves) -> dict[int, Floats]:
-    """Line to the points (n, 3) its moves begin and end with."""
+    """Return for each line the points (n, 3) at which its moves begin and end."""
     order = np.argsort(moves.lines[1:], kind="stable") + 1
     lines = moves.lines[order]
     groups = np.split(order, np.flatnonzero(np.diff(lines)) + 1) if len(order) else []
@@ -144,7 +144,7 @@ def _points_by_line(moves: Moves) -> dict[int, Floats]:
 
 
 def _distance(first: Floats, other: Floats) -> float:
-    """How far the points (n, 3) of two lines are apart at most; of very many points only the last ones count."""
+    """Return how far apart the points (n, 3) of two lines are at most; of very many points only the last ones count."""
     if len(first) * len(other) > MAX_POINT_PAIRS:
         return float(np.linalg.norm(first[-1] - other[-1]))
     between = np.linalg.norm(first[:, None, :] - other[None, :, :], axis=2)

@@ -1,7 +1,7 @@
-"""Contour translation: a run's contours written for a control of another language, so that both can be compared.
+"""Contour translation writes a run's contours for a control of another language, so that both can be compared.
 
-The contour is written with the side and the radius of the run, each stretch with a move into it and out of it that the
-other control allows; everything else of the program is left out.
+The contour keeps the side and the radius of the run, and each stretch gets a move into it and out of it that the other
+control allows; everything else in the program is left out.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from core.controls.write.rewritten_stretch import NotTranslated, RewrittenStretc
 from core.units import to_mm
 
 MAX_TOOLS: Final = 24
-"""Tools that every control has."""
+"""Number of tools that every control has."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TranslatedProgram:
-    """The text for the other control; of each of its lines the program's line, 0 for none, and whether it only leads.
+    """The text for the other control; for each line the program's line (0 for none), and whether it only leads.
 
-    `tools` is what the text counts on, `digit` its last decimal place in millimeters.
+    `tools` is the table that the text needs, `digit` its last decimal place in millimeters.
     """
 
     lines: tuple[WrittenLine, ...]
@@ -41,7 +41,7 @@ class TranslatedProgram:
 
 
 def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | NotTranslated:
-    """The contours of a run as a program of a control by its full name, in the run's unit."""
+    """Return the contours of a run as a program for a control, by full name, in the run's unit."""
     if not source.stretches:
         return NotTranslated("the program has no compensated contour")
     sizes = list(dict.fromkeys(stretch.radius for stretch in source.stretches))
@@ -78,27 +78,27 @@ def _written(
 def _sources(
     lines: tuple[WrittenLine, ...], programmed: list[RewrittenStretch]
 ) -> tuple[tuple[int, ...], tuple[bool, ...]]:
-    """Of each line the program's line, and whether it is a lead; a run ends with the line that leads out of it."""
+    """Return for each line the program's line, and whether it is a lead; a run ends with its lead-out line."""
     sources, leads = [], []
-    at, inside = 0, False
+    run_index, inside = 0, False
     for line in lines:
         if line.segment is None:
             sources.append(0)
             leads.append(True)
             continue
-        numbers = programmed[at].lines
+        numbers = programmed[run_index].lines
         sources.append(numbers[min(max(int(line.segment), 1), len(numbers)) - 1])
         leads.append(line.lead or not 1 <= line.segment <= len(numbers))
         if line.lead and inside:
-            at += 1
+            run_index += 1
         inside = inside != line.lead
     return tuple(sources), tuple(leads)
 
 
 def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float] | NotTranslated:
-    """A run's contours on a control of another language, by the lines of the run; and their last decimal place.
+    """Run a run's contours on a control of another language; return this run and its last decimal place.
 
-    Moves of the leads, and everything that is not of a contour, have line 0.
+    Lines are those of the first run; moves of leads, and everything that belongs to no contour, have line 0.
     """
     program = translate_contours(source, control)
     if isinstance(program, NotTranslated):
@@ -110,7 +110,7 @@ def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float]
 
 
 def _by_source_lines(made: ControlRun, program: TranslatedProgram) -> ControlRun:
-    """The run with the lines of the program that the contours are from."""
+    """Return the run with the lines of the program that the contours come from."""
     sources, leads = np.array([0, *program.sources], np.int32), np.array([True, *program.leads])
     findings = tuple(
         replace(finding, line=_source(program, finding.line), column=None) if finding.line else finding
@@ -126,7 +126,7 @@ def _by_source_lines(made: ControlRun, program: TranslatedProgram) -> ControlRun
 
 
 def _stretch(stretch: Stretch, sources: NDArray[np.int32], leads: NDArray[np.bool_]) -> Stretch:
-    """A stretch with the program's lines; the arcs that lead in and out count as leads, not as surface."""
+    """Return a stretch with the program's lines; arcs that lead in and out count as leads, not as surface."""
     lines = stretch.programmed.lines
     last = len(lines) - 1
     inner = np.flatnonzero(~leads[lines[1:]]) + 1
@@ -136,6 +136,6 @@ def _stretch(stretch: Stretch, sources: NDArray[np.int32], leads: NDArray[np.boo
 
 
 def _source(program: TranslatedProgram, line: int) -> int:
-    """The program's line that a line of the text is from or follows; the first one for what comes before all."""
+    """Return the program's line that a line of the text comes from or follows; before any, the first one."""
     before = [source for source in program.sources[:line] if source]
     return before[-1] if before else next(source for source in program.sources if source)

@@ -1,4 +1,4 @@
-"""Contours and leads: the moves of a compensated stretch that are contours, and those that only lead to them."""
+"""This module tells which moves of a compensated stretch are contours, and which only lead to them."""
 
 from __future__ import annotations
 

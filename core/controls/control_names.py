@@ -1,4 +1,4 @@
-"""Control names: how people call the controls, what each one is in a line, and the names it has inside cutcomp."""
+"""Control names are what operators call each control, with a line about it and its name inside cutcomp."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Final
 
 @dataclass(frozen=True, slots=True)
 class ControlName:
-    """A control's name as it is typed and shown, its title, and a line about it and about each of its variants."""
+    """A control's name as typed and shown, its title, and a line about it and about each of its variants."""
 
     name: str
     title: str
@@ -20,7 +20,7 @@ class ControlName:
 
 @dataclass(frozen=True, slots=True)
 class ControlChoice:
-    """One line of a list of controls: `control` is the full name for `registry.run`, the rest is for people."""
+    """One line of a list of controls: `control` is the full name for `registry.run`, the rest is for display."""
 
     control: str
     name: str
@@ -69,18 +69,18 @@ CONTROL_NAMES: Final[Mapping[str, ControlName]] = MappingProxyType(
         "threeblock": ControlName("three-block", "Three-block control", "older US mill: radius with T, reads 3 blocks"),
     }
 )
-"""By the name inside cutcomp, in the order in which lists show them."""
+"""The names, by the name inside cutcomp, in the order that lists show."""
 
 _INSIDE: Final = {entry.name: inside for inside, entry in CONTROL_NAMES.items()}
 
 
 def inside_name(control: str) -> str:
-    """A control's name as typed, with the name inside cutcomp in place of the one people use."""
+    """Return a typed name of a control with cutcomp's own name in place of the one that operators use."""
     name, colon, variant = control.strip().lower().partition(":")
     return f"{_INSIDE.get(name, name)}{colon}{variant}"
 
 
 def shown_name(control: str) -> str:
-    """A control's full or short name inside cutcomp as people type and read it."""
+    """Return the name that operators type and read for a control's full or short name inside cutcomp."""
     name, colon, variant = control.partition(":")
     return f"{CONTROL_NAMES[name].name if name in CONTROL_NAMES else name}{colon}{variant}"

@@ -1,4 +1,4 @@
-"""Control run: the moves, compensated stretches and findings of a program on a control, up to its end or an alarm."""
+"""A control run holds a program's moves, compensated stretches and findings on a control, up to its end or an alarm."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from core.geometry.piece import Side
 from core.units import Unit
 
 MAX_FINDINGS_OF_A_RULE: Final = 100
-"""Findings of one rule that are kept; of the rest only the number is."""
+"""Most findings of one rule that are kept; the rest are only counted."""
 
 MAX_ALIKE: Final = 3
-"""Pieces of information of one rule with the same text that are kept: more of them would bury what matters."""
+"""Most INFO findings of one rule with the same text that are kept: more would bury what matters."""
 
 NOT_RUN_TEXT: Final = "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """Another side or radius within a stretch: from row `programmed` of what is programmed on.
+    """A new side or radius within a stretch, from row `programmed` of the programmed moves on.
 
-    Of the run's moves `row` is that at which the element before ends, and `start` that after which the first element
-    with the new side or radius runs; between them are the moves across.
+    In the run's moves the element before ends at `row`, and the first element with the new side or radius runs after
+    `start`; the rows between them are the moves across.
     """
 
     programmed: int
@@ -40,11 +40,11 @@ class Change:
 class Stretch:
     """Compensated moves: from the move that turns compensation on to the one that leaves it.
 
-    `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
-    surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
-    `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimeters and
-    positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: the control enters and
-    leaves it along leads of its own, not in programmed moves.  `changes`: where its side or radius changes.
+    `programmed` are the moves as written, without compensation, with their start point as row 0: the part's surface.
+    `entry` and `exit` count the moves at its beginning and end that lead in and out and are not surface.  `first` ...
+    `last` - 1 are the stretch's rows in the run's moves.  `radius` is in millimeters and positive: `side` is already
+    the one that a negative radius flips to.  `led_in` and `led_out`: the control enters and leaves on leads of its own,
+    not in programmed moves.  `changes`: where its side or radius changes.
     """
 
     side: Side
@@ -60,7 +60,7 @@ class Stretch:
     changes: tuple[Change, ...] = ()
 
     def parts(self) -> tuple[Stretch, ...]:
-        """The stretch in pieces of one side and radius each; moves across belong to the smaller radius of the two.
+        """Return the stretch in parts of one side and radius each; moves across belong to the smaller radius.
 
         Anything larger does not fit there, whatever the control does: the center is square to the smaller one.
         """
@@ -78,11 +78,11 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ControlRun:
-    """A program on a control.
+    """A program's run on a control.
 
-    `unit` is the program's; everything else is millimeters.  `stopped_at` is the line at which the control would
-    stop with an alarm, None when it runs to the end; `moves` are those made up to there.  `unplaced` are the rows whose
-    height only the machine knows.  `variables` are the common ones of macros as the program leaves them.
+    `unit` is the program's; everything else is in millimeters.  `stopped_at` is the line at which the control would
+    stop with an alarm, None if it runs to the end; `moves` are those made before that.  `unplaced` are the rows whose
+    height only the machine knows.  `variables` are the common macro variables as the program leaves them.
     """
 
     control: str
@@ -96,7 +96,7 @@ class ControlRun:
 
 
 class AlarmError(Exception):
-    """The control stops here; caught where the program is run, never seen outside."""
+    """Stops the control; caught where the program is run, never seen outside."""
 
     def __init__(self, finding: Finding, line: int | None) -> None:
         super().__init__(finding.text)
@@ -105,18 +105,18 @@ class AlarmError(Exception):
 
 
 def more_alike(code: str, lines: Sequence[int | None]) -> Finding:
-    """What is told at the first of these lines for all of them, on which a rule says what it said before."""
+    """Return the finding that counts the further findings of a rule, at the first of their lines."""
     more = f"{code}: {len(lines)} more {'line' if len(lines) == 1 else 'lines'} like these."
     return Finding(code, Severity.INFO, more, line=lines[0])
 
 
 @dataclass(slots=True)
 class Log:
-    """Findings of a run: at most one of a rule on a line, MAX_FINDINGS_OF_A_RULE of it, and MAX_ALIKE of one text.
+    """The findings of a run: at most one per rule and line, MAX_FINDINGS_OF_A_RULE per rule, MAX_ALIKE of one text.
 
-    `kept` counts by rule what is kept, information apart from the rest, `alike` information by its text; `left_out`
-    are the lines of what is not kept, by rule.
-    `rule_names` are a control's own numbers for alarms, by the ids of the rules that controls share.
+    `kept` counts kept findings by rule, INFO apart from the rest; `alike` counts INFO findings by rule and text;
+    `left_out` has the lines of the findings not kept, by rule.  `rule_names` are a control's own alarm numbers, by the
+    ids of the rules that controls share.
     """
 
     findings: list[Finding] = field(default_factory=list)
@@ -127,7 +127,7 @@ class Log:
     rule_names: Mapping[str, str] = field(default_factory=dict)
 
     def add(self, finding: Finding) -> None:
-        """Keep a finding, unless there is one of its rule on that line."""
+        """Keep a finding unless its line already has one of its rule, or the limits are reached."""
         key = (finding.code, finding.line)
         if key in self.seen:
             return
@@ -142,7 +142,7 @@ class Log:
         self.findings.append(finding)
 
     def has(self, code: str) -> bool:
-        """Whether anything of this rule was told."""
+        """True if a finding of this rule was kept."""
         return self.kept[code, True] > 0 or self.kept[code, False] > 0
 
     def tell(
@@ -155,7 +155,7 @@ class Log:
         *,
         lengths: tuple[float, ...] = (),
     ) -> None:
-        """Keep a finding of these values; the control continues."""
+        """Keep a finding with these values; the control continues."""
         self.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
 
     def stop(
@@ -169,12 +169,12 @@ class Log:
         at: tuple[float, float] | None = None,
         stops_at: int | None = None,
     ) -> NoReturn:
-        """The control stops with an alarm, at the finding's line unless another is given."""
+        """Stop the control with an alarm, at the finding's line unless another is given."""
         code = self.rule_names.get(code, code)
         finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column)
         raise AlarmError(finding, stops_at or line)
 
     def closed(self) -> tuple[Finding, ...]:
-        """All findings by line, with one more for each rule that has too many."""
-        told = (*self.findings, *map(more_alike, self.left_out, self.left_out.values()))
-        return tuple(sorted(told, key=lambda finding: (finding.line or 0, finding.column or 0)))
+        """Return all findings by line, and one more for each rule that has findings left out."""
+        listed = (*self.findings, *map(more_alike, self.left_out, self.left_out.values()))
+        return tuple(sorted(listed, key=lambda finding: (finding.line or 0, finding.column or 0)))

@@ -1,4 +1,4 @@
-"""Tool tables as the controls read them, LinuxCNC's files too; the program's own table is in `program.tools`."""
+"""Tool tables hold the tools that a control reads, also from LinuxCNC's files; the program's own: `program.tools`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.program.tools import table_lines
 from core.units import Unit, to_mm
 
 MAX_DIGITS: Final = 8
-"""Digits of a tool's number; what has more of them is a name."""
+"""Most digits of a tool's number; a longer one is a name."""
 
 
 ToolId = int | str
@@ -21,7 +21,7 @@ ToolId = int | str
 
 
 def tool_id(text: str) -> ToolId:
-    """What a tool goes by: its number where that is written, else its name."""
+    """Return a tool's number if the text is one, else its name in capitals."""
     return int(text) if text.isdecimal() and len(text) <= MAX_DIGITS else text.upper()
 
 
@@ -29,7 +29,7 @@ def tool_id(text: str) -> ToolId:
 class CutterTool:
     """One tool: its number or name, diameter (negative where a control allows it), length and lathe orientation.
 
-    `unit` None means the unit in which the program is when it takes the tool.
+    `unit` None means the program's unit when it takes the tool.
     """
 
     number: ToolId
@@ -39,11 +39,11 @@ class CutterTool:
     unit: Unit | None = None
 
     def diameter_mm(self, program: Unit) -> float:
-        """Diameter in millimeters, in a program that is in this unit."""
+        """Return the diameter in millimeters for a program in this unit."""
         return to_mm(self.diameter, self.unit or program)
 
     def length_mm(self, program: Unit) -> float:
-        """Length in millimeters, in a program that is in this unit."""
+        """Return the length in millimeters for a program in this unit."""
         return to_mm(self.length, self.unit or program)
 
 
@@ -55,42 +55,42 @@ class ToolTable:
 
     @staticmethod
     def of(*tools: CutterTool) -> ToolTable:
-        """A table of these tools; a later one of the same number or name replaces an earlier one."""
+        """Return a table of these tools; a later one of the same number or name replaces an earlier one."""
         return ToolTable({tool.number: tool for tool in tools})
 
     def get(self, number: ToolId) -> CutterTool | None:
-        """The tool of a number or name, None where the table has none."""
+        """Return the tool with a number or name; None if the table has none."""
         return self.tools.get(number)
 
     def with_tools(self, other: ToolTable) -> ToolTable:
-        """This table with another's tools over it."""
+        """Return this table with another's tools added; those replace tools of the same number or name."""
         return ToolTable({**self.tools, **other.tools})
 
     def without(self, number: ToolId) -> ToolTable:
-        """This table without a tool."""
+        """Return this table without a tool."""
         return ToolTable({each: tool for each, tool in self.tools.items() if each != number})
 
 
 @dataclass(frozen=True, slots=True)
 class CommentedSize:
-    """The diameter that a comment says of a tool, as it is written there, with a unit if one follows, and its line."""
+    """The tool diameter in a comment, as written there, with a unit if one follows, and the comment's line."""
 
     line: int
     diameter: str
 
 
 def commented_size(lines: Sequence[str], number: ToolId) -> CommentedSize | None:
-    """What a program says of a tool's diameter in its first comment that does; a proposal, for no control reads it.
+    """Return a tool's diameter from the first comment that gives it; a proposal, as no control reads comments.
 
-    Known are `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.  Fractions, several
-    tools or sizes in one comment, and sizes of a shank, a wear or an offset are left alone.
+    It recognizes `TOOL 1 END MILL DIAMETER 0.5000`, as cutcomp posts, and `T1 D=10.` of CAM posts.  It ignores
+    fractions, several tools or sizes in one comment, and sizes of a shank, a wear or an offset.
     """
     for row, line in enumerate(lines, 1):
-        for found in _COMMENT.finditer(line):
-            size = _COMMENTED.search(found[0])
-            if size is None or size[1].lstrip("0") != str(number) or _OTHER_SIZES.search(found[0]):
+        for comment in _COMMENT.finditer(line):
+            size = _COMMENTED.search(comment[0])
+            if size is None or size[1].lstrip("0") != str(number) or _OTHER_SIZES.search(comment[0]):
                 continue
-            if len(_A_TOOL.findall(found[0])) == len(_A_SIZE.findall(found[0])) == 1 and float(size[2]) > 0.0:
+            if len(_A_TOOL.findall(comment[0])) == len(_A_SIZE.findall(comment[0])) == 1 and float(size[2]) > 0.0:
                 return CommentedSize(row, f"{size[2]}{size[3] or ''}")
     return None
 
@@ -104,17 +104,17 @@ _COMMENTED: Final = re.compile(
     r"(\d+\.\d+|\d+(?=\.?(?:[^\d.]|$))|\.\d+)\.?\s?(MM\b|IN\b)?(?!\s*[\d/,-])",
     re.IGNORECASE,
 )
-"""The number of a tool, its diameter and the unit; a D without an equal sign is the number of an offset."""
+"""A tool's number, its diameter and the unit; a D without an equal sign is an offset number."""
 
 
 def missing_tool(number: int | None) -> str:
-    """Says that a table has no tool of a number, and what to do; None stands for one that is not a whole number."""
+    """Return the sentence that a table lacks a tool, and what to do; None is a number that is not whole."""
     which = "of this number" if number is None else str(number)
     return f"The tool table has no tool {which}. Enter it, or write the number of a tool in the table."
 
 
 def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[Finding, ...]]:
-    """The tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one tool a line), and what cannot be read."""
+    """Return the tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one per line), and what cannot be read."""
     tools: list[CutterTool] = []
     findings: list[Finding] = []
     for line in table_lines(lines_of(text)):

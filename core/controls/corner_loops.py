@@ -1,9 +1,9 @@
-"""Corner loops, found and taken out of a contour before it is judged.
+"""Corner loops are removed from a contour before it is judged.
 
-A loop goes on beyond an outside corner, turns around in the open, and comes back along the next wall.
+A loop goes on past an outside corner, turns around in the open, and comes back along the next wall.
 
-So a corner stays sharp where a control would round it.  The loop is no wall: it begins on the cutter's side of both
-walls, and as it crosses nothing else it stays there.
+It keeps a corner sharp that a control would round.  The loop is not a wall: it begins on the cutter's side of both
+walls, and because it crosses nothing else it stays there.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from core.tolerance import JOINED
 from core.verify.self_crossings import self_crossings
 
 LARGEST_SHARE: Final = 0.5
-"""Share of the rest of the contour from which on a loop is taken for part of it."""
+"""Share of the rest of the contour above which a loop counts as part of the contour."""
 
 LONG: Final = 0.25
-"""The same from which on a loop may be part of it."""
+"""Share of the rest of the contour above which a loop may be part of the contour."""
 
 SHARPEST: Final = 1e-3
-"""Radians that a corner turns at least."""
+"""Least turn of a corner in radians; the loop's whole turn may be off by as much."""
 
 
 @dataclass(frozen=True, slots=True)
 class CornerLoop:
     """Where a contour crosses itself, and the numbers of the moves beyond that place, up to its return.
 
-    It may be part of the contour where it is `long`.
+    A `long` loop may be part of the contour.
     """
 
     at: tuple[float, float]
@@ -43,10 +43,10 @@ class CornerLoop:
 
 
 def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerLoop, ...]]:
-    """The contour with its outside corners where it loops around them, and the loops."""
+    """Return the contour with each loop cut back to its outside corner, and the loops."""
     loops = list[CornerLoop]()
-    while len(contour) > 3 and (found := _first_loop(contour, side)) is not None:
-        first, last, at = found
+    while len(contour) > 3 and (loop := _first_loop(contour, side)) is not None:
+        first, last, at = loop
         shorter = _cut_short(contour, first, last, at)
         around = float(contour.lengths.sum() - shorter.lengths.sum())
         numbers = tuple(contour.numbers[first : last + 1].tolist())
@@ -56,13 +56,13 @@ def without_corner_loops(contour: Path, side: Side) -> tuple[Path, tuple[CornerL
 
 
 def _first_loop(contour: Path, side: Side) -> tuple[int, int, Floats] | None:
-    """The rows of the two lines that cross at the first loop, and the place."""
+    """Return the rows of the two lines that cross at the first loop, and the place; None if there is no loop."""
     with np.errstate(all="ignore"):
         walls = piece_arrays(contour)
-        places = self_crossings(walls, closed=False).places
+        crossings = self_crossings(walls, closed=False).places
     length = float(walls.stations[-1])
-    for begin, end in places.tolist():
-        inside = (places > begin + JOINED) & (places < end - JOINED)
+    for begin, end in crossings.tolist():
+        inside = (crossings > begin + JOINED) & (crossings < end - JOINED)
         if inside.any() or end - begin > LARGEST_SHARE * (length - end + begin):
             continue
         first, last = (int(np.searchsorted(walls.stations[1:-1], at, side="right")) for at in (begin, end))
@@ -73,7 +73,7 @@ def _first_loop(contour: Path, side: Side) -> tuple[int, int, Floats] | None:
 
 
 def _goes_around(contour: Path, walls: PieceArrays, first: int, last: int, side: Side) -> bool:
-    """Whether what lies between two lines that cross is a loop around an outside corner, on the cutter's side."""
+    """True if the pieces between two crossing lines loop around an outside corner, on the cutter's side."""
     rows = walls.rows[first : last + 1]
     if walls.arcs[first] or walls.arcs[last]:
         return False
@@ -87,7 +87,7 @@ def _goes_around(contour: Path, walls: PieceArrays, first: int, last: int, side:
 
 
 def _cut_short(contour: Path, first: int, last: int, at: Floats) -> Path:
-    """The contour from row `first` straight to row `last` at a point where both cross."""
+    """Return the contour from row `first` straight to row `last` at a point where both cross."""
     points = np.concatenate((contour.points[: first + 1], at[None], contour.points[last + 1 :]))
     rows = [*range(first + 1), *range(last, len(contour))]
     turns, numbers = contour.turns[rows], contour.numbers[rows]

@@ -1,11 +1,11 @@
-"""Crossing contours: compensated contours of a program that cut into one another.
+"""Crossing contours are compensated contours of a program that cut into one another.
 
-Each contour is judged with its own path first.  A path may cut the wall of another contour too: an island too near to
-a pocket, a contour at a wrong place.  Nothing in a program says which walls are meant to stay: such a cut is a doubt,
-no gouge.  Nothing is told of a pass that only roughed: where other paths cut away all that it left of its wall, and of
-an island some of its inside stays.
+Each contour is judged with its own path first.  A path may cut the wall of another contour too: an island too near to a
+pocket, a contour at a wrong place.  No program says which walls are meant to stay, so such a cut is a doubt, not a
+gouge.  A roughing pass is not reported: other paths cut away all that it left of its wall, and if it is an island some
+of its inside stays.
 
-Shapely tells, with chords for arcs, where there is doubt; what is told of it is measured exactly.
+Shapely finds the doubtful cuts, with chords for arcs; those reported are measured exactly.
 """
 
 from __future__ import annotations
@@ -37,22 +37,22 @@ from core.verify.surface import Leads
 from core.verify.verdict import Gouge
 
 SAG: Final = 1e-3
-"""Millimeters that a chord is off its arc at most."""
+"""Largest distance in millimeters of a chord from its arc."""
 
 SEGMENTS_A_QUARTER: Final = 32
-"""Chords of a quarter circle at the ends of a swept region."""
+"""Chords per quarter circle at the ends of a swept region."""
 
 LEAST: Final = 0.01
-"""Millimeters that a path goes into a wall, or more, where it cuts it away."""
+"""Least depth in millimeters at which a path cuts a wall away."""
 
 LEFT_OVER: Final = 0.05
-"""Millimeters of a wall that may stay where it is cut away; rounded ends leave so much."""
+"""Millimeters of a wall that may remain when it is cut away; rounded ends leave that much."""
 
 LEAST_INSIDE: Final = 0.01
-"""Share of an island's inside that stays at least where the island is not destroyed."""
+"""An island is destroyed if no more than this share of its inside stays."""
 
 MOST_MEASURED: Final = 10
-"""Paths into one contour of which the cuts are measured."""
+"""Most paths into one contour whose cuts are measured."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class ContourCut:
 
     @property
     def through(self) -> bool:
-        """Whether the cutter is behind the wall as a whole: how deep is not known."""
+        """True if the whole cutter is behind the wall, so that the depth is unknown."""
         return self.gouge.depth >= 2.0 * self.radius - GOUGE
 
 
@@ -72,17 +72,17 @@ class ContourCut:
 class _Pass:
     """Moves of one radius in a compensated stretch, and the shapes of the contours that the stretch cuts.
 
-    `setup` numbers what the program clamps anew or shifts by values it does not say: places of two are not compared.
+    `setup` counts the changes of clamping and of unknown shifts so far: places of two setups are not compared.
     """
 
     moves: Moves
     radius: float
-    own: frozenset[PathKey]
+    own_shapes: frozenset[PathKey]
     setup: int
     regions: dict[tuple[float, float], BaseGeometry] = field(default_factory=dict)
 
     def low(self, top: float) -> Iterator[Path]:
-        """The parts of the moves that are no higher than this."""
+        """Yield the parts of the moves that are no higher than `top`."""
         low = self.moves.points[:, 2] <= top + ON_PATH
         low[1:] &= low[:-1]
         low[:1] = False
@@ -93,7 +93,7 @@ class _Pass:
                 yield path
 
     def swept(self, top: float, grown: float) -> BaseGeometry:
-        """What a cutter larger by `grown` on all sides sweeps in the moves no higher than this."""
+        """Return the region that a cutter larger by `grown` on all sides sweeps in the moves no higher than `top`."""
         if (top, grown) not in self.regions:
             lines = [LineString(chords_of(path, SAG)) for path in self.low(top)]
             reach = max(self.radius + grown, 0.0)
@@ -105,7 +105,7 @@ class _Pass:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Wall:
-    """A contour where it is cut highest, and its shape."""
+    """A contour at its highest cut, and its shape."""
 
     contour: CutContour
     shape: PathKey
@@ -115,19 +115,19 @@ class _Wall:
 def cuts_of_other_contours(
     run: ControlRun, contours: Sequence[CutContour], progress: Progress = silent
 ) -> tuple[ContourCut, ...]:
-    """What compensated moves in XY cut of contours of other stretches that are cut no deeper than they run.
+    """Return the cuts of compensated XY moves into other stretches' contours that are cut no deeper than they run.
 
-    The deepest cut of each contour, in the order of the lines of the moves.  A gouge's `path_number` is that line,
-    `surface_number` the contour's.
+    Only the deepest cut of each contour is listed, in the order of the moves' lines.  A gouge's `path_number` is that
+    line, `surface_number` the contour's.
     """
     if len(run.stretches) < 2:
         return ()
     walls, passes = _walls(run, contours), _passes(run, contours)
     if not walls or not passes:
         return ()
-    found, reach = list[ContourCut](), max(one.radius for one in passes)
+    cuts, reach = list[ContourCut](), max(sweep.radius for sweep in passes)
     bounds = _bounds([wall.contour.path for wall in walls])
-    for rows, near in near_pairs(bounds, _bounds([one.moves.path() for one in passes]), reach):
+    for rows, near in near_pairs(bounds, _bounds([sweep.moves.path() for sweep in passes]), reach):
         pairs = defaultdict[int, list[_Pass]](list)
         for row, index in zip(rows.tolist(), near.tolist(), strict=True):
             if walls[row].setup == passes[index].setup:
@@ -135,12 +135,12 @@ def cuts_of_other_contours(
         for row, others in pairs.items():
             progress(row / len(walls))
             if (cut := _cut(walls[row], others)) is not None:
-                found.append(cut)
-    return tuple(sorted(found, key=lambda cut: cut.gouge.path_number))
+                cuts.append(cut)
+    return tuple(sorted(cuts, key=lambda cut: cut.gouge.path_number))
 
 
 def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
-    """The contours in XY, of those of one shape the one that is cut highest."""
+    """Return the contours in XY; of those with the same shape, the one that is cut highest."""
     walls, setup = dict[tuple[PathKey, int], _Wall](), _setups(run)
     for contour in contours:
         if contour.stretch.plane is Plane.XY and len(contour.path):
@@ -151,22 +151,22 @@ def _walls(run: ControlRun, contours: Sequence[CutContour]) -> list[_Wall]:
 
 
 def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
-    """The compensated moves of a run in XY, by stretch and radius; of those that are alike the lowest."""
+    """Return the compensated moves of a run in XY, by stretch and radius; of equal ones the lowest."""
     passes, setups = dict[tuple[PathKey, float, int], _Pass](), _setups(run)
     for stretch in run.stretches:
-        own = frozenset(path_key(one.path) for one in contours if stretch.first <= one.stretch.first < stretch.last)
+        shapes = frozenset(path_key(cut.path) for cut in contours if stretch.first <= cut.stretch.first < stretch.last)
         setup = bisect(setups, _line(stretch))
         for part in stretch.parts() if stretch.plane is Plane.XY else ():
             moves = run.moves.part(part.first, part.last)
             key = (path_key(moves.path()), part.radius, setup)
             lowest = passes[key].moves.points[:, 2].min() if key in passes else np.inf
             if part.radius > LEAST and len(moves.path()) and moves.points[:, 2].min() < lowest:
-                passes[key] = _Pass(moves, part.radius, own, setup)
+                passes[key] = _Pass(moves, part.radius, shapes, setup)
     return list(passes.values())
 
 
 def _setups(run: ControlRun) -> list[int]:
-    """The lines at which the program turns the part, or takes a work offset whose values it does not say."""
+    """Return the lines at which the program turns the part or takes a work offset whose values it does not give."""
     return sorted(
         finding.line
         for finding in run.findings
@@ -181,22 +181,22 @@ def _line(stretch: Stretch) -> int:
 
 
 def _bounds(paths: Sequence[Path]) -> Floats:
-    """(4, n) the box of each path."""
+    """Return (4, n) the box of each path."""
     boxes = [path.boxes for path in paths]
     return np.array([(*box[:2].min(axis=1), *box[2:].max(axis=1)) for box in boxes]).T.reshape(4, -1)
 
 
 def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
-    """The deepest cut of these passes into a contour; None where there is none, or nothing of it was to stay."""
+    """Return the deepest cut of these passes into a contour; None if there is none, or its wall was not to stay."""
     top = wall.contour.top
-    own = shapely.union_all([one.swept(top, LEAST) for one in passes if wall.shape in one.own])
-    line, inside = _outline(wall.contour.path, own)
-    stands, core, cutting = line.intersection(own), inside, list[_Pass]()
-    for one in passes:
-        if wall.shape in one.own or not one.swept(top, -LEAST).intersects(line):
+    own_region = shapely.union_all([sweep.swept(top, LEAST) for sweep in passes if wall.shape in sweep.own_shapes])
+    line, inside = _outline(wall.contour.path, own_region)
+    stands, core, cutting = line.intersection(own_region), inside, list[_Pass]()
+    for sweep in passes:
+        if wall.shape in sweep.own_shapes or not sweep.swept(top, -LEAST).intersects(line):
             continue
-        cutting.append(one)
-        region = one.swept(top, -LEAST)
+        cutting.append(sweep)
+        region = sweep.swept(top, -LEAST)
         stands, core = stands.difference(region), core.difference(region)
         if stands.length <= LEFT_OVER and inside.is_empty:
             return None
@@ -204,26 +204,26 @@ def _cut(wall: _Wall, passes: Sequence[_Pass]) -> ContourCut | None:
     if not cutting or (stands.length <= LEFT_OVER and not destroyed):
         return None
     return max(
-        (cut for one in cutting[:MOST_MEASURED] for cut in _measured(wall.contour, one)), key=_depth, default=None
+        (cut for sweep in cutting[:MOST_MEASURED] for cut in _measured(wall.contour, sweep)), key=_depth, default=None
     )
 
 
 def _outline(path: Path, own: BaseGeometry) -> tuple[BaseGeometry, BaseGeometry]:
-    """A contour as a line, without over-runs where it encloses something, and what material it encloses."""
+    """Return a contour as a line, without over-runs if it encloses something, and what material it encloses."""
     line = LineString(chords_of(path, SAG))
     regions = list(shapely.get_parts(shapely.polygonize([shapely.node(line)])))
     largest = max(regions, key=lambda region: region.area, default=Polygon())
     if largest.is_empty:
         return line, largest
-    # around an island its own path stays outside
+    # an island's own path stays outside it
     is_island = largest.intersection(own).area < largest.length * 3.0 * LEAST
     return largest.exterior, largest if is_island else Polygon()
 
 
-def _measured(contour: CutContour, one: _Pass) -> Iterator[ContourCut]:
-    for path in one.low(contour.top):
-        verdict = judge(contour.path, contour.stretch.side, one.radius, path, contour.accepted, leads=Leads.MOVES)
-        yield from (ContourCut(gouge, one.radius) for gouge in verdict.gouges)
+def _measured(contour: CutContour, sweep: _Pass) -> Iterator[ContourCut]:
+    for path in sweep.low(contour.top):
+        verdict = judge(contour.path, contour.stretch.side, sweep.radius, path, contour.accepted, leads=Leads.MOVES)
+        yield from (ContourCut(gouge, sweep.radius) for gouge in verdict.gouges)
 
 
 def _depth(cut: ContourCut) -> float:

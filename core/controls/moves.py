@@ -1,9 +1,8 @@
-"""Moves: what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
+"""Moves are what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
 
-Millimeters and millimeters per minute.  A move goes from the end of the row before it to its own point; row 0 is
-the start point, a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
-stands on its plane; an arc that ends where it starts is a full circle; an arc that also moves along that axis is
-a helix.
+Units are millimeters and millimeters per minute.  A move goes from the end of the row before it to its own point; row 0
+is the start point, a rapid of line 0.  An arc's direction is seen from the positive side of the axis across its plane;
+an arc that ends where it starts is a full circle; an arc that also moves along that axis is a helix.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ class Plane(IntEnum):
 
     @property
     def axes(self) -> tuple[int, int, int]:
-        """Which of x, y, z (0, 1, 2) are the first, the second and the standing axis."""
+        """The indices (of x, y, z: 0, 1, 2) of the plane's first and second axis and of the axis across it."""
         return _AXES[self]
 
 
@@ -39,13 +38,13 @@ _AXES: Final = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 
 
 def flat(point: Point3, plane: Plane) -> Point3:
-    """A point's first, second and standing coordinate in a plane."""
+    """Return a point's first and second coordinate in a plane, and the one across it."""
     first, second, third = _AXES[plane]
     return point[first], point[second], point[third]
 
 
 def solid(first: float, second: float, third: float, plane: int) -> Point3:
-    """The point (x, y, z) whose coordinates in a plane are these: the inverse of `flat`."""
+    """Return the point (x, y, z) with these coordinates in a plane: the inverse of `flat`."""
     if plane == Plane.XY:
         return first, second, third
     return (second, third, first) if plane == Plane.ZX else (third, first, second)
@@ -89,7 +88,7 @@ class Moves:
         return len(self.turns)
 
     def __getitem__(self, index: int) -> Move:
-        """Move `index` as plain numbers."""
+        """Return move `index` as plain numbers."""
         x, y, z = self.points[index].tolist()
         cx, cy, cz = self.centers[index].tolist()
         plane = Plane(int(self.planes[index]))
@@ -100,7 +99,7 @@ class Moves:
         return (self[index] for index in range(len(self)))
 
     def part(self, first: int, last: int) -> Moves:
-        """Rows first ... last - 1; row `first` becomes the start point."""
+        """Return rows first ... last - 1; row `first` becomes the start point."""
         rows = slice(first, last)
         return Moves(
             self.points[rows],
@@ -113,7 +112,7 @@ class Moves:
         )
 
     def moving_in(self, plane: Plane) -> Flags:
-        """(n,) the rows that move in a plane."""
+        """Return (n,) flags of the rows that move in a plane."""
         flat = self.points[:, list(plane.axes[:2])]
         moving: Flags = self.turns != 0
         moving[1:] |= np.any(flat[1:] != flat[:-1], axis=1)
@@ -121,7 +120,7 @@ class Moves:
         return moving
 
     def path(self, plane: Plane = Plane.XY) -> Path:
-        """The moves as seen on a plane, numbered by their lines; arcs of other planes are straight there."""
+        """Return the moves as seen on a plane, numbered by their lines; arcs of other planes become straight."""
         first, second, _ = plane.axes
         ends = self.points[:, [first, second]]
         if len(ends) < 2:
@@ -143,10 +142,10 @@ _POINT: Final = Struct("3d")
 
 
 class Tape:
-    """Moves being recorded, a row of `WIDTH` doubles each.
+    """Records moves, as a row of `WIDTH` doubles each.
 
-    While `lost` is set the tool axis stands at a place of the machine: how high the moves that are recorded then run is
-    not known, and their rows are kept in `unplaced`.
+    While `lost` is set, the tool axis is at a machine position: the height of the moves recorded then is not known, and
+    their rows are kept in `unplaced`.
     """
 
     __slots__ = ("_packed", "lost", "unplaced")
@@ -162,19 +161,19 @@ class Tape:
 
     @property
     def last(self) -> Point3:
-        """Where the axes stand."""
+        """The position of the axes."""
         x, y, z = _POINT.unpack_from(self._packed, len(self._packed) - _ROW.size)
         return x, y, z
 
     def straight(self, end: Point3, feed: float, line: int, *, rapid: bool = False) -> None:
-        """A straight move."""
+        """Record a straight move."""
         self._note_lost()
         self._packed += _ROW.pack(*end, *end, 0, 0, rapid, feed, line)
 
     def arc(
         self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool = False
     ) -> None:  # fmt: skip
-        """An arc or a helix."""
+        """Record an arc or a helix."""
         self._note_lost()
         self._packed += _ROW.pack(*end, *center, turn, plane, rapid, feed, line)
 
@@ -183,12 +182,12 @@ class Tape:
             self.unplaced.add(len(self))
 
     def cut(self, rows: int) -> None:
-        """Takes back all moves but the given number of rows."""
+        """Drop all moves after the given number of rows."""
         del self._packed[rows * _ROW.size :]
         self.unplaced = {row for row in self.unplaced if row < rows}
 
     def moves(self) -> Moves:
-        """Everything recorded so far."""
+        """Return everything recorded so far."""
         table = np.frombuffer(bytes(self._packed), np.float64).reshape(-1, WIDTH)
         return Moves(
             table[:, 0:3].copy(),

@@ -1,7 +1,7 @@
-"""Moves above the part, such as a rapid between two contours: taken out of a stretch before it is judged.
+"""Moves above the part, such as a rapid between two contours, are taken out of a stretch before it is judged.
 
-Nothing in a program says how high a part is.  A move counts as above it when it is higher than all cuts so far and not
-below zero, where the top of a part usually is.  Such a move cuts nothing, and a rapid there is no contour.
+No program says how high a part is.  A move counts as above it when it is higher than all cuts before it and not below
+zero, where the top of a part usually is.  Such a move cuts nothing, and a rapid there is no contour.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from core.tolerance import ON_PATH
 Z: Final = 2
 
 MoveSpan = tuple[int, int]
-"""The row of the point where moves start, and the row of the last of them."""
+"""The row of the point where a run of moves starts, and the row of its last move."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Divided:
-    """A stretch in the pieces between its moves above.
+    """A stretch divided into the pieces between its moves above.
 
-    Of the moves the control makes `links` run above from one piece to the next, and `leads` before the first piece and
-    behind the last one.  Each has the move before it as its start.
+    Of the control's moves above, `links` run from one piece to the next, and `leads` before the first piece and after
+    the last one.  Each starts at the point of the move before it.
     """
 
     pieces: tuple[Stretch, ...]
@@ -38,7 +38,7 @@ class Divided:
 
 
 def heights_above(run: ControlRun) -> Floats:
-    """(n,) the height from which on each of a run's moves is above the part.
+    """Return (n,) the height from which on each of a run's moves is above the part.
 
     Every feed move in the plane cuts, except the leads of compensated stretches.
     """
@@ -50,7 +50,7 @@ def heights_above(run: ControlRun) -> Floats:
 
 
 def _leads(run: ControlRun) -> Flags:
-    """(n,) the run's rows that belong to a compensated stretch and not to its surface."""
+    """Return (n,) flags of the run's rows that belong to a compensated stretch but not to its surface."""
     rows = np.zeros(len(run.moves), np.bool_)
     for stretch in run.stretches:
         made = slice(stretch.first + 1, stretch.last)
@@ -59,7 +59,7 @@ def _leads(run: ControlRun) -> Flags:
 
 
 def divided(moves: Moves, stretch: Stretch, height: float) -> Divided | None:
-    """The stretch without its moves at this height or higher; None without any, or where they may cut something."""
+    """Return the stretch without its moves at `height` or higher; None if there are none or they may cut something."""
     if stretch.plane is not Plane.XY or stretch.changes:
         return None
     programmed, made = stretch.programmed, moves.part(stretch.first, stretch.last)
@@ -93,14 +93,14 @@ def divided(moves: Moves, stretch: Stretch, height: float) -> Divided | None:
 
 
 def _at_least(moves: Moves, height: float) -> Flags:
-    """(n,) rows that start and end at this height or higher."""
+    """Return (n,) flags of rows that start and end at this height or higher."""
     high: Flags = moves.points[:, Z] >= height
     high[1:] &= high[:-1]
     return high
 
 
 def surface_rows(stretch: Stretch) -> Flags:
-    """(n,) rows of what is programmed that move in the plane and are no leads."""
+    """Return (n,) flags of the programmed rows that move in the plane and are not leads."""
     rows = stretch.programmed.moving_in(Plane.XY)
     rows[: stretch.entry + 1] = False
     rows[len(rows) - stretch.exit :] = False
@@ -108,23 +108,23 @@ def surface_rows(stretch: Stretch) -> Flags:
 
 
 def _between(moves: Moves, high: Flags) -> list[MoveSpan]:
-    """The parts of the moves between high ones; each has moves in the plane, all of them low."""
+    """Return the parts of the moves between high ones; each has moves in the plane, all of them low."""
     in_plane = moves.moving_in(Plane.XY)
     low, above = np.flatnonzero(in_plane & ~high), np.flatnonzero(in_plane & high)
     parts = list[MoveSpan]()
     for group in np.split(low, np.flatnonzero(np.diff(np.searchsorted(above, low))) + 1) if len(low) else ():
-        before, behind = above[above < group[0]], above[above > group[-1]]
+        before, after = above[above < group[0]], above[above > group[-1]]
         first = int(before[-1]) if len(before) else 0
-        parts.append((first, int(behind[0]) - 1 if len(behind) else len(moves) - 1))
+        parts.append((first, int(after[0]) - 1 if len(after) else len(moves) - 1))
     return parts
 
 
 def _gaps(parts: list[MoveSpan], count: int) -> list[MoveSpan]:
-    """What of so many rows lies before, between and behind parts; without any the whole."""
+    """Return the gaps before, between and after parts of `count` rows; without parts, all rows are one gap."""
     return list(pairwise([0, *(row for part in parts for row in part), count - 1]))[::2]
 
 
 def _lines(moves: Moves, gap: MoveSpan) -> frozenset[int]:
-    """The lines of the moves of a gap that run in the plane."""
+    """Return the lines of a gap's moves that run in the plane."""
     part = moves.part(gap[0], gap[1] + 1)
     return frozenset(part.lines[part.moving_in(Plane.XY)].tolist())

@@ -1,4 +1,4 @@
-"""Program text: bytes of any encoding into lines, and pieces of it made fit to be quoted."""
+"""Program text is split from bytes of any encoding into lines, and pieces of it are made fit to quote."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
 
 def lines_of(text: bytes) -> list[str]:
-    """The lines of a program, without their ends: CR, LF or both, last one with or without.
+    """Return the lines of a program without their ends (CR, LF or both); the last line may lack one.
 
-    UTF-8 and UTF-16 (by its mark) are known; anything else is taken byte for byte.  Never raises.
+    It reads UTF-8 and UTF-16 (by its mark), and anything else byte for byte.  Never raises.
     """
     lines = _BREAK.split(_decoded(text))
     if lines and not lines[-1]:
@@ -34,13 +34,13 @@ def _decoded(text: bytes) -> str:
 
 
 def capitals(text: str) -> str:
-    """A line in capitals, character for character: only the plain letters, as others may become more than one."""
+    """Return a line in capitals, character for character: only plain letters change, as others may become several."""
     if text.isascii():
         return text.upper()
     return "".join(sign.upper() if sign.isascii() else sign for sign in text)
 
 
 def quoted(text: str) -> str:
-    """A piece of a program as a message may quote it: short, and with nothing a terminal would obey."""
+    """Return a piece of a program as a message may quote it: short, and without anything that a terminal would obey."""
     safe = "".join(sign if sign.isprintable() and sign not in "{}" else "?" for sign in text[: MAX_QUOTED + 1].strip())
     return f"{safe[:MAX_QUOTED]}..." if len(text.strip()) > MAX_QUOTED else safe

@@ -1,8 +1,8 @@
-"""Rapids at depth: uncompensated rapids that run through a contour no higher than it is cut.
+"""Rapids at depth are uncompensated rapids that run through a contour no higher than it is cut.
 
-A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Of feed moves only those
-are looked at that follow a contour at the same height: without compensation others may cut anything.  Rapids of a
-compensated stretch at its depth are told too.
+A program that forgets to raise the tool after G40 drives it through the wall it has just cut.  Feed moves are checked
+only if they follow a contour at the same height: without compensation others may cut anything.  Rapids within a
+compensated stretch at its depth are reported too.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from core.verify.verdict import Gouge
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CutContour:
-    """A contour of a stretch, the highest place where it is cut, and by how much radii of its arcs may differ."""
+    """A contour of a stretch, the height of its highest cut, and how far the radii of its arcs may differ."""
 
     path: Path
     stretch: Stretch
@@ -33,10 +33,10 @@ class CutContour:
 
 
 def highest_cut(stretch: Stretch) -> float:
-    """The highest place at which a stretch in XY cuts its contour; -inf where nothing cuts.
+    """Return the highest place at which a stretch in XY cuts its contour; -inf if nothing cuts.
 
-    A helix or a ramp may begin in the air: it counts from zero, where the top of a part usually is, or its low end.
-    Where all of it is rapid, what runs below zero cuts: a G1 was forgotten.
+    A helix or a ramp may begin in the air: it counts from zero, where the top of a part usually is, or from its low end
+    if that is higher.  If all moves are rapid, those below zero cut: a G1 was forgotten.
     """
     programmed, surface = stretch.programmed, surface_rows(stretch)
     below = np.maximum(programmed.points[:, 2], np.roll(programmed.points[:, 2], 1)) < -ON_PATH
@@ -48,7 +48,7 @@ def highest_cut(stretch: Stretch) -> float:
 
 
 def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
-    """The rapids of a stretch in XY that count as its contour and are no higher than that is cut."""
+    """Return a stretch's rapids in XY that count as its contour and are no higher than its highest cut."""
     if stretch.plane is not Plane.XY:
         return ()
     programmed, top = stretch.programmed, highest_cut(stretch)
@@ -60,7 +60,7 @@ def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
 
 @dataclass(frozen=True, slots=True)
 class UncompensatedCut:
-    """What a move without compensation cuts of a contour, its height in millimeters, and whether it is a rapid."""
+    """The cut of a move without compensation into a contour, its height in millimeters, and if it is a rapid."""
 
     gouge: Gouge
     height: float
@@ -68,32 +68,32 @@ class UncompensatedCut:
 
 
 def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[UncompensatedCut, ...]:
-    """The moves outside the compensated stretches that cut contours in XY, each line with its deepest cut.
+    """Return the cuts of moves outside the compensated stretches into contours in XY, the deepest of each line.
 
-    They are rapids, and feed moves that go on behind a stretch at its height and cut its own contours.  The tool is the
-    one of the stretch before, at the beginning that of the first stretch.
+    The moves are rapids, and feed moves that follow a stretch at its height and cut its own contours.  The tool is that
+    of the stretch before, or of the first stretch if there is none before.
     """
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
         return ()
     low = _low_rapids(run, max(contour.top for contour in contours))
     ends = np.array([stretch.last for stretch in run.stretches])
-    found = list[UncompensatedCut]()
+    cuts = list[UncompensatedCut]()
     for rows in np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if len(low) else ():
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
-        found += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
-    for stretch, last in _feeds_behind(run):
-        own = [contour for contour in contours if stretch.first <= contour.stretch.first < stretch.last]
-        found += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own, rapid=False)
-    # a wall that is cut already is named before one that is still to be cut
-    ranked = sorted(found, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))
+        cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
+    for stretch, last in _feeds_after(run):
+        own_contours = [contour for contour in contours if stretch.first <= contour.stretch.first < stretch.last]
+        cuts += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own_contours, rapid=False)
+    # a wall that is already cut takes precedence over one that is yet to be cut
+    ranked = sorted(cuts, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))
     deepest = {int(cut.gouge.path_number): cut for cut in ranked}
     return tuple(deepest[line] for line in sorted(deepest))
 
 
-def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
-    """Stretches behind which feed moves go on at the height at which they end, and one after the last of these rows."""
+def _feeds_after(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
+    """Yield stretches that feed moves follow at the height where they end, and one past the last such row."""
     moves = run.moves
     heights = moves.points[:, 2]
     begins = [stretch.first + 1 for stretch in run.stretches[1:]]
@@ -111,9 +111,9 @@ def _feeds_behind(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
 
 
 def _low_rapids(run: ControlRun, top: float) -> Rows:
-    """The rows of rapids in the plane outside the stretches that are no higher than this.
+    """Return the rows of rapids in the plane outside the stretches that are no higher than `top`.
 
-    How high the tool is before the program moves it up or down is not known, nor at a point of the machine.
+    The tool's height is not known before the program moves it up or down, nor at a machine position.
     """
     moves, heights = run.moves, run.moves.points[:, 2]
     low = (heights <= top + ON_PATH) & np.logical_or.accumulate(heights != heights[0])

@@ -1,7 +1,7 @@
-"""The controls by name, and the one way to run a program on any of them.
+"""The registry holds the controls by name and the one way to run a program on any of them.
 
-A control's variant follows a colon: `rosettacnc:easy`.  `nine-series:b-g39.1` is type B that starts with G39.1
-corners in force; a G39 or G39.1 in the program changes them from there on, as on the control.
+A control's variant follows a colon: `rosettacnc:easy`.  `nine-series:b-g39.1` is type B that starts with G39.1 corners
+in force; a G39 or G39.1 in the program changes them from there on, as on the control.
 """
 
 from __future__ import annotations
@@ -30,32 +30,32 @@ from core.units import Unit
 NO_TOOLS: Final = ToolTable()
 
 TINY_SHARE: Final = 1e-7
-"""Share of the tool's radius for which no contour is too narrow: the stretches then are the whole contour."""
+"""Share of the tool's radius that fits into every contour, so that the stretches are the whole contour."""
 
 MAX_BYTES_FOR_LANGUAGE: Final = 16_384
-"""Bytes at a program's beginning by which its language is known."""
+"""Bytes at the beginning of a program by which its language is recognized."""
 
 _BLANKS: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
-"""Blanks, line ends and the marks of encodings: of these alone is an empty program."""
+"""Blanks, line ends and encoding marks; a program of these alone is empty."""
 
 _EMPTY: Final = Finding("EMPTY", Severity.ERROR, "The program is empty.", line=1, column=1)
 
 
 @dataclass(frozen=True, slots=True)
 class UnknownControl:
-    """A name that belongs to no control; `text` says which there are."""
+    """The answer to a name that belongs to no control; `text` lists the names that exist."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class RegisteredControl:
-    """One control: its dialect (None for Klartext) and what makes each of its variants, the default first."""
+    """One control: its dialect (None for Klartext) and the factory of each of its variants, the default first."""
 
     dialect: Dialect | None
     variants: Mapping[str, MakeControl | None]
     compared: tuple[str, ...] = ("",)
-    """The variants a comparison shows."""
+    """The variants that a comparison shows."""
 
 
 CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
@@ -69,27 +69,27 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
         "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
     }
 )
-"""The controls, in the order a comparison shows them."""
+"""The controls, in the order in which a comparison shows them."""
 
 
 def arc_tolerance(control: str) -> ArcTolerance:
-    """How far the radii of an arc may differ on a control, by its full or short name; KeyError for an unknown one."""
+    """Return how far an arc's radii may differ on a control, by full or short name; KeyError for an unknown one."""
     dialect = CONTROLS[inside_name(control).partition(":")[0]].dialect
     return dialect.arc_tolerance if dialect else KLARTEXT_ARC_TOLERANCE
 
 
 def is_klartext(control: str) -> bool:
-    """Whether a control, by its full or short name, reads Klartext; all others read word addresses."""
+    """True if a control, by its full or short name, reads Klartext; all others read word addresses."""
     return CONTROLS[inside_name(control).partition(":")[0]].dialect is None
 
 
 def names() -> tuple[str, ...]:
-    """Every control with every variant."""
+    """Return every control with every variant."""
     return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.variants)
 
 
 def choices() -> tuple[ControlChoice, ...]:
-    """Every control with every variant for a list to choose from: the best known first, each with a line about it."""
+    """Return every control with every variant, for a list to choose from: the best known first, each with a line."""
     return tuple(
         ControlChoice(
             full := _joined(inside, variant),
@@ -103,7 +103,7 @@ def choices() -> tuple[ControlChoice, ...]:
 
 
 def compared() -> tuple[str, ...]:
-    """The controls a comparison shows side by side."""
+    """Return the controls that a comparison shows side by side."""
     return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.compared)
 
 
@@ -112,12 +112,12 @@ def _joined(name: str, variant: str) -> str:
 
 
 def reads(control: str, text: bytes) -> bool:
-    """Whether a control reads the language a program, or a piece of one, is written in: Klartext or word addresses."""
+    """True if a control reads the language of a program or of a piece of one: Klartext or word addresses."""
     return is_klartext_text(lines_of(text[:MAX_BYTES_FOR_LANGUAGE])) == is_klartext(control)
 
 
 def resolve(control: str) -> str | UnknownControl:
-    """The full name of a control, the default variant added; or the sentence that says which there are."""
+    """Return the full name of a control, with the default variant added, or the sentence that lists all controls."""
     name, _, variant = inside_name(control).partition(":")
     entry = CONTROLS.get(name)
     if entry is None or (variant and variant not in entry.variants):
@@ -135,10 +135,10 @@ def run(
     *,
     progress: Progress = silent,
 ) -> ControlRun | UnknownControl:
-    """A program's text on a control, by the control's full or short name; never raises for any text but Stopped.
+    """Run a program's text on a control, by its full or short name; no text raises anything but Stopped.
 
-    `unit` counts where the text names none, None for the one in which the control usually starts.  `library` finds
-    the programs that a control calls from its memory.
+    `unit` counts if the text names none; None is the one in which the control usually starts.  `library` finds the
+    programs that a control calls from its memory.
     """
     full = resolve(control)
     if isinstance(full, UnknownControl):
@@ -155,9 +155,9 @@ def run(
 
 
 def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> ControlRun | None:
-    """The run of a Klartext program that stops, with next to no radius, so that its stretches are the whole contour.
+    """Rerun a Klartext program that stops with almost no radius, so that its stretches are the whole contour.
 
-    None for another control, or where even that stops.
+    None for another control, or if even that stops.
     """
     made = klartext.run_klartext(text, tools, TINY_SHARE) if is_klartext(control) else None
     return made if made and made.stopped_at is None else None

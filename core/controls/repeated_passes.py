@@ -1,7 +1,7 @@
-"""Repeated passes: a path without the whole passes that it repeats piece by piece, directly after one another.
+"""Repeated passes, which repeat a path piece by piece directly after one another, are left out of the path.
 
-What a path does to a surface, and what of the surface a path meets, depends on the places they cover, not on how often:
-each piece left out lies where a piece that is kept does.  Forty depths of one ring are judged as one.
+What a path does to a surface, and what of the surface a path meets, depends on the places it covers, not on how often:
+each piece left out coincides with a piece that is kept.  Forty depths of one ring are judged as one.
 """
 
 from __future__ import annotations
@@ -15,27 +15,27 @@ from core.geometry.path import Path, Rows
 from core.tolerance import GOUGE, LARGEST, ON_PATH
 
 SWEEP_DECIMALS: Final = 3
-"""Decimals of a radian to which arcs between the same ends differ: a full circle and an arc of no length do."""
+"""Decimals of a radian to which sweeps are compared: between equal ends an arc is a full circle or empty."""
 
 MIN_SHARE: Final = 4
-"""A period is tried when at least one in this number of pieces of its pass was last seen a period before."""
+"""A period is tried if at least one in this number of its pieces was last seen one period before."""
 
 
 PathKey = tuple[bytes, ...]
 
 
 def path_key(path: Path) -> PathKey:
-    """The same for paths that are the same to GOUGE, whatever their lines."""
+    """Return a key that is the same for paths that are the same to GOUGE, whatever their lines."""
     grids = (np.round(points / GOUGE) + 0.0 for points in (path.points, path.centers))
     return (*(grid.tobytes() for grid in grids), path.turns.tobytes())
 
 
 def without_repeats(path: Path) -> Path:
-    """The path without repeated passes: the first of them stays with its numbers, in the path's order.
+    """Return the path without repeated passes: the first one stays with its numbers, in the path's order.
 
-    A pass is as many pieces as the whole path keeps repeating with the same ends, centers and turns to ON_PATH, since
-    the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The same
-    path is returned when nothing is repeated, or when it has coordinates that no machine could have.
+    A pass is any number of pieces that the path repeats as a whole, with the same ends, centers and turns to ON_PATH,
+    because the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The
+    path itself is returned if nothing is repeated, or if it has coordinates that no machine could have.
     """
     if len(path) < 2 or not all(bool(np.abs(array).max() <= LARGEST) for array in (path.points, path.centers)):
         return path
@@ -47,14 +47,14 @@ def without_repeats(path: Path) -> Path:
             rows = _cut(path, names, rows, period)
     if len(rows) == len(path):
         return path
-    # a start is where the piece before ends, which may move it by rounding
+    # a piece starts where the one before it ends, which may move the start by rounding
     points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
     centers = np.where(turns[:, None] == 0, points[:-1], path.centers[rows])
     return Path.of(points, centers, turns, path.numbers[rows])
 
 
 def _piece_names(path: Path) -> Rows:
-    """(n,) the same number for pieces that are one piece to ON_PATH."""
+    """Return (n,) the same number for pieces that are one piece to ON_PATH."""
     at = _alike(path.points)
     swept = np.round(path.sweeps, SWEEP_DECIMALS)
     columns = (at[:-1], at[1:], _alike(path.centers), path.turns, swept)
@@ -68,13 +68,13 @@ def _piece_names(path: Path) -> Rows:
 
 
 def _alike(points: NDArray[np.float64]) -> Rows:
-    """(n,) the same number for points that are one place to ON_PATH."""
+    """Return (n,) the same number for points that are one place to ON_PATH."""
     grid = np.round(points / ON_PATH)
     return np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)[1].reshape(-1)
 
 
 def _periods(names: Rows) -> list[int]:
-    """How many pieces ago pieces were last seen, rising; those that cannot be a pass's length left out."""
+    """Return, ascending, how many pieces ago equal pieces were last seen, if that can be a pass's length."""
     order = np.argsort(names, kind="stable")
     same = names[order[1:]] == names[order[:-1]]
     ago, counts = np.unique((order[1:] - order[:-1])[same], return_counts=True)
@@ -83,10 +83,10 @@ def _periods(names: Rows) -> list[int]:
 
 
 def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
-    """Rows without the whole passes of this many pieces that are the same as the pieces a pass before them.
+    """Return the rows without whole passes of `period` pieces that are the same as the pieces one pass before them.
 
-    A run of pieces that are all named as the piece a period before, at least a period long, is closed: it ends with
-    the piece before it, and so where it begins.  What remains of a last pass that is not whole stays.
+    A run of at least `period` pieces that each equal the piece a period before is closed: it ends with the piece before
+    it, and so where it begins.  The rest of a last pass that is not whole stays.
     """
     named, again = names[rows], np.zeros(len(rows) + 2, np.bool_)
     again[period + 1 : -1] = named[period:] == named[:-period]
@@ -100,9 +100,9 @@ def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
 
 
 def _joins(path: Path, rows: Rows, begin: int, after: int) -> bool:
-    """Whether the piece `after` starts where the one before `begin` ends; it is not moved if that could bend it.
+    """True if piece `after` starts where the one before `begin` ends; it is not moved if that could bend it.
 
-    An arc is a full circle only where its two points are the same to the last digit.
+    An arc is a full circle only if its two points are the same to the last digit.
     """
     if after == len(rows):
         return bool(np.abs(path.points[-1] - path.ends[rows[begin - 1]]).max() <= 2.0 * ON_PATH)

@@ -1,4 +1,4 @@
-"""Shop rules for turning compensation on and off, checked on any control's run when they are asked for.
+"""Shop rules for turning compensation on and off are checked on any control's run on request.
 
 They are habits for every control: compensation goes on and off in a move of one axis, square to a move of one axis, at
 full depth, clear of the component.  The component is what is programmed under compensation.
@@ -22,12 +22,12 @@ from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED
 
 SQUARE: Final = 1e-6
-"""Cosine up to which two directions are at right angles."""
+"""Largest cosine between two directions at right angles."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlaneMove:
-    """A move in the plane: where it starts and ends, and its source line."""
+    """A move in the plane: its start, its end and its source line."""
 
     start: Point
     end: Point
@@ -35,17 +35,17 @@ class PlaneMove:
 
     @property
     def axes(self) -> int:
-        """How many axes of the plane it moves."""
+        """The number of the plane's axes that move."""
         return sum(abs(b - a) > JOINED for a, b in zip(self.start, self.end, strict=True))
 
     def square_to(self, direction: Floats) -> bool:
-        """Whether it is at right angles to a unit direction (2,)."""
+        """True if the move is at right angles to a unit direction (2,)."""
         run = np.subtract(self.end, self.start)
         return bool(abs(run @ direction) <= SQUARE * np.hypot(*run))
 
 
 def check_shop_rules(run: ControlRun) -> tuple[Finding, ...]:
-    """Where a run breaks the shop rules H1 to H9, by line."""
+    """Return the findings of the shop rules H1 to H9 on a run, by line."""
     findings = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
     return tuple(sorted(findings, key=lambda finding: (finding.line or 0, finding.code)))
 
@@ -69,7 +69,7 @@ def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
 
 
 def _entry(stretch: Stretch) -> PlaneMove:
-    """The programmed move that applies compensation."""
+    """Return the programmed move that applies compensation."""
     first, second, _ = stretch.plane.axes
     points, row = stretch.programmed.points, stretch.entry
     start, end = points[row - 1], points[row]
@@ -78,7 +78,7 @@ def _entry(stretch: Stretch) -> PlaneMove:
 
 
 def _exit(moves: Moves, stretch: Stretch, contour: Path) -> PlaneMove | None:
-    """The programmed move that cancels compensation, None where nothing does."""
+    """Return the programmed move that cancels compensation; None if there is none."""
     row = stretch.last - 1
     line = int(moves.lines[row])
     if not stretch.exit and line == int(stretch.programmed.lines[-1]):
@@ -122,7 +122,7 @@ def _one_axis(contour: Path, piece: int) -> bool:
 
 
 def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -> list[Finding]:
-    """H2 and H6: the tool is a diameter clear of the part before and after the contour, if possible."""
+    """Check H2 and H6: the tool is a diameter clear of the part before and after the contour, if possible."""
     away = float(np.min(distance(piece_arrays(component), np.full(len(component), complex(*at))), initial=np.inf))
     if away >= 2.0 * stretch.radius - JOINED:
         return []
@@ -132,7 +132,7 @@ def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -
 
 
 def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
-    """H1 and H5: the tool axis moves before compensation is applied and after it is canceled, once at its start."""
+    """Check H1 and H5: the tool axis moves only before compensation and after it, or once at its start."""
     height = stretch.plane.axes[2]
     programmed = stretch.programmed
     heights = programmed.points[:, height]
