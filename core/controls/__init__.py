@@ -26,5 +26,5 @@ Where a maker's manual says nothing, cutcomp makes a choice and reports it in a 
 * Klartext arcs outside the working plane count their angles from the plane's first axis: Z in Z/X, Y in Y/Z;
 * Klartext cycles are skipped to their known end, or to the next absolute words;
 * expressions and parameters of 9/Series and threeblock programs are not evaluated: the run ends there and says so;
-* the radii of an arc may differ by 0.0005 in (0.0127 mm) or a thousandth: LinuxCNC and Klartext state other limits.
+* the radii of an arc may differ by 0.0005 in (0.0127 mm) or a thousandth: LinuxCNC and Klartext have their own limits.
 """

@@ -97,7 +97,7 @@ def split_where_it_closes(path: Path) -> SplitContours:
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
-    """Split the lines that run past the point after the first moves; try the most first moves first.
+    """Split the lines that run past the point where the first moves end, trying the most moves first.
 
     Return the path split on the line, and split at the point itself, which may be off the line by rounding.
     """
@@ -178,7 +178,7 @@ def blend_leads(path: Path, contours: tuple[RowRange, ...]) -> frozenset[int]:
 
 
 def _blends(path: Path, rows: range) -> bool:
-    """True if the rows from the contour's row, the first, outward run on tangent up to an arc."""
+    """True if the moves run on tangent from the contour's row, the first one, out to an arc."""
     for near, far in pairwise(rows):
         before, after = min(near, far), max(near, far)
         if float(path.end_directions[before] @ path.start_directions[after]) < cos(BLEND):

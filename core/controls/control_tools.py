@@ -1,4 +1,4 @@
-"""Tool tables hold the tools that a control reads, also from LinuxCNC's files; the program's own: `program.tools`."""
+"""This module holds tool tables as controls read them, LinuxCNC's too; the program's own is in `program.tools`."""
 
 from __future__ import annotations
 

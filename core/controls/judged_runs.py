@@ -150,7 +150,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     for done, stretch in enumerate(run.stretches):
         judging(done / len(run.stretches))
         results += [
-            _seen(result, least)
+            _without_shallow(result, least)
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
         ]
     if results:
@@ -171,7 +171,7 @@ def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour
     ]
 
 
-def _seen(result: Judged, least: float) -> Judged:
+def _without_shallow(result: Judged, least: float) -> Judged:
     """Return the result without its gouges shallower than `least`; `unseen_gouges` counts those of the verdict."""
     verdict = result.verdict
     gouges = tuple(gouge for gouge in verdict.gouges if gouge.depth >= least)

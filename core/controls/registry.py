@@ -155,7 +155,7 @@ def run(
 
 
 def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> ControlRun | None:
-    """Rerun a Klartext program that stops with almost no radius, so that its stretches are the whole contour.
+    """Rerun a stopped Klartext program with almost no radius, so that its stretches are the whole contour.
 
     None for another control, or if even that stops.
     """

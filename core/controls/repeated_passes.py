@@ -1,4 +1,4 @@
-"""Repeated passes, which repeat a path piece by piece directly after one another, are left out of the path.
+"""This module leaves out of a path the whole passes that repeat, piece by piece, the pass just before them.
 
 What a path does to a surface, and what of the surface a path meets, depends on the places it covers, not on how often:
 each piece left out coincides with a piece that is kept.  Forty depths of one ring are judged as one.
