@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import compress, pairwise
+from itertools import accumulate, compress, pairwise
 from typing import Final
 
 import numpy as np
@@ -258,30 +258,45 @@ def _with_gouges(result: Judged, more: Sequence[Gouge], slack: float, paths: Seq
 def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     """Return the verdicts on a stretch, for each part with the side and radius in force there.
 
-    A part may also cut the surface of another part.  Such cuts count if the side is the same in all parts; if the side
-    changes they are not judged, and a finding says so.
+    A part may also cut the surface of another part.  Such cuts count up to where the side changes; beyond it they are
+    not judged, and a finding says so.
     """
     surface, parts = programmed_surface(stretch), stretch.parts()
     split = split_where_it_closes(surface) if len(parts) == 1 else SplitContours.of(surface)
     whole, contours, open_lines = split.path, split.contours, split.open_lines
-    results, row = list[Judged](), 0
-    unjudged: list[Judged] = []
-    sides_change = any(part.side is not parts[0].side for part in parts)
-    for part in parts:
-        surface = programmed_surface(part) if len(parts) > 1 else whole
-        begin, row = row, row + len(surface)
-        inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
-        inside = [first < last for first, last in inner]
-        judgments = _judge_part(run, part, surface, list(compress(inner, inside)) or [(0, len(surface))])
-        for index, rows in enumerate(compress(contours, inside)):
-            judgments[index] = replace(judgments[index], open_lines=open_lines.pop(rows, frozenset()))
-        if sides_change:
-            judgments[0] = replace(judgments[0], by_itself=bool(results))
-        elif len(parts) > 1:
-            judgments[0], unknown = _with_other_parts(run, judgments[0], whole, contours, (begin, row))
+    surfaces = [programmed_surface(part) for part in parts] if len(parts) > 1 else [whole]
+    ends = list(accumulate(map(len, surfaces), initial=0))
+    results, unjudged = list[Judged](), list[Judged]()
+    for index, (part, rows) in enumerate(zip(parts, pairwise(ends), strict=True)):
+        inner = [(first - rows[0], last - rows[0]) for first, last in _clipped(contours, rows)]
+        inside = [max(first, rows[0]) < min(last, rows[1]) for first, last in contours]
+        judgments = _judge_part(run, part, surfaces[index], inner or [(0, len(surfaces[index]))])
+        for at, contour in enumerate(compress(contours, inside)):
+            judgments[at] = replace(judgments[at], open_lines=open_lines.pop(contour, frozenset()))
+        same_side = _same_side(parts, index)
+        if len(same_side) > 1:
+            reach = (ends[same_side[0]], ends[same_side[-1] + 1])
+            judgments[0], unknown = _with_other_parts(run, judgments[0], whole, _clipped(contours, reach), rows)
             unjudged += unknown
+        judgments[0] = replace(judgments[0], by_itself=0 < index == same_side[0])
         results += judgments
     return _with_unjudged(results, unjudged)
+
+
+def _same_side(parts: Sequence[Stretch], index: int) -> range:
+    """Return the indices of the parts around a part up to where the side changes."""
+    begin = end = index
+    while begin and parts[begin - 1].side is parts[index].side:
+        begin -= 1
+    while end < len(parts) and parts[end].side is parts[index].side:
+        end += 1
+    return range(begin, end)
+
+
+def _clipped(contours: Sequence[RowRange], rows: RowRange) -> list[RowRange]:
+    """Return what of the contours lies in these rows."""
+    clipped = ((max(first, rows[0]), min(last, rows[1])) for first, last in contours)
+    return [(first, last) for first, last in clipped if first < last]
 
 
 def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Judged]:
@@ -292,7 +307,7 @@ def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Ju
 
 
 def _with_other_parts(
-    run: ControlRun, result: Judged, whole: Path, contours: tuple[RowRange, ...], rows: RowRange
+    run: ControlRun, result: Judged, whole: Path, contours: Sequence[RowRange], rows: RowRange
 ) -> tuple[Judged, list[Judged]]:
     """Add the cuts into contours outside the part's rows; also return the contours that cannot be judged.
 

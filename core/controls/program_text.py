@@ -42,5 +42,6 @@ def capitals(text: str) -> str:
 
 def quoted(text: str) -> str:
     """Return a piece of a program as a message may quote it: short, and without anything that a terminal would obey."""
-    safe = "".join(sign if sign.isprintable() and sign not in "{}" else "?" for sign in text[: MAX_QUOTED + 1].strip())
-    return f"{safe[:MAX_QUOTED]}..." if len(text.strip()) > MAX_QUOTED else safe
+    text = text.strip()
+    safe = "".join(sign if sign.isprintable() and sign not in "{}" else "?" for sign in text[:MAX_QUOTED])
+    return f"{safe}..." if len(text) > MAX_QUOTED else safe

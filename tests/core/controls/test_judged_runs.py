@@ -204,6 +204,17 @@ def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_
     assert any(abs(from_mm(depth, Unit.IN) - 0.3) < 1e-6 for depth in cut)
 
 
+def test_cuts_between_parts_of_one_side_are_judged_where_the_side_changes_later() -> None:
+    head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
+    text = f"{head}X0 Y2\nX5\nY-1\nX.3\nD2\nY0\nY2\nX-3\n{{side}}X-5 Y3\nX-9\nG40 X-9 Y9\nM2\n"
+    changed, same = (judge_run(ran(text.format(side=side), "nine-series:a", t1=0.4, t2=0.75)) for side in ("G42 ", ""))
+    cuts = [[gouge for result in results for gouge in result.verdict.gouges] for results in (changed, same)]
+    assert max(gouge.depth for gouge in cuts[0]) > to_mm(0.2, Unit.IN)
+    assert {gouge.surface_number for gouge in cuts[0]} & {6.0}
+    assert [finding.line for finding in judged_findings(changed) if finding.code == "SIDES"] == [14]
+    assert not [finding for finding in judged_findings(same) if finding.code == "SIDES"]
+
+
 @pytest.mark.parametrize("control", ["nine-series:a", "nine-series:b"])
 def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str) -> None:
     """Behind the change the tool cuts 2 into the first wall; nothing asks for that, so it is said."""

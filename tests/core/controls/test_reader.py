@@ -147,6 +147,7 @@ def test_letters_that_only_look_plain_are_not_words() -> None:
 def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
     assert quoted("\x1b[2J\x07{x}") == "?[2J??x?"
     assert quoted("A" * 100) == "A" * 24 + "..."
+    assert quoted(" " * 10 + "A" * 22) == "A" * 22
 
 
 @pytest.mark.parametrize("piece", ["X1", "(", "()", "1", " ", ";", ")(", "X"])
