@@ -173,10 +173,10 @@ def segment_name(number: float) -> str:
 
 def located_sentence(finding: Finding, unit: Unit) -> str:
     """A finding's sentence after its block and its segment: `Block 1, segment 2: ...`."""
-    places = [] if finding.block is None else [f"block {finding.block}"]
+    parts = [] if finding.block is None else [f"block {finding.block}"]
     if finding.segment is not None:
-        places.append(segment_name(finding.segment) if finding.segment else "START")
-    where = ", ".join(places)
+        parts.append(segment_name(finding.segment) if finding.segment else "START")
+    where = ", ".join(parts)
     return f"{where[:1].upper()}{where[1:]}: {sentence(finding, unit)}" if where else sentence(finding, unit)
 
 

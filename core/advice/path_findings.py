@@ -219,9 +219,9 @@ def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tu
     inside = np.flatnonzero((surface.turns * side.sign > 0) & (surface.radii < radius - JOINED))
     for row in inside[surface.radii[inside].argsort()][:MAX_TIGHT_ARCS].tolist():
         number, small = float(surface.numbers[row]), float(surface.radii[row])
-        behind, before = first <= number, number <= last
+        after_first, before_last = first <= number, number <= last
         # a stretch may run over START
-        if np.where(first <= last, behind & before, behind | before).any():
+        if np.where(first <= last, after_first & before_last, after_first | before_last).any():
             text = "The radius {0} is smaller than the tool's {1}. To cut it use a tool of {value} or smaller."
             return (Finding("ARC_TIGHT", Severity.INFO, text, number, value=2.0 * small, lengths=(small, radius)),)
     return ()

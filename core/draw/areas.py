@@ -39,7 +39,7 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
     if len(points) < 2 or (closed and len(points) < 4):
         return NOTHING
     if not closed:
-        return _beside(points, -ACROSS * radius if side is Side.LEFT else ACROSS * radius)
+        return _strip_along(points, -ACROSS * radius if side is Side.LEFT else ACROSS * radius)
     inside = shapely.make_valid(Polygon(points))
     left = _counter_clockwise(points)
     if left is not (side is Side.LEFT):
@@ -47,7 +47,7 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
     return box(*inside.buffer(MARGIN * radius).bounds).difference(inside)
 
 
-def _beside(points: Floats, distance: float) -> BaseGeometry:
+def _strip_along(points: Floats, distance: float) -> BaseGeometry:
     """What lies beside a line up to a distance (mm), left of it where that is positive.
 
     Of some lines that cross themselves shapely makes no region at once: then it is that of the chords, each by itself,

@@ -239,9 +239,9 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
     both = len(pieces) + len(others)
     typical = MAX_CHORD_LENGTHS * min(float(np.median(path.length)) for path in (pieces, others))
-    one, rows = _parted(pieces, typical, both)
-    other, columns = _parted(others, typical, both)
-    batches = [rows[i] * len(others) + columns[j] for i, j in _searched(one, other, tie)]
+    first, rows = _parted(pieces, typical, both)
+    second, columns = _parted(others, typical, both)
+    batches = [rows[i] * len(others) + columns[j] for i, j in _searched(first, second, tie)]
     pairs = np.concatenate(batches)
     # np.unique takes ten times as long
     pairs.sort()
@@ -266,9 +266,9 @@ def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChord
     return CoarseChords.between(start, end, bow), rows
 
 
-def _searched(one: CoarseChords, other: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
+def _searched(chords: CoarseChords, other_chords: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
     """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches."""
-    first, second = chord_levels(one), chord_levels(other)
+    first, second = chord_levels(chords), chord_levels(other_chords)
     within = _within(first, second)
     high, low = len(first) - 1, len(second) - 1
     i, j = np.divmod(np.arange(len(first[high]) * len(second[low])), len(second[low]))
@@ -305,9 +305,9 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
         else:
             low -= 1
             guess = _closest_member(first[high].middle, second[low].middle, guess)
-    one, other = first[0], second[0]
-    apart = np.maximum(*(np.abs(other.off(guess, end)) for end in one.ends))
-    within = [apart + one.slack + other.slack[guess]]
+    chords, other_chords = first[0], second[0]
+    apart = np.maximum(*(np.abs(other_chords.off(guess, end)) for end in chords.ends))
+    within = [apart + chords.slack + other_chords.slack[guess]]
     while len(within) < len(first):
         within.append(np.maximum.reduceat(within[-1], np.arange(0, len(within[-1]), FAN)))
     return within
@@ -325,7 +325,7 @@ def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
 
 
 def _contenders(
-    one: CoarseChords, i: Rows, other: CoarseChords, j: Rows, within: Floats, tie: float
+    chords: CoarseChords, i: Rows, other: CoarseChords, j: Rows, within: Floats, tie: float
 ) -> tuple[Rows, Rows]:
     """Pairs, by rising i, of which j may be nearest to some place of i, where all of i has something `within` reach.
 
@@ -334,18 +334,18 @@ def _contenders(
     what is farther at both ends is farther everywhere.
     """
     limit = within.take(i) + tie
-    after, before = one.low.take(i) - other.high.take(j), other.low.take(j) - one.high.take(i)
+    after, before = chords.low.take(i) - other.high.take(j), other.low.take(j) - chords.high.take(i)
     gaps = np.maximum(after.view(np.float64), before.view(np.float64))
     keep = (~(np.abs(np.maximum(gaps, 0.0, out=gaps).view(np.complex128)) > limit)).nonzero()[0]
     i, j, limit = i[keep], j[keep], limit[keep]
-    middle, half = one.middle.take(i), one.half.take(i)
+    middle, half = chords.middle.take(i), chords.half.take(i)
     off = other.off(j, middle)
     # what is no number counts as nearest, and then nothing is known to be farther
     apart = np.fmax(np.abs(off), np.finfo(float).tiny)
     slope = (off.conj() * half).real / apart
     # a way as short as the rounding of coordinates has no direction
     blur = BLUR * np.abs(middle) * np.abs(half) / apart
-    least = apart - blur - one.slack.take(i) - other.slack.take(j)
+    least = apart - blur - chords.slack.take(i) - other.slack.take(j)
     keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
     i, j, apart, least, slope = i[keep], j[keep], apart[keep], least[keep], slope[keep]
     if not len(i):
@@ -354,8 +354,8 @@ def _contenders(
     counts = np.diff(begins, append=len(i))
     best = (apart == np.minimum.reduceat(apart, begins).repeat(counts)).nonzero()[0]
     best = best[changes(i[best])]
-    nearest, room = j[best], tie + one.slack.take(i[best]) + other.slack.take(j[best])
-    middle, half = one.middle.take(i[best]), one.half.take(i[best])
+    nearest, room = j[best], tie + chords.slack.take(i[best]) + other.slack.take(j[best])
+    middle, half = chords.middle.take(i[best]), chords.half.take(i[best])
     at_start, at_end = (np.abs(other.off(nearest, end)) + room for end in (middle - half, middle + half))
     farther = (least - slope > at_start.repeat(counts)) & (least + slope > at_end.repeat(counts))
     return i[~farther], j[~farther]

@@ -105,8 +105,8 @@ def _way(pairs: Pairs, radius: float) -> Rows:
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
     feet = foot(wall, np.array((piece.start, piece.end)))
     reached = np.concatenate((pairs.from_other, pairs.from_piece[::2])) <= limit
-    places = np.array((np.zeros(len(feet[0])), np.ones(len(feet[0])), *feet))
-    begin, end = np.where(reached, places, 2.0).min(axis=0), np.where(reached, places, -2.0).max(axis=0)
+    fractions = np.array((np.zeros(len(feet[0])), np.ones(len(feet[0])), *feet))
+    begin, end = np.where(reached, fractions, 2.0).min(axis=0), np.where(reached, fractions, -2.0).max(axis=0)
     wide = (end - begin) * wall.length > POINT
     turn = piece.turn * wall.turn
     straight = ~(piece.arcs | wall.arcs) & (pairs.least >= radius - pairs.grant)

@@ -78,8 +78,8 @@ def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
     index = pairs.stations[1:-1].searchsorted(np.array((stretches.first, stretches.last)))
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
     edges = [0, *begins[1:], len(stretches)]
-    found = [_farthest(pairs, stretches.part(*rows), most) for rows in pairwise(edges)]
-    columns = zip(*((far.place, far.point, far.apart, far.near) for far in found), strict=True)
+    batches = [_farthest(pairs, stretches.part(*rows), most) for rows in pairwise(edges)]
+    columns = zip(*((far.place, far.point, far.apart, far.near) for far in batches), strict=True)
     return Farthest(*(np.concatenate(column) for column in columns))
 
 
@@ -149,13 +149,13 @@ def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
 def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floats, Floats]:
     """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest, and the
     place, if there is one."""
-    places = farthest_places(piece, near)
-    inside = (places > t[0]) & (places < t[1])
+    fractions = farthest_places(piece, near)
+    inside = (fractions > t[0]) & (fractions < t[1])
     if not inside.any():
         return np.zeros(len(piece)), t[0]
-    apart = np.where(inside, between(piece, near, places), 0.0)
+    apart = np.where(inside, between(piece, near, fractions), 0.0)
     best, each = apart.argmax(axis=0), np.arange(len(piece))
-    return apart[best, each], places[best, each]
+    return apart[best, each], fractions[best, each]
 
 
 def _shares(pairs: Pairs, spans: _Spans, peaks: Floats) -> Floats:
@@ -169,17 +169,17 @@ def _shares(pairs: Pairs, spans: _Spans, peaks: Floats) -> Floats:
 
 def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
     """The share of each span at which the nearest pieces of its two ends are equally far."""
-    piece, (one, other) = pairs.pieces.take(spans.index), (pairs.others.take(near) for near in spans.near)
-    first, last = spans.t
-    low, high, each = first, last, np.arange(len(first))
+    piece, (first_wall, last_wall) = pairs.pieces.take(spans.index), (pairs.others.take(near) for near in spans.near)
+    begin, end = spans.t
+    low, high, each = begin, end, np.arange(len(begin))
     for _ in range(NARROWINGS):
-        places = low + SECTIONS * (high - low)
-        points = at(piece, places)
-        nearer = distance(other, points) - distance(one, points)
+        fractions = low + SECTIONS * (high - low)
+        points = at(piece, fractions)
+        nearer = distance(last_wall, points) - distance(first_wall, points)
         after = np.maximum(np.argmax(nearer < 0.0, axis=0), 1)
-        (low, high), (more, less) = ((of[after - 1, each], of[after, each]) for of in (places, nearer))
+        (low, high), (more, less) = ((of[after - 1, each], of[after, each]) for of in (fractions, nearer))
     met = low + (high - low) * np.where(more > less, more / (more - less), 0.5)
-    share: Floats = (met - first) / (last - first)
+    share: Floats = (met - begin) / (end - begin)
     return share
 
 

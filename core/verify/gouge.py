@@ -71,19 +71,19 @@ def _near_parts(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
 def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:
     """Places, in length traveled, where the pieces of these pairs may be nearest to the others and are nearer than
     `limit` (m,), how near they are there, and whose pair each place is."""
-    found = [np.zeros((3, 0))]
+    batches = [np.zeros((3, 0))]
     for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
         pair = rows[block]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
-        places = nearest_places(pieces, others)
-        apart = measured(between(pieces, others, places))
-        new = (places > 0.0) & (places < 1.0)
+        fractions = nearest_places(pieces, others)
+        apart = measured(between(pieces, others, fractions))
+        new = (fractions > 0.0) & (fractions < 1.0)
         # the first two are the ends
         new[:2] = True
         k, row = np.nonzero(new & (apart < limit[block]))
-        spots = pairs.stations[pairs.i[pair[row]]] + places[k, row] * pieces.length[row]
-        found.append(np.array((spots, apart[k, row], pair[row])))
-    spots, apart, pair = np.concatenate(found, axis=1)
+        spots = pairs.stations[pairs.i[pair[row]]] + fractions[k, row] * pieces.length[row]
+        batches.append(np.array((spots, apart[k, row], pair[row])))
+    spots, apart, pair = np.concatenate(batches, axis=1)
     return spots, apart, pair.astype(np.intp)
 
 
@@ -124,17 +124,17 @@ def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
     return Parts(first, last, parts.middle[best], parts.apart[best], parts.pair[best])
 
 
-def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
+def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
     """The stretches as `Gouge`s, deepest first; `numbers` are those of the center path's pieces."""
-    if not len(found):
+    if not len(hits):
         return ()
-    piece, wall = pairs.pieces.take(found.i), pairs.others.take(found.j)
+    piece, wall = pairs.pieces.take(hits.i), pairs.others.take(hits.j)
     length = np.where(piece.length == 0.0, 1.0, piece.length)
-    t = (found.place - pairs.stations[found.i]) / length
+    t = (hits.place - pairs.stations[hits.i]) / length
     points = at(piece, np.minimum(np.maximum(t, 0.0), 1.0))
     cut = at(wall, foot(wall, points))
     columns = (
-        radius - found.apart,
+        radius - hits.apart,
         points.real,
         points.imag,
         cut.real,
@@ -142,7 +142,7 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: 
         piece.rows,
         numbers[piece.rows],
         surface.numbers[wall.rows],
-        found.stretches.last - found.stretches.first,
+        hits.stretches.last - hits.stretches.first,
     )
     every = [
         Gouge(depth, (x, y), (u, v), row, number, segment, extent)
@@ -150,22 +150,22 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: 
             *(column.tolist() for column in columns), strict=True
         )
     ]
-    for first, last in reversed(_over_seams(found, pairs)):
+    for first, last in reversed(_over_seams(hits, pairs)):
         less, deeper = sorted((every.pop(last), every[first]), key=lambda gouge: gouge.depth)
         every[first] = replace(deeper, extent=deeper.extent + less.extent)
     # of equal ones the earliest along the path comes first, whatever the last digits say
     return tuple(sorted(every, key=lambda gouge: -round(gouge.depth / ON_PATH)))
 
 
-def _over_seams(found: Gouging, pairs: Pairs) -> list[tuple[int, int]]:
+def _over_seams(hits: Gouging, pairs: Pairs) -> list[tuple[int, int]]:
     """The first and the last stretch of each loop that ends where it begins and gouges there: these two are one."""
     moves, stations, loops = pairs.pieces, pairs.stations, _loops(pairs.pieces)
-    owner = loops[found.i]
+    owner = loops[hits.i]
     first = changes(owner)
     last = owner.searchsorted(owner[first], side="right") - 1
     begin, end = loops.searchsorted(owner[first]), loops.searchsorted(owner[first], side="right") - 1
     closed = np.abs(moves.end[end] - moves.start[begin]) <= JOINED
-    at_start = found.stretches.first[first] <= stations[begin] + JOINED
-    at_end = found.stretches.last[last] >= stations[end + 1] - JOINED
+    at_start = hits.stretches.first[first] <= stations[begin] + JOINED
+    at_end = hits.stretches.last[last] >= stations[end + 1] - JOINED
     over = closed & at_start & at_end & (first < last)
     return list(zip(first[over].tolist(), last[over].tolist(), strict=True))

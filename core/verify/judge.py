@@ -92,8 +92,8 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
     pairs = pairs_of(moves, walls, rounding_of(walls))
     if np.isnan(pairs.least).any():
         return _unjudged(radius)
-    found = gouging(pairs, radius - GOUGE)
-    wrong, deepest = wrong_side(pairs, found, sided(side, walls, surface.crossings, closed=surface.closed), radius)
+    hits = gouging(pairs, radius - GOUGE)
+    wrong, deepest = wrong_side(pairs, hits, sided(side, walls, surface.crossings, closed=surface.closed), radius)
     covered = covered_walls(pairs, radius, closed=surface.closed)
     crossed = surface.crossings.points[:1].tolist()
     verdict = Verdict(

@@ -100,10 +100,10 @@ def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> 
     slack: Floats = first + second
     rows = ((first > 0.0) & (np.abs(first - second) <= GOUGE)).nonzero()[0]
     if len(rows):
-        one, other = pieces.take(i[rows]), others.take(j[rows])
-        gaps = np.abs(one.start - other.start) - np.abs(one.end - other.end)
-        about = (one.turn == other.turn) & (np.abs(one.center - other.center) <= one.slack)
-        slack[rows] = np.where(about & (np.abs(gaps) <= GOUGE), np.maximum(one.slack, other.slack), slack[rows])
+        piece, other = pieces.take(i[rows]), others.take(j[rows])
+        gaps = np.abs(piece.start - other.start) - np.abs(piece.end - other.end)
+        about = (piece.turn == other.turn) & (np.abs(piece.center - other.center) <= piece.slack)
+        slack[rows] = np.where(about & (np.abs(gaps) <= GOUGE), np.maximum(piece.slack, other.slack), slack[rows])
     return slack
 
 
@@ -116,31 +116,31 @@ def rounding_of(*paths: PieceArrays) -> float:
 def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tuple[Floats, Floats, Floats]:
     least, from_piece, from_other = np.empty(len(i)), np.empty((3, len(i))), np.empty((2, len(i)))
     for rows in blocks(pieces.arcs[i], others.arcs[j]):
-        one, other = pieces.take(i[rows]), others.take(j[rows])
-        middle = at(one, np.full(len(rows), 0.5))
-        from_piece[:, rows] = distance(other, np.array((one.start, middle, one.end)))
-        from_other[:, rows] = distance(one, np.array((other.start, other.end)))
+        piece, other = pieces.take(i[rows]), others.take(j[rows])
+        middle = at(piece, np.full(len(rows), 0.5))
+        from_piece[:, rows] = distance(other, np.array((piece.start, middle, piece.end)))
+        from_other[:, rows] = distance(piece, np.array((other.start, other.end)))
         ends = np.minimum(from_piece[::2, rows].min(axis=0), from_other[:, rows].min(axis=0))
-        least[rows] = np.minimum(ends, _between_ends(one, other))
+        least[rows] = np.minimum(ends, _between_ends(piece, other))
     return least, from_piece, from_other
 
 
-def _between_ends(one: PieceArrays, other: PieceArrays) -> Floats:
+def _between_ends(piece: PieceArrays, other: PieceArrays) -> Floats:
     """Least distances of pairs that neither piece has at an end; infinite where there is none."""
-    apart = np.empty(len(one))
-    bent = 2 * one.arcs + other.arcs
+    apart = np.empty(len(piece))
+    bent = 2 * piece.arcs + other.arcs
     for kind, formula in enumerate((_lines, _line_and_arc, _arc_and_line, _arcs)):
         rows = (bent == kind).nonzero()[0]
         if len(rows):
-            apart[rows] = formula(one.take(rows), other.take(rows))
+            apart[rows] = formula(piece.take(rows), other.take(rows))
     return apart
 
 
-def _lines(one: PieceArrays, other: PieceArrays) -> Floats:
+def _lines(piece: PieceArrays, other: PieceArrays) -> Floats:
     """0 for lines that cross between their ends."""
-    off = other.start - one.start
-    turn = (np.conj(one.vector) * other.vector).imag
-    start, end = (np.conj(one.vector) * off).imag, (np.conj(other.vector) * off).imag
+    off = other.start - piece.start
+    turn = (np.conj(piece.vector) * other.vector).imag
+    start, end = (np.conj(piece.vector) * off).imag, (np.conj(other.vector) * off).imag
     crossed = (start * (start + turn) < 0.0) & (end * (end + turn) < 0.0)
     return np.where(crossed, 0.0, np.inf)
 
@@ -163,20 +163,20 @@ def _arc_and_line(arc: PieceArrays, line: PieceArrays) -> Floats:
     return _line_and_arc(line, arc)
 
 
-def _arcs(one: PieceArrays, other: PieceArrays) -> Floats:
+def _arcs(piece: PieceArrays, other: PieceArrays) -> Floats:
     """On the line through both centers, and 0 where the arcs cross."""
-    between = other.center - one.center
-    size, least, most = np.abs(between), one.radius - other.radius, one.radius + other.radius
-    ahead, back = (_within(one, way * between) for way in (1.0, -1.0))
-    behind, toward = (_within(other, way * between) for way in (1.0, -1.0))
+    between = other.center - piece.center
+    size, least, most = np.abs(between), piece.radius - other.radius, piece.radius + other.radius
+    ahead, back = (_within(piece, way * between) for way in (1.0, -1.0))
+    away, toward = (_within(other, way * between) for way in (1.0, -1.0))
     gaps = np.where(
-        (ahead & toward, ahead & behind, back & toward), np.abs((size - most, size - least, size + least)), np.inf
+        (ahead & toward, ahead & away, back & toward), np.abs((size - most, size - least, size + least)), np.inf
     )
     # about one center an end of the one is as near as it gets, or they are nowhere side by side
     apart: Floats = np.where(size > 0.0, gaps.min(axis=0), np.inf)
     crossing = (size > np.abs(least)) & (size < most)
-    met = on_circle(one, other.center, other.radius)
-    inside = (met >= 0.0) & (met <= 1.0) & _within(other, at(one, np.nan_to_num(met)) - other.center)
+    met = on_circle(piece, other.center, other.radius)
+    inside = (met >= 0.0) & (met <= 1.0) & _within(other, at(piece, np.nan_to_num(met)) - other.center)
     apart[crossing & inside.any(axis=0)] = 0.0
     return apart
 
@@ -214,18 +214,18 @@ def _straight(pairs: Pairs) -> Flags:
 def concentric(pairs: Pairs) -> Flags:
     """Pairs of arcs about one center that are beside each other only once."""
     first, second = pairs.pieces.arcs[pairs.i], pairs.others.arcs[pairs.j]
-    found = first & second
+    matching = first & second
     for rows in blocks(first, second):
-        if found[rows].any():
-            found[rows] &= _about_one_center(pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows]))
-    return found
+        if matching[rows].any():
+            matching[rows] &= _about_one_center(pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows]))
+    return matching
 
 
-def _about_one_center(one: PieceArrays, other: PieceArrays) -> Flags:
-    middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (one, other)]
+def _about_one_center(piece: PieceArrays, other: PieceArrays) -> Flags:
+    middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (piece, other)]
     between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
-    once = (one.angle + other.angle) / 2.0 + between < tau - ONCE
-    alike: Flags = (np.abs(one.center - other.center) <= ON_PATH) & once
+    once = (piece.angle + other.angle) / 2.0 + between < tau - ONCE
+    alike: Flags = (np.abs(piece.center - other.center) <= ON_PATH) & once
     return alike
 
 

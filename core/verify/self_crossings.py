@@ -40,14 +40,14 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
         return NO_CROSSINGS
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
-    one, other = surface.take(i), surface.take(j)
-    places = np.vstack((nearest_places(one, other), np.full(len(one), 0.5)))
-    points = at(one, places)
-    met = (distance(other, points) <= JOINED) & _away(one, other, places, points, following, around)
+    piece, other = surface.take(i), surface.take(j)
+    fractions = np.vstack((nearest_places(piece, other), np.full(len(piece), 0.5)))
+    points = at(piece, fractions)
+    met = (distance(other, points) <= JOINED) & _away(piece, other, fractions, points, following, around)
     k, pair = np.nonzero(met)
     on_other = foot(other.take(pair), points[k, pair])
     stations = surface.stations
-    first = stations[i[pair]] + places[k, pair] * one.length[pair]
+    first = stations[i[pair]] + fractions[k, pair] * piece.length[pair]
     second = stations[j[pair]] + on_other * other.length[pair]
     order = np.argsort(first, kind="stable")
     return SelfCrossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
@@ -101,7 +101,7 @@ def _overlapping(bounds: Floats) -> Flags:
 
 
 def _away(
-    one: PieceArrays, other: PieceArrays, places: Floats, points: Points, following: Flags, around: Flags
+    piece: PieceArrays, other: PieceArrays, fractions: Floats, points: Points, following: Flags, around: Flags
 ) -> Flags:
     """(9, m) places that are no part of a joint.
 
@@ -110,9 +110,9 @@ def _away(
     """
     away = np.ones(points.shape, np.bool_)
     for joint, mine, theirs in ((following, 1.0, 0.0), (around, 0.0, 1.0)):
-        corner = at(one, np.full(len(one), mine))
-        parted = between(one, other, (places + mine) / 2.0) > 2.0 * JOINED
-        turn = direction(one, np.full(len(one), mine)) * np.conj(direction(other, np.full(len(one), theirs)))
+        corner = at(piece, np.full(len(piece), mine))
+        parted = between(piece, other, (fractions + mine) / 2.0) > 2.0 * JOINED
+        turn = direction(piece, np.full(len(piece), mine)) * np.conj(direction(other, np.full(len(piece), theirs)))
         elsewhere = (np.abs(points - corner) > 10.0 * JOINED) & (parted | (turn.real < -1.0 + 1e-9))
         away &= ~joint | elsewhere
     return away

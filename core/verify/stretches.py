@@ -48,9 +48,9 @@ class Stretches:
         """Stretches first ... last - 1."""
         return Stretches(self.first[first:last], self.last[first:last])
 
-    def cut(self, places: Floats) -> Stretches:
+    def cut(self, cuts: Floats) -> Stretches:
         """What is between these places within the stretches."""
-        s = np.sort(np.concatenate((self.first, self.last, places[self.holds(places)])))
+        s = np.sort(np.concatenate((self.first, self.last, cuts[self.holds(cuts)])))
         parts = Stretches(s[:-1], s[1:])
         return parts.keep((parts.last > parts.first + ON_PATH) & self.holds(parts.middle))
 
@@ -75,29 +75,29 @@ def within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
 
     The pieces are parted wherever the distance can pass the limit, and the middle of each part decides.
     """
-    found = [
+    batches = [
         _within(pairs, rows[block], limit[block])
         for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]])
     ]
-    return joined(found)
+    return joined(batches)
 
 
 def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
-    places = band_places(pieces, others, limit)
-    middles = (places[1:] + places[:-1]) / 2.0
+    fractions = band_places(pieces, others, limit)
+    middles = (fractions[1:] + fractions[:-1]) / 2.0
     apart = measured(between(pieces, others, middles))
-    part, pair = ((apart < limit) & (places[1:] > places[:-1])).nonzero()
+    part, pair = ((apart < limit) & (fractions[1:] > fractions[:-1])).nonzero()
     start, length = pairs.stations[pairs.i[rows[pair]]], pieces.length[pair]
-    first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]
+    first, last, middle = fractions[part, pair], fractions[part + 1, pair], middles[part, pair]
     return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
 
 
-def joined(found: Sequence[Parts]) -> Parts:
+def joined(batches: Sequence[Parts]) -> Parts:
     """All of these parts."""
-    columns = [[part.first, part.last, part.middle, part.apart] for part in found]
-    first, last, middle, apart = np.concatenate(columns, axis=1) if found else np.zeros((4, 0))
-    return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in found))))
+    columns = [[part.first, part.last, part.middle, part.apart] for part in batches]
+    first, last, middle, apart = np.concatenate(columns, axis=1) if batches else np.zeros((4, 0))
+    return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in batches))))
 
 
 def union(first: Floats, last: Floats) -> Stretches:

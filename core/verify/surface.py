@@ -140,7 +140,7 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     doubtful = len(runs) == 1 and share > LONG_LEAD
     rows_in, rows_out = range(begin, -1, -1), range(end, len(walls))
     left_in, left_out = first - float(stations[begin]), float(stations[end + 1]) - last
-    most_in, most_out = (LONG_LEAD if own else MOST for own in (own_out, own_in))
+    most_in, most_out = (LONG_LEAD if is_move else MOST for is_move in (own_out, own_in))
     long = _may_be_walls(walls, rows_in, left_in, most_in) | _may_be_walls(walls, rows_out, left_out, most_out)
     if max(lead_in, lead_out) > MOST * (last - first) or long:
         long = set(rows_in if left_in > JOINED else rows_in[1:]) if lead_in > JOINED else set()
@@ -161,28 +161,28 @@ def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, 
         # ends that are one point within CLOSED may run past each other all the same
         apart = abs(walls.end[-1] - walls.start[0]) > JOINED
         crossings = self_crossings(walls, closed=False) if apart else NO_CROSSINGS
-    places, points = crossings.places, crossings.points
+    stations, points = crossings.places, crossings.points
     if not len(points) or len(walls) < 3:
         return None
     begin, end = _in_line(walls, range(len(walls))), _in_line(walls, range(len(walls) - 1, -1, -1))
     if leads is Leads.MOVES:
         begin = _in_line(walls, range(min(begin + 1, len(walls) - 1), len(walls)))
         end = _in_line(walls, range(max(end - 1, 0), -1, -1))
-    at_ends = places[:, 0] <= walls.stations[begin + 1] + JOINED
-    at_ends &= places[:, 1] >= walls.stations[end] - JOINED
+    at_ends = stations[:, 0] <= walls.stations[begin + 1] + JOINED
+    at_ends &= stations[:, 1] >= walls.stations[end] - JOINED
     if leads is Leads.MOVES:
-        at_ends &= places[:, 0] >= walls.stations[int(_blends(walls, 0, 1))] - JOINED
-        at_ends &= places[:, 1] <= walls.stations[len(walls) - int(_blends(walls, -1, -2))] + JOINED
+        at_ends &= stations[:, 0] >= walls.stations[int(_blends(walls, 0, 1))] - JOINED
+        at_ends &= stations[:, 1] <= walls.stations[len(walls) - int(_blends(walls, -1, -2))] + JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
         return None
-    return (points[0].real.item(), points[0].imag.item()), float(places[:, 0].min()), float(places[:, 1].max())
+    return (points[0].real.item(), points[0].imag.item()), float(stations[:, 0].min()), float(stations[:, 1].max())
 
 
-def _blends(walls: PieceArrays, end: int, beside: int) -> bool:
+def _blends(walls: PieceArrays, end: int, neighbor: int) -> bool:
     """Whether the piece at an end is an arc that is tangent to the one beside it."""
     if not walls.arcs[end]:
         return False
-    before, after = sorted((end % len(walls), beside % len(walls)))
+    before, after = sorted((end % len(walls), neighbor % len(walls)))
     leaving, coming = at_joints(walls, np.array([before]), np.array([after]))[:, 0]
     return bool(abs(np.angle(coming * np.conj(leaving))) <= BLEND)
 

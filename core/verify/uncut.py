@@ -73,12 +73,12 @@ def uncut(
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
     at_start, at_end = stretches.first == 0.0, stretches.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
-    found = UncutStretches(*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
-    if closed and at_start[0] and at_end[-1] and len(found) > 1:
-        one = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
-        both = float(gaps.area[0] + gaps.area[-1]) * side.sign if one else nan
-        found = found.over_start(both if both > 0.0 else nan)
-    return found.keep(found.thickness > STOCK)
+    uncut_stretches = UncutStretches(*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
+    if closed and at_start[0] and at_end[-1] and len(uncut_stretches) > 1:
+        same_corner = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
+        both = float(gaps.area[0] + gaps.area[-1]) * side.sign if same_corner else nan
+        uncut_stretches = uncut_stretches.over_start(both if both > 0.0 else nan)
+    return uncut_stretches.keep(uncut_stretches.thickness > STOCK)
 
 
 def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) -> Flags:
@@ -90,9 +90,9 @@ def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) ->
     if closed and not whole[-1]:
         # a run may go on over START
         runs[runs == runs[-1]] = 0
-    told = np.zeros(len(whole) + 1, np.bool_)
-    told[runs[thick]] = True
-    thin: Flags = ~told[runs]
+    reported = np.zeros(len(whole) + 1, np.bool_)
+    reported[runs[thick]] = True
+    thin: Flags = ~reported[runs]
     return thin
 
 
@@ -155,13 +155,13 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
     The distance from a line is convex along another: what lies between is within too.
     """
     near = np.concatenate((pairs.from_piece[::2, rows], pairs.from_other[:, rows])) <= limit
-    places = np.zeros((4, len(rows)))
-    places[1] = 1.0
+    fractions = np.zeros((4, len(rows)))
+    fractions[1] = 1.0
     asked = (near[2:].any(axis=0) & ~(near[0] & near[1])).nonzero()[0]
     piece, other = pairs.pieces.take(pairs.i[rows[asked]]), pairs.others.take(pairs.j[rows[asked]])
-    places[2:, asked] = foot(piece, np.array((other.start, other.end)))
+    fractions[2:, asked] = foot(piece, np.array((other.start, other.end)))
     near[2:] &= ~(near[0] & near[1])
-    return np.where(near, places, 2.0).min(axis=0), np.where(near, places, -2.0).max(axis=0)
+    return np.where(near, fractions, 2.0).min(axis=0), np.where(near, fractions, -2.0).max(axis=0)
 
 
 def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Stretches:
@@ -194,8 +194,8 @@ def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: f
     """
     i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
     piece, other = pairs.pieces.take(i), pairs.others.take(j)
-    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
-    moved = (pairs.stations[i] + places * piece.length - ends) * inward
+    fractions = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
+    moved = (pairs.stations[i] + fractions * piece.length - ends) * inward
     widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
     least: Floats = np.where((moved > 0.0) & (moved < widest), moved, inf).min(axis=0)
     return np.where(np.isinf(least), 0.0, least)
@@ -212,14 +212,14 @@ def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Po
 
 def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
     near = [nearest(pairs, rows, points) for rows, points in zip(index, ends, strict=True)]
-    reached = np.array([one.apart[one.first] <= radius + 4.0 * ON_PATH for one in near])
+    reached = np.array([match.apart[match.first] <= radius + 4.0 * ON_PATH for match in near])
     corner = np.full(len(index[0]), complex(nan, nan))
     for end in (1, 0):
         k, other = near[end].k, pairs.others.take(near[end].j)
-        places = at(other, foot(other, ends[end, k]))
-        off = np.abs(np.abs(ends[:, k] - places) - radius) > ON_EDGE
+        centers = at(other, foot(other, ends[end, k]))
+        off = np.abs(np.abs(ends[:, k] - centers) - radius) > ON_EDGE
         on_edge = reached[end, k] & ~(off & reached[:, k]).any(axis=0)
-        corner[k[on_edge]] = places[on_edge]
+        corner[k[on_edge]] = centers[on_edge]
     return corner, reached
 
 

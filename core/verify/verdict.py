@@ -115,14 +115,14 @@ class UncutStretches(Sequence[Uncut]):
 
     def over_start(self, area: float) -> UncutStretches:
         """A closed contour's first and last stretch as the one they are, standing last, with its area."""
-        one, other = self[0], self[-1]
-        thicker = max(other, one, key=lambda stretch: stretch.thickness)
+        first, last = self[0], self[-1]
+        thicker = max(last, first, key=lambda stretch: stretch.thickness)
         both = (
-            other.first_number,
-            one.last_number,
-            complex(*other.start),
-            complex(*one.end),
-            other.length + one.length,
+            last.first_number,
+            first.last_number,
+            complex(*last.start),
+            complex(*first.end),
+            last.length + first.length,
             thicker.thickness,
             complex(*thicker.thickest),
             area,
@@ -139,8 +139,8 @@ def _stretches(columns: Iterable[NDArray[Any]]) -> Iterator[Uncut]:
     return map(Uncut, firsts.tolist(), lasts.tolist(), _points(starts), _points(ends), *plain, known)
 
 
-def _points(places: NDArray[np.complex128]) -> Iterator[Point]:
-    return zip(places.real.tolist(), places.imag.tolist(), strict=True)
+def _points(points: NDArray[np.complex128]) -> Iterator[Point]:
+    return zip(points.real.tolist(), points.imag.tolist(), strict=True)
 
 
 NOTHING: Final = UncutStretches(

@@ -65,7 +65,7 @@ def sided(side: Side, walls: PieceArrays, crossings: SelfCrossings, *, closed: b
     return Sided(side, stations, first, last, closed, len(crossings) > 0)
 
 
-def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> tuple[Flags, Gouging]:
+def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tuple[Flags, Gouging]:
     """(n,) True where a piece of the center path runs on the part's side; and the gouges, with their depth there.
 
     A gouge that gets to that side is told by the place farthest inside.  Every piece is tested at its middle, one that
@@ -75,35 +75,35 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> t
     where it is deepest, and a piece that meets no wall may be on another side between these places.
     """
     if not len(pairs.pieces):
-        return np.zeros(0, np.bool_), found
-    parts = _parts(pairs, found, surface, radius)
+        return np.zeros(0, np.bool_), hits
+    parts = _parts(pairs, hits, surface, radius)
     index, t = np.arange(len(pairs.pieces)), np.full(len(pairs.pieces), 0.5)
-    asked = (~(_near(pairs, radius) if surface.endless else _kept(pairs, found, radius))).nonzero()[0]
+    asked = (~(_near(pairs, radius) if surface.endless else _kept(pairs, hits, radius))).nonzero()[0]
     index, t = np.concatenate((index, asked, asked)), np.concatenate((t, np.zeros(len(asked)), np.ones(len(asked))))
-    spots = np.concatenate((_gouged(found, surface), parts.middle))
+    spots = np.concatenate((_gouged(hits, surface), parts.middle))
     owners, shares = place(pairs.pieces, pairs.stations, spots)
     count, index, t = len(index), np.concatenate((index, owners)), np.concatenate((t, shares))
-    behind = _behind(pairs, index, t, surface)
+    on_part = _on_part_side(pairs, index, t, surface)
     if surface.crossed:
         s = np.concatenate((pairs.stations[index[:count]] + t[:count] * pairs.pieces.length[index[:count]], spots))
-        behind &= ~found.stretches.holds(s)
+        on_part &= ~hits.stretches.holds(s)
     wrong = np.zeros(len(pairs.pieces), np.bool_)
-    moves, inside = behind[: len(behind) - len(parts)], behind[len(behind) - len(parts) :]
+    moves, inside = on_part[: len(on_part) - len(parts)], on_part[len(on_part) - len(parts) :]
     wrong[index[: len(moves)][moves]] = True
-    return _with_depth(pairs, parts.keep(inside), found, wrong, radius)
+    return _with_depth(pairs, parts.keep(inside), hits, wrong, radius)
 
 
-def _behind(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags:
+def _on_part_side(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags:
     """Which places at the fractions `t` of pieces `index` are on the part's side."""
-    behind = np.zeros(len(index), np.bool_)
+    on_part = np.zeros(len(index), np.bool_)
     for first in range(0, len(index), BLOCK_PAIRS):
         block = slice(first, first + BLOCK_PAIRS)
         points = at(pairs.pieces.take(index[block]), t[block])
-        behind[block] = on_part_side(pairs.others, points, nearest(pairs, index[block], points), surface)
-    return behind
+        on_part[block] = on_part_side(pairs.others, points, nearest(pairs, index[block], points), surface)
+    return on_part
 
 
-def _with_depth(pairs: Pairs, inside: Stretches, found: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
+def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
     """With what of these parts, which are on the part's side, is more than GOUGE there.
 
     A gouge's distance counts as negative there.  It ends where the path is the radius away again, short of which it is
@@ -118,18 +118,18 @@ def _with_depth(pairs: Pairs, inside: Stretches, found: Gouging, wrong: Flags, r
     middle, spots, apart, wall = inside.middle[deep], far.place[deep], far.apart[deep], far.near[deep]
     index = pairs.stations[1:-1].searchsorted(middle, side="right")
     wrong[index] = True
-    gouging = found.stretches.holds(middle).nonzero()[0]
-    if not len(gouging):
-        return wrong, found
+    in_gouge = hits.stretches.holds(middle).nonzero()[0]
+    if not len(in_gouge):
+        return wrong, hits
     slack = float(pairs.pieces.slack.max() + pairs.others.slack.max())
-    owner, spots, apart = found.stretches.index(middle[gouging]), spots[gouging], apart[gouging]
+    owner, spots, apart = hits.stretches.index(middle[in_gouge]), spots[in_gouge], apart[in_gouge]
     apart = np.where(apart >= radius - GOUGE - slack - 2.0 * FINE, radius, apart)
     order = np.lexsort((spots, -np.round(apart / ON_PATH), owner))
     best = order[changes(owner[order])]
-    gouge, deepest = owner[best], gouging[best]
-    where, distance, i, j = found.place.copy(), found.apart.copy(), found.i.copy(), found.j.copy()
+    gouge, deepest = owner[best], in_gouge[best]
+    where, distance, i, j = hits.place.copy(), hits.apart.copy(), hits.i.copy(), hits.j.copy()
     where[gouge], distance[gouge], i[gouge], j[gouge] = spots[best], -apart[best], index[deepest], wall[deepest]
-    return wrong, Gouging(found.stretches, where, distance, i, j)
+    return wrong, Gouging(hits.stretches, where, distance, i, j)
 
 
 def _near(pairs: Pairs, radius: float) -> Flags:
@@ -139,7 +139,7 @@ def _near(pairs: Pairs, radius: float) -> Flags:
     return near
 
 
-def _kept(pairs: Pairs, found: Gouging, radius: float) -> Flags:
+def _kept(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
     """Pieces that gouge nothing and keep to one inner wall from end to end: they are on one side of it.
 
     From the one side to the other they could only go about the wall's end, where the next wall would be met; beyond
@@ -148,28 +148,28 @@ def _kept(pairs: Pairs, found: Gouging, radius: float) -> Flags:
     inner = keeping(pairs, radius) & (pairs.j > 0) & (pairs.j < len(pairs.others) - 1)
     kept = np.zeros(len(pairs.pieces), np.bool_)
     kept[pairs.i[inner]] = True
-    if len(found):
-        owner = np.searchsorted(found.stretches.first, pairs.stations[1:]) - 1
-        kept &= (owner < 0) | (found.stretches.last[owner] <= pairs.stations[:-1])
+    if len(hits):
+        owner = np.searchsorted(hits.stretches.first, pairs.stations[1:]) - 1
+        kept &= (owner < 0) | (hits.stretches.last[owner] <= pairs.stations[:-1])
     return kept
 
 
-def _gouged(found: Gouging, surface: Sided) -> Floats:
+def _gouged(hits: Gouging, surface: Sided) -> Floats:
     """Places along the center path that stand for the gouges: of a closed contour that does not cross itself none."""
-    if not len(found) or (surface.endless and not surface.crossed):
+    if not len(hits) or (surface.endless and not surface.crossed):
         return np.zeros(0)
-    return np.concatenate((found.stretches.first, found.stretches.last, found.stretches.middle, found.place))
+    return np.concatenate((hits.stretches.first, hits.stretches.last, hits.stretches.middle, hits.place))
 
 
-def _parts(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> Stretches:
+def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Stretches:
     """Gouging stretches parted where the center path may change sides.
 
     A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
     Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
     """
-    if surface.crossed or not (len(found) or radius <= GOUGE):
+    if surface.crossed or not (len(hits) or radius <= GOUGE):
         return NO_STRETCHES
-    met, stretches = _meeting(pairs, radius), found.stretches
+    met, stretches = _meeting(pairs, radius), hits.stretches
     if radius <= GOUGE:
         stretches = union(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
     # what is exactly JOINED away is met too
@@ -206,14 +206,14 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
     np.add.at(steps, begin, 1)
     np.add.at(steps, end + 1, -1)
     rows = (steps.cumsum()[:-1] > 0).nonzero()[0]
-    pieces, found = moves.take(rows), []
+    pieces, crossings = moves.take(rows), []
     for wall, t in ((0, 0.0), (len(walls) - 1, 1.0)):
-        one, share = walls.take(np.full(len(rows), wall)), np.full(len(rows), t)
-        corner = at(one, share)
-        met = foot(pieces, corner)[None] if surface.endless else on_line(pieces, corner, 1j * direction(one, share))
+        edge, share = walls.take(np.full(len(rows), wall)), np.full(len(rows), t)
+        corner = at(edge, share)
+        met = foot(pieces, corner)[None] if surface.endless else on_line(pieces, corner, 1j * direction(edge, share))
         k, row = np.nonzero((met > 0.0) & (met < 1.0))
-        found.append(pairs.stations[rows[row]] + met[k, row] * pieces.length[row])
-    return np.concatenate(found)
+        crossings.append(pairs.stations[rows[row]] + met[k, row] * pieces.length[row])
+    return np.concatenate(crossings)
 
 
 def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
@@ -236,7 +236,7 @@ def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
 
 def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
     """Which places along the center path are on the part's side."""
-    return _behind(pairs, *place(pairs.pieces, pairs.stations, s), surface)
+    return _on_part_side(pairs, *place(pairs.pieces, pairs.stations, s), surface)
 
 
 def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
@@ -309,8 +309,8 @@ def _off_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) ->
     itself the sines of both walls may all but cancel each other, and the turn alone is asked; walls that touch there
     turn to the side on which the way back runs.
     """
-    behind = (before + 1) % len(walls)
-    along = at_joints(walls, before, behind)
+    after = (before + 1) % len(walls)
+    along = at_joints(walls, before, after)
     size = np.abs(along)
     arriving, leaving = along / np.where(size == 0.0, 1.0, size)
     off = off / np.where(apart < ON_PATH, np.inf, apart)
@@ -318,7 +318,7 @@ def _off_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) ->
     turn = np.conj(arriving) * leaving
     back = (turn.real < 0.0).nonzero()[0]
     if len(back):
-        rows, turning = np.array((before[back], behind[back])), turn.imag[back]
+        rows, turning = np.array((before[back], after[back])), turn.imag[back]
         radius = walls.radius[rows]
         bend = (walls.turn[rows] / np.where(radius == 0.0, 1.0, radius)).sum(axis=0)
         way = np.sign(np.where(np.abs(turning) < CLEARLY, -bend, turning))
