@@ -1,12 +1,12 @@
-"""Nearby: which pieces are near which, found by shapely's tree of boxes and by branch and bound over runs of chords.
+"""Nearby finds which pieces are near which, with shapely's tree of boxes and by branch and bound over runs of chords.
 
 Boxes are (4, n) arrays: left, bottom, right, top.
 
-`near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so a superset for what
-is inside them: `core.geometry.distance` makes it exact, pair by pair.  They come in batches of some ten thousand pairs:
-whoever needs them all at once calls `sorted_pairs`, whoever looks at each pair once does not hold them.  With 100,000
-chords inside one radius ask what is nearest (`nearest_pairs`, a superset), never what lies in boxes within reach: that
-is all pairs.  What has a coordinate that is no number is near everything, so that whoever measures it sees that.
+`near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so yield a superset for
+the pieces inside: `core.geometry.distance` then measures each pair exactly.  Both yield batches of some ten thousand
+pairs; `sorted_pairs` collects them for callers that need all of them at once.  With 100,000 chords inside one radius,
+nearly all boxes are within reach of each other: ask for the nearest pieces instead (`nearest_pairs`, a superset).
+A piece with a NaN coordinate counts as near everything, so that the code that measures the pair sees the NaN.
 """
 
 from __future__ import annotations
@@ -25,50 +25,50 @@ FAN: Final = 4
 """Consecutive chords, or runs of them, in one run."""
 
 RUN: Final = 8
-"""Consecutive boxes that the tree is asked about at once."""
+"""Consecutive boxes that one query of the tree covers together."""
 
 MAX_COARSE_RUNS: Final = 32
-"""Runs on the coarsest level, which the tree of boxes holds against each other."""
+"""Most runs on the coarsest level, where every run of one path is compared with every run of the other."""
 
 BATCH_PAIRS: Final = 1 << 14
 """Pairs of runs that are opened at a time: few enough to stay in a processor's cache."""
 
 BATCH_QUERIES: Final = 1024
-"""Boxes that the tree is asked about at a time, where few are near each other."""
+"""Most boxes that are looked up in the tree at a time, where few boxes are near each other."""
 
 MAX_CHORD_LENGTHS: Final = 8.0
-"""Median lengths of the pieces from which on a piece is parted: what is long has no piece that is nearest to all of
+"""A piece longer than this many median lengths is split, since no single piece of the other path is nearest to all of
 it."""
 
 AROUND: Final = range(-FAN // 2, FAN + FAN // 2)
-"""The members of a run and, on either side, half as many of the runs beside it."""
+"""Offsets of a run's members and, on either side, of half as many members of the neighboring runs."""
 
 BLUR: Final = 1e-15
-"""What rounding may do to a difference of coordinates, as a share of them."""
+"""Largest rounding error of a difference of coordinates, as a share of the coordinates."""
 
 EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
-"""The box of what has no known place."""
+"""The box of a piece whose coordinates are not numbers."""
 
 Batches = Iterator[tuple[Rows, Rows]]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BoxTree:
-    """Boxes (4, n) with a tree of them, for whoever asks more than once what is near them."""
+    """Boxes (4, n) with their search tree, for more than one query."""
 
     boxes: Floats
     tree: shapely.STRtree
 
     @staticmethod
     def of(boxes: Floats) -> BoxTree:
-        """These boxes with their tree."""
+        """Build the tree of these boxes."""
         return BoxTree(boxes, shapely.STRtree(_diagonals(boxes)))
 
 
 def near_pairs(first: Floats, second: Floats | BoxTree, reach: float) -> Batches:
-    """All pairs (i, j) of a box of `first` and one of `second` no farther apart than `reach`, in rising order of i.
+    """Yield all pairs (i, j) of a box of `first` and a box of `second` no farther apart than `reach`, by rising i.
 
-    Exact for the boxes, hence a superset for what is inside them.
+    The pairs are exact for the boxes, hence a superset for the pieces inside them.
     """
     boxes = second.boxes if isinstance(second, BoxTree) else second
     if not (first.shape[1] and boxes.shape[1]):
@@ -80,16 +80,16 @@ def near_pairs(first: Floats, second: Floats | BoxTree, reach: float) -> Batches
         i, j = tree.query(_diagonals(grown[:, start : start + count]))
         i += start
         start += count
-        # the tree's boxes are square at their corners
+        # the grown boxes have square corners, which lie beyond `reach`
         near = ~(_apart(first.take(i, axis=1), boxes.take(j, axis=1)) > reach)
         yield i[near], j[near]
         count = min(BATCH_QUERIES, 2 * count) if len(i) < BATCH_PAIRS else max(1, count // 2)
 
 
 def near_pairs_within(boxes: Floats, reach: float) -> Batches:
-    """All pairs (i, j), i < j, of these boxes no farther apart than `reach`, in no order; exact as above.
+    """Yield all pairs (i, j), i < j, of these boxes no farther apart than `reach`, unordered and as exact as above.
 
-    The tree is asked about runs of consecutive boxes, which along a path lie together: a quarter of the time.
+    Each query covers a run of consecutive boxes, which lie close together along a path; it takes a quarter of the time.
     """
     if not boxes.shape[1]:
         return
@@ -103,7 +103,7 @@ def near_pairs_within(boxes: Floats, reach: float) -> Batches:
         for first in range(0, len(a), BATCH_PAIRS // RUN):
             part = slice(first, first + BATCH_PAIRS // RUN)
             i, j = _members_of_runs(a[part], b[part], boxes.shape[1])
-            # most of them are apart along x
+            # most pairs are already too far apart along x
             near = ~(np.maximum(left[i] - right[j], left[j] - right[i]) > reach)
             i, j = i[near], j[near]
             near = ~(_apart(boxes.take(i, axis=1), boxes.take(j, axis=1)) > reach)
@@ -111,7 +111,7 @@ def near_pairs_within(boxes: Floats, reach: float) -> Batches:
 
 
 def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
-    """All pairs i < j of the boxes in paired runs, of `count` boxes in all."""
+    """Return all pairs i < j of boxes in the paired runs a, b; there are `count` boxes in all."""
     i, j = np.divmod(np.arange(RUN * RUN), RUN)
     i, j = (a[:, None] * RUN + i).ravel(), (b[:, None] * RUN + j).ravel()
     once = (i < j) & (j < count)
@@ -119,7 +119,7 @@ def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
 
 
 def sorted_pairs(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
-    """All pairs of these batches, sorted by i and then by j."""
+    """Return all pairs of these batches, sorted by i and then by j."""
     none = np.zeros(0, np.intp)
     columns = list(zip(*batches, strict=True)) or [(none,), (none,)]
     i, j = (np.concatenate(column) for column in columns)
@@ -128,26 +128,26 @@ def sorted_pairs(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:
 
 
 def point_boxes(points: Points) -> Floats:
-    """(4, k) boxes of points."""
+    """Return the (4, k) boxes of points."""
     return np.array((points.real, points.imag, points.real, points.imag))
 
 
 def changes(values: Rows) -> Rows:
-    """Where each run of equal values begins."""
+    """Return the row where each run of equal values begins."""
     begins = np.ones(len(values), np.bool_)
     np.not_equal(values[1:], values[:-1], out=begins[1:])
     return begins.nonzero()[0]
 
 
 def _diagonals(boxes: Floats) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
-    """A line in each box from corner to corner: the tree looks at nothing but its box, and it is small."""
+    """Return a diagonal line for each box: the tree reads only its bounding box, and a line needs little memory."""
     known = np.where(np.isnan(boxes), EVERYWHERE, boxes)
     lines: np.ndarray[tuple[int], np.dtype[np.object_]] = shapely.linestrings(known.T.reshape(-1, 2, 2))
     return lines
 
 
 def _apart(first: Floats, second: Floats) -> Floats:
-    """Distances between boxes, 0 where they meet."""
+    """Return the distances between boxes, 0 where they meet."""
     gaps = np.maximum(np.maximum(first[:2] - second[2:], second[:2] - first[2:]), 0.0)
     apart: Floats = np.hypot(gaps[0], gaps[1])
     return apart
@@ -155,10 +155,10 @@ def _apart(first: Floats, second: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CoarseChords:
-    """(n,) straight lines from `middle` - `half` to `middle` + `half` that stand for a piece or a run of pieces each.
+    """(n,) straight lines from `middle` - `half` to `middle` + `half`, each standing for a piece or a run of pieces.
 
-    No place of the one is farther from the other than `slack`, and all pieces are in the box from `low` to `high`.
-    `square` is the square of half the length, and never 0.
+    No point of a line is farther than `slack` from its pieces, nor the reverse; `low` and `high` are the corners of the
+    box that holds the pieces.  `square` is the square of half the length, never 0.
     """
 
     middle: Points
@@ -170,7 +170,7 @@ class CoarseChords:
 
     @staticmethod
     def between(start: Points, end: Points, slack: Floats, box: tuple[Points, Points] | None = None) -> CoarseChords:
-        """The chords from starts to ends, each in its own box if none is given."""
+        """Make the chords from `start` to `end`; without `box`, each gets the box of the chord grown by its slack."""
         middle, half = (start + end) / 2.0, (end - start) / 2.0
         room = np.abs(half.real) + slack + 1j * (np.abs(half.imag) + slack)
         low, high = box or (middle - room, middle + room)
@@ -186,7 +186,7 @@ class CoarseChords:
         return self.middle - self.half, self.middle + self.half
 
     def off(self, rows: Rows, points: Points) -> Points:
-        """The way to each point (m,) from the nearest place of the chord of its row."""
+        """Return the vector to each point (m,) from the nearest point of the chord in its row."""
         away, half = points - self.middle.take(rows), self.half.take(rows)
         share = (away * half.conj()).real / self.square.take(rows)
         off: Points = away - np.minimum(np.maximum(share, -1.0), 1.0) * half
@@ -198,7 +198,7 @@ ChordLevels = tuple[CoarseChords, ...]
 
 
 def chord_levels(chords: CoarseChords) -> ChordLevels:
-    """Runs of consecutive chords, which are good for a search where what follows each other lies near each other."""
+    """Group consecutive chords into runs, level by level; searching them is fast where neighbors lie close together."""
     levels = [chords]
     while len(levels[-1]) > MAX_COARSE_RUNS:
         levels.append(_grouped(levels[-1]))
@@ -206,10 +206,10 @@ def chord_levels(chords: CoarseChords) -> ChordLevels:
 
 
 def _grouped(members: CoarseChords) -> CoarseChords:
-    """The chords from the start of every FAN members to their end.
+    """Return one chord for every FAN members, from the start of the first to the end of the last.
 
-    A way without gaps passes each place of its chord on the way from end to end, so that its slack is how far its
-    members are off; where there are gaps these count too.
+    A run without gaps passes abreast of every point of its chord, so its slack is the largest distance of its members
+    from the chord; the largest gap adds to it.
     """
     begins = np.arange(0, len(members), FAN)
     lasts = np.append(begins[1:], len(members)) - 1
@@ -225,15 +225,15 @@ def _grouped(members: CoarseChords) -> CoarseChords:
 
 
 def _each_way(reduce: Callable[..., Floats], points: Points, begins: Rows) -> Points:
-    """Points whose coordinates are each reduced by themselves."""
+    """Apply `reduce` to the x and the y coordinates of points separately."""
     reduced: Points = reduce(points.view(np.float64).reshape(-1, 2), begins, axis=0).view(np.complex128).ravel()
     return reduced
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
-    """Pairs (i, j), by rising i, then j, among which is each of `others` that is nearest to any place of each piece.
+    """Return pairs (i, j), by rising i, then j, including every piece j of `others` nearest to some point of piece i.
 
-    So are those that are farther by no more than `tie`.
+    Pieces that are farther by no more than `tie` are included too.
     """
     if not (len(pieces) and len(others)):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
@@ -249,8 +249,8 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
 
 
 def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChords, Rows]:
-    """Chords of the pieces, those longer than `typical` in parts, but not of more than `most` parts in all; and the
-    pieces that they are of."""
+    """Return chords of the pieces and the row of each chord's piece; pieces longer than `typical` are split into at most
+    `most` extra parts in all."""
     length = max(typical, float(pieces.length.sum()) / most)
     counts = np.ones(len(pieces), np.intp)
     long = (pieces.length > length).nonzero()[0]
@@ -267,7 +267,7 @@ def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChord
 
 
 def _searched(chords: CoarseChords, other_chords: CoarseChords, tie: float) -> Iterator[tuple[Rows, Rows]]:
-    """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches."""
+    """Yield the pairs of chords whose second piece may be nearest to some point of the first one's, in batches."""
     first, second = chord_levels(chords), chord_levels(other_chords)
     within = _within(first, second)
     high, low = len(first) - 1, len(second) - 1
@@ -292,9 +292,9 @@ def _searched(chords: CoarseChords, other_chords: CoarseChords, tie: float) -> I
 
 
 def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
-    """For each run of each level a length within which all of its places have something of the other path.
+    """Return, for each run of each level, a distance within which each of its points has a piece of the other path.
 
-    A guess tells what: the nearest of the members of what was nearest to the run, and of those around them.
+    A guess yields it: the search descends from the nearest run to its nearest member, or a member next to those.
     """
     high, low = len(first) - 1, len(second) - 1
     guess = np.abs(first[high].middle[:, None] - second[low].middle).argmin(axis=1)
@@ -314,7 +314,7 @@ def _within(first: ChordLevels, second: ChordLevels) -> list[Floats]:
 
 
 def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
-    """Of the middles of each point's run, and of those around, the one that is closest to the point."""
+    """Return, for each point, the closest among the middles of its run's members and those around them."""
     closest, least = np.zeros(len(points), np.intp), np.full(len(points), np.inf)
     for step in AROUND:
         members = np.minimum(np.maximum(runs * FAN + step, 0), len(middles) - 1)
@@ -327,11 +327,11 @@ def _closest_member(points: Points, middles: Points, runs: Rows) -> Rows:
 def _contenders(
     chords: CoarseChords, i: Rows, other: CoarseChords, j: Rows, within: Floats, tie: float
 ) -> tuple[Rows, Rows]:
-    """Pairs, by rising i, of which j may be nearest to some place of i, where all of i has something `within` reach.
+    """Keep the pairs, by rising i, whose j may be nearest to some point of i; no point of i is farther than `within`.
 
-    Along a chord the distance from another one is convex.  So from j it is nowhere less than on the tangent at i's
-    middle, and from the j that is closest there nowhere more than between its values at i's ends: as both are straight,
-    what is farther at both ends is farther everywhere.
+    Along chord i the distance to another chord is convex.  So the distance to j is bounded from below by its tangent at
+    i's middle, and the distance to the j closest there is bounded from above by the line between its values at i's
+    ends.  Both bounds are straight, so a j that is farther at both ends is farther everywhere.
     """
     limit = within.take(i) + tie
     after, before = chords.low.take(i) - other.high.take(j), other.low.take(j) - chords.high.take(i)
@@ -340,10 +340,10 @@ def _contenders(
     i, j, limit = i[keep], j[keep], limit[keep]
     middle, half = chords.middle.take(i), chords.half.take(i)
     off = other.off(j, middle)
-    # what is no number counts as nearest, and then nothing is known to be farther
+    # a NaN counts as nearest, and then no other chord is known to be farther
     apart = np.fmax(np.abs(off), np.finfo(float).tiny)
     slope = (off.conj() * half).real / apart
-    # a way as short as the rounding of coordinates has no direction
+    # an offset as short as the rounding of coordinates has no direction
     blur = BLUR * np.abs(middle) * np.abs(half) / apart
     least = apart - blur - chords.slack.take(i) - other.slack.take(j)
     keep = (~(least - np.abs(slope) > limit)).nonzero()[0]
@@ -362,7 +362,7 @@ def _contenders(
 
 
 def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:
-    """The members of these runs, of which there are `count` in all, and the partner of each."""
+    """Return the members of these runs and the partner of each; there are `count` members in all."""
     members = (runs[:, None] * FAN + np.arange(FAN)).ravel()
     partners = partners.repeat(FAN)
     real = members < count

@@ -3,8 +3,8 @@
 The one representation of geometry for ten pieces and for a hundred thousand.  A path of n pieces has
 n + 1 points, so that it is joined by construction.  Millimeters and radians, right-handed XY.
 
-What is calculated with many pieces at once takes points as complex numbers x + iy (`as_complex`) and pieces that need
-not join (`Pieces`): conj(u) v has the dot product of u and v as its real and the cross product as its imaginary part.
+Calculations with arrays of pieces take points as complex numbers x + iy (`as_complex`) and pieces that need not join
+(`Pieces`): the real part of conj(u) v is the dot product of u and v, the imaginary part their cross product.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Flags = NDArray[np.bool_]
 Turns = NDArray[np.int8]
 
 _QUARTERS: Final = np.array([[tau / 2], [3 * tau / 4], [0.0], [tau / 4]])
-"""(4, 1) where a circle reaches farthest left, down, right and up, in radians."""
+"""(4, 1) the angles of a circle's leftmost, lowest, rightmost and highest point, in radians."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -50,7 +50,7 @@ class Path:
 
     @staticmethod
     def of(points: Floats, centers: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
-        """A path of these arrays, made contiguous; numbers are 1 ... n unless given."""
+        """Make a path of these arrays, made contiguous; numbers are 1 ... n unless given."""
         count = len(turns)
         return Path(
             np.ascontiguousarray(points, np.float64).reshape(-1, 2),
@@ -61,7 +61,7 @@ class Path:
 
     @staticmethod
     def from_pieces(pieces: Sequence[Piece], numbers: Sequence[float] | None = None) -> Path:
-        """The path of pieces that join end to start; each start is taken from the end before it."""
+        """Make the path of pieces that join end to start; each piece starts at the end of the piece before it."""
         if not pieces:
             return EMPTY
         # plain numbers one after the other become an array in half the time of pairs
@@ -147,13 +147,13 @@ class Path:
         return boxes(pieces_of(self))
 
     def reversed(self) -> Path:
-        """The same pieces traveled the other way; numbers stay with their pieces."""
+        """Return the same pieces traveled the other way; numbers stay with their pieces."""
         order = slice(None, None, -1)
         centers = np.where(self.turns[:, None] == 0, self.ends, self.centers)
         return Path.of(self.points[order], centers[order], -self.turns[order], self.numbers[order])
 
     def without(self, rows: Rows) -> Path:
-        """The path without these pieces of no length: each piece starts where the one before it ends.
+        """Return the path without `rows`, pieces of no length; each piece then starts where the one before it ends.
 
         Full circles stay full.
         """
@@ -166,17 +166,17 @@ class Path:
         return Path.of(points, self.centers[kept], self.turns[kept], self.numbers[kept])
 
     def part(self, first: int, last: int) -> Path:
-        """Pieces first ... last - 1."""
+        """Return pieces first ... last - 1."""
         # rows of contiguous arrays are contiguous: nothing is copied
         keep = slice(first, last)
         return Path(self.points[first : last + 1], self.centers[keep], self.turns[keep], self.numbers[keep])
 
 
 def boxes(pieces: Pieces) -> Floats:
-    """(4, n) exact bounding boxes: left, bottom, right, top.
+    """Return the (4, n) exact bounding boxes: left, bottom, right, top.
 
-    What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to a quarter
-    an arc keeps its distance from the center.
+    Rounding may decide whether an arc's end lies before or past a quarter point; either way the box moves by no more
+    than the last digit, for near that point the arc runs along the box.
     """
     box = np.empty((4, len(pieces.turn)))
     for axis, (start, end) in enumerate(((pieces.start.real, pieces.end.real), (pieces.start.imag, pieces.end.imag))):
@@ -193,7 +193,7 @@ def boxes(pieces: Pieces) -> Floats:
 
 
 def lengths(pieces: Pieces) -> Floats:
-    """(n,) length of each piece."""
+    """Return the (n,) length of each piece."""
     size: Floats = np.abs(pieces.end - pieces.start)
     rows = pieces.turn.nonzero()[0]
     arcs = pieces.take(rows)
@@ -202,9 +202,9 @@ def lengths(pieces: Pieces) -> Floats:
 
 
 def swept(pieces: Pieces) -> Floats:
-    """(n,) angle traveled by each arc, in [0, tau]: a full turn where both ends are the same numbers, 0 for a line.
+    """Return the (n,) angle traveled by each arc, in [0, tau]: a full turn where both ends are equal, 0 for a line.
 
-    A hair less than a full turn is what rounding makes of an empty arc.
+    An angle a hair less than a full turn is an empty arc plus rounding, and counts as 0.
     """
     turned = (pieces.end - pieces.center) * (pieces.start - pieces.center).conj()
     angle = np.arctan2(turned.imag * pieces.turn, turned.real)
@@ -215,7 +215,7 @@ def swept(pieces: Pieces) -> Floats:
 
 
 def joined(parts: Sequence[Path]) -> Path:
-    """One path of paths that join end to start; empty ones are passed over."""
+    """Return one path of paths that join end to start; empty ones are skipped."""
     parts = [part for part in parts if len(part)]
     if len(parts) < 2:
         return parts[0] if parts else EMPTY
@@ -241,27 +241,27 @@ class Pieces(NamedTuple):
     turn: Turns
 
     def take(self, rows: Rows) -> Pieces:
-        """Some of the pieces."""
+        """Return the pieces of these rows."""
         return Pieces(self.start[rows], self.end[rows], self.center[rows], self.turn[rows])
 
 
 def as_complex(pairs: Floats) -> Points:
-    """(n, 2) coordinates as (n,) complex numbers, without a copy where they lie together in memory."""
+    """Return (n, 2) coordinates as (n,) complex numbers, without a copy if they are contiguous in memory."""
     flat: Points = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
     return flat
 
 
 def coordinates(points: Points) -> Floats:
-    """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
+    """Return (n,) complex numbers as (n, 2) coordinates, without a copy if they are contiguous in memory."""
     return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
 
 
 def next_in_ring(values: NDArray[Any]) -> NDArray[Any]:
-    """The next one of each value around a ring: that of the last is the first.  `np.roll` takes five times as long."""
+    """Return the successor of each value in a ring; the last one's is the first.  `np.roll` takes 5 times as long."""
     return np.concatenate((values[1:], values[:1]))
 
 
 def pieces_of(path: Path) -> Pieces:
-    """The pieces of a path, without a copy."""
+    """Return the pieces of a path, without a copy."""
     points = as_complex(path.points)
     return Pieces(points[:-1], points[1:], as_complex(path.centers), path.turns)

@@ -1,6 +1,6 @@
-"""PieceArrays: the pieces of a path with what exact distances need, worked out once, for whole arrays of pieces.
+"""PieceArrays: the pieces of a path as arrays, with the values that exact distances need, calculated once.
 
-Points are complex numbers x + iy.  A place on a piece is the fraction t of it that has been traveled, 0 to 1;
+Points are complex numbers x + iy.  A place on a piece is the fraction t of the piece traveled so far, 0 to 1;
 a place on a whole path is the length s traveled since its first point.
 """
 
@@ -20,10 +20,10 @@ from core.geometry.piece import SLIVER
 from core.tolerance import ON_PATH
 
 FEW_PAIRS: Final = 500
-"""Pairs of which all are worked out at once: that costs less than to part lines from arcs."""
+"""Up to this many pairs are calculated at once: that costs less than separating lines from arcs."""
 
 BLOCK_PAIRS: Final = 4_000
-"""Pairs worked out at a time."""
+"""Pairs calculated at a time."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -32,8 +32,8 @@ class PieceArrays:
 
     `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - center of an
     arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle traveled by an arc and 0 for a line.
-    `slack` is how far an arc of two different radii may be from the circle taken for it, infinite where both of its
-    ends are on one ray: nobody knows then where it runs.
+    `slack` is how far an arc with two different radii may be from the circle used for it; it is infinite if both ends
+    are on one ray from the center, since the arc may then be empty or a full circle.
     """
 
     rows: Rows
@@ -50,12 +50,12 @@ class PieceArrays:
         return len(self.rows)
 
     def take(self, rows: Rows) -> PieceArrays:
-        """The pieces of these indices, repeated and ordered as they come."""
+        """Return the pieces of these indices, in their order and with their repetitions."""
         return PieceArrays(*(getattr(self, name).take(rows) for name in self.__slots__))
 
     @property
     def arcs(self) -> Flags:
-        """(n,) which pieces are arcs."""
+        """(n,) True for arcs."""
         arcs: Flags = self.turn != 0.0
         return arcs
 
@@ -66,7 +66,7 @@ class PieceArrays:
 
     @property
     def center(self) -> Points:
-        """(n,) centers of arcs; of a line a point without meaning."""
+        """(n,) centers of arcs; meaningless for a line."""
         return self.start - self.arm
 
     @property
@@ -78,7 +78,7 @@ class PieceArrays:
 
     @property
     def stations(self) -> Floats:
-        """(n + 1,) length traveled at the start of each piece, and at the end of all."""
+        """(n + 1,) length traveled at the start of each piece, and at the end of the last."""
         stations = np.zeros(len(self.length) + 1)
         self.length.cumsum(out=stations[1:])
         return stations
@@ -96,7 +96,7 @@ Formula = Callable[..., NDArray[Any]]
 
 
 def piece_arrays(*paths: Path) -> PieceArrays:
-    """The pieces of these paths that have a length, as those of one path; of a path of which none has, the first.
+    """Return the pieces of these paths that have a length as one set; a path without any contributes its first piece.
 
     Rows count all pieces of all paths.
     """
@@ -109,7 +109,7 @@ def piece_arrays(*paths: Path) -> PieceArrays:
     short = whole.length <= ON_PATH
     if not short.any():
         return whole
-    # a length that is no number is none of no length: nothing is said of its piece by leaving it out
+    # a piece whose length is NaN stays, so that it is not silently ignored
     keep, first = ~short, 0
     for path in paths:
         if len(path) and not keep[first : first + len(path)].any():
@@ -134,13 +134,12 @@ def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> Piec
 
 
 def even_centers(start: Points, end: Points, center: Points, turn: Floats | Turns) -> tuple[Points, Floats]:
-    """Centers equally far from both ends of arcs (n,), and by how much an arc's two radii left open where it runs.
+    """Return centers equally far from both ends of arcs (n,), and the slack that an arc's two radii leave to its run.
 
-    A center moves onto the bisector of the ends by no more than the radii differ.  Where that is not enough, which is
-    where the chord is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius
-    between its two; a longer one keeps its center: the farther it moves, the farther is the other side of the arc from
-    where it runs.  With both ends on one ray from the center it may be empty or a full circle, which its ends leave
-    open.
+    A center moves onto the bisector of the ends, by no more than the radii differ.  If that is not enough, as with a
+    chord shorter than the radius, an arc of less than half a turn keeps its ends and gets the mean of its radii.  A
+    longer arc keeps its center: moving it would move the far side of the arc just as much.  An arc with both ends on
+    one ray from the center may be empty or a full circle: its slack is infinite.
     """
     centers, slack = center.copy(), np.abs(np.abs(start - center) - np.abs(end - center))
     uneven = (slack > ON_PATH).nonzero()[0]
@@ -163,9 +162,9 @@ def _evened(start: Points, end: Points, center: Points, turn: Floats | Turns, of
 
 
 def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
-    """What `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces.
+    """Return what `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces.
 
-    Where both kinds occur all pieces get both formulas: either yields something for any piece.
+    If both kinds occur, both formulas run on all pieces: either yields some value for any piece.
     """
     if not chosen.any():
         return line(*given)
@@ -173,9 +172,9 @@ def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArra
 
 
 def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
-    """Indices of pairs by which of the two pieces are arcs, at most BLOCK_PAIRS at a time; few pairs all at once.
+    """Yield pair indices grouped by which of the two are arcs, at most BLOCK_PAIRS at a time; few pairs all at once.
 
-    Blocks of one kind need no parting in every formula, and bound the memory in use.
+    In a block of one kind no formula has to separate lines from arcs, and small blocks bound the memory in use.
     """
     if 0 < len(first) <= FEW_PAIRS:
         yield np.arange(len(first))
@@ -188,7 +187,7 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
 
 
 def at(pieces: PieceArrays, t: Floats) -> Points:
-    """(..., n) points at the fractions `t` (..., n) of each piece."""
+    """Return the (..., n) points at the fractions `t` (..., n) of each piece."""
     points: Points = by_kind(pieces.arcs, _line_at, _arc_at, pieces, t)
     return points
 
@@ -203,7 +202,7 @@ def _arc_at(arc: PieceArrays, t: Floats) -> Points:
 
 
 def direction(pieces: PieceArrays, t: Floats) -> Points:
-    """(n,) unit tangents at the fractions `t` (n,)."""
+    """Return the (n,) unit tangents at the fractions `t` (n,)."""
     units: Points = by_kind(pieces.arcs, _line_direction, _arc_direction, pieces, t)
     return units
 
@@ -219,16 +218,16 @@ def _arc_direction(arc: PieceArrays, t: Floats) -> Points:
 
 
 def traveled(arc: PieceArrays, directions: Points) -> Floats:
-    """Angles in [0, tau) from each arc's start to the directions `directions` (..., n), seen from its center."""
+    """Return the angles in [0, tau) traveled from each arc's start to `directions` (..., n), seen from its center."""
     turned = directions * np.conj(arc.arm)
     angle: Floats = np.arctan2(turned.imag, turned.real) * arc.turn
-    # what is within half a turn needs no division, which takes ten times as long
+    # adding a turn to negative angles is ten times as fast as np.mod
     angle += tau * (angle < 0.0)
     return angle
 
 
 def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
-    """Piece index and fraction of the places `s` along the whole path; at a joint the piece that begins there."""
+    """Return the piece and the fraction of the places `s` along the whole path; at a joint the piece that begins there."""
     index = stations[1:-1].searchsorted(s, side="right")
     length = pieces.length.take(index)
     t = (s - stations.take(index)) / np.where(length == 0.0, 1.0, length)
