@@ -1,4 +1,4 @@
-"""The endless line or the whole circle that a piece lies on, and where two of them meet."""
+"""Carriers: the endless line or the whole circle that a piece lies on, and the points where two of them meet."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from core.tolerance import JOINED
 
 
 class Carrier(NamedTuple):
-    """A point of an endless line and its direction, or the center of a whole circle, direction 0, and its radius."""
+    """An endless line: a point, its direction, radius 0.  A whole circle: its center, direction 0, its radius."""
 
     at: complex
     along: complex
@@ -19,7 +19,7 @@ class Carrier(NamedTuple):
 
 
 def carrier(piece: Piece, left: float = 0.0) -> Carrier:
-    """The carrier of a piece moved by `left` to its left."""
+    """Return the carrier of a piece, offset by `left` to its left."""
     if isinstance(piece, Arc):
         return Carrier(complex(*piece.center), 0j, abs(piece.radius - piece.turn * left))
     along = complex(*piece.direction_at(piece.start))
@@ -27,7 +27,7 @@ def carrier(piece: Piece, left: float = 0.0) -> Carrier:
 
 
 def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
-    """Where two carriers meet: none, one or two points."""
+    """Return the points where two carriers meet: none, one or two."""
     if first.along and second.along:
         cross = (first.along.conjugate() * second.along).imag
         reach = ((second.at - first.at).conjugate() * second.along).imag
@@ -38,7 +38,7 @@ def meeting_places(first: Carrier, second: Carrier) -> list[complex]:
 
 
 def carriers_meet(first: Piece, second: Piece) -> list[Point]:
-    """The meetings of the endless lines or whole circles of two pieces."""
+    """Return the points where the endless lines or whole circles of two pieces meet."""
     return [(place.real, place.imag) for place in meeting_places(carrier(first), carrier(second))]
 
 

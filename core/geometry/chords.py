@@ -1,4 +1,4 @@
-"""Chords: a path as a polyline, for what shapely is to cut or to measure roughly."""
+"""Chords: a path as a polyline, for shapely to cut or to measure roughly."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from core.geometry.path import Floats, Path, as_complex, coordinates
 
 
 def chords_of(path: Path, sag: float) -> Floats:
-    """(m, 2) points of a path, its arcs as chords no farther than `sag` (mm) from them."""
+    """Return the (m, 2) points of a path whose arcs are replaced by chords no farther than `sag` (mm) from them."""
     if not len(path):
         return np.empty((0, 2))
     counts = [
@@ -26,7 +26,7 @@ def chords_of(path: Path, sag: float) -> Floats:
 
 
 def _count(sweep: float, radius: float, sag: float) -> int:
-    """Chords of an arc, one of a line."""
+    """Return the number of chords of an arc; 1 for a line."""
     if not sweep or not isfinite(radius) or radius <= sag:
         return 1
     return max(ceil(abs(sweep) / min(2.0 * acos(1.0 - sag / radius), pi / 4)), 1)

@@ -1,7 +1,7 @@
-"""Points and centers from what a drawing gives, as plain numbers: every solution, in a documented order.
+"""Constructions: points and centers from the dimensions of a drawing, every solution in a documented order.
 
-Millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
-`OnePoint`, `TwoPoints`, `OutOfReach` (nothing reaches so far), `NotDetermined` (the givens say nothing about it) and
+Plain numbers, millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  Each solution has
+a type: `OnePoint`, `TwoPoints`, `OutOfReach` (too far away), `NotDetermined` (the dimensions do not fix it) and
 `OppositeDirection`.
 """
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from core.geometry.path import Points
 
 Place = TypeVar("Place", complex, "Points")
-"""A place as a complex number, or (n,) of them."""
+"""A point as a complex number, or (n,) points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class OnePoint:
 
 @dataclass(frozen=True, slots=True)
 class TwoPoints:
-    """Two solutions, in the order the construction documents."""
+    """Two solutions, in the order that the construction documents."""
 
     first: Point
     second: Point
@@ -45,7 +45,7 @@ class OutOfReach:
 
 @dataclass(frozen=True, slots=True)
 class NotDetermined:
-    """No one solution: what is given runs next to what is asked and says nothing about it."""
+    """No unique solution: the given dimensions do not fix the point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +54,14 @@ class OppositeDirection:
 
 
 def polar(start: Point, angle: float, length: float) -> Point:
-    """The point at `length` from `start` in direction `angle`."""
+    """Return the point at `length` from `start` in direction `angle`."""
     return start[0] + length * cos(angle), start[1] + length * sin(angle)
 
 
 def ray_to_coordinate(
     start: Point, angle: float, axis: int, value: float
 ) -> OnePoint | NotDetermined | OppositeDirection:
-    """Where a ray reaches the coordinate `value`; `NotDetermined` if it runs along that coordinate."""
+    """Find where a ray reaches the coordinate `value`; `NotDetermined` if that coordinate is constant along the ray."""
     along = (cos(angle), sin(angle))
     if abs(along[axis]) < SLIVER:
         return NotDetermined()
@@ -72,10 +72,10 @@ def ray_to_coordinate(
 
 
 def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint | TwoPoints | OutOfReach:
-    """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
+    """Find the points of a circle whose coordinate `axis` is `value`, the one with the greater other coordinate first.
 
-    A coordinate outside the circle by no more than `ARC_RADII`, or inside by no more than `GRAZE`, gives the nearest
-    point of the circle.
+    A coordinate outside the circle by no more than `ARC_RADII`, or inside by no more than `GRAZE`, gives one point, at
+    the circle's center in the other coordinate.
     """
     distance = abs(value - center[axis])
     if distance > radius + ARC_RADII:
@@ -92,7 +92,7 @@ def _placed(axis: int, value: float, other: float) -> Point:
 
 
 def centers(start: Point, end: Point, radius: float, turn: Turn) -> OnePoint | TwoPoints | OutOfReach | NotDetermined:
-    """The centers of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
+    """Find the centers of arcs from `start` to `end`: first of the arc under half a turn, then of the longer one.
 
     A radius too small by no more than `ARC_RADII`, or too large by no more than `GRAZE`, gives the half circle; equal
     ends give `NotDetermined`.
@@ -109,14 +109,14 @@ def centers(start: Point, end: Point, radius: float, turn: Turn) -> OnePoint | T
 
 
 def _above(start: Point, end: Point, height: float) -> Point:
-    """The point on the bisector of start and end, `height` to the left of the way from start to end."""
+    """Return the point on the bisector of start and end, `height` to the left of the line from start to end."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     chord = hypot(dx, dy)
     return (start[0] + end[0]) / 2 - dy / chord * height, (start[1] + end[1]) / 2 + dx / chord * height
 
 
 def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePoint | NotDetermined:
-    """The center about which `turn` by `sweep` (0 < sweep < a full turn) takes `start` to `end`.
+    """Find the center of the arc from `start` to `end` that turns by `sweep` (0 < sweep < a full turn) toward `turn`.
 
     Height of the center over the chord c: c / 2 / tan(sweep / 2).
     """
@@ -128,7 +128,7 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePo
 
 
 def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> OnePoint | NotDetermined:
-    """The point as far from `start` as from `end` whose coordinate `axis` is `value`."""
+    """Find the point equally far from `start` and `end` whose coordinate `axis` is `value`."""
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
     if abs(across) <= SLIVER * abs(along) or across == 0.0:
         return NotDetermined()
@@ -137,23 +137,23 @@ def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> O
 
 
 def rotated(point: Point, center: Point, angle: float) -> Point:
-    """A point turned about `center` by `angle`, positive counterclockwise."""
+    """Return a point turned about `center` by `angle`, positive counterclockwise."""
     dx, dy = point[0] - center[0], point[1] - center[1]
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
 
 
 def on_bisector(start: Place, end: Place, center: Place) -> Place:
-    """The point nearest to `center` that is as far from `start` as from `end`; complex numbers, single or (n,) each."""
+    """Return the point nearest to `center` that is equally far from `start` and `end`; complex, single or (n,) each."""
     chord = end - start
     off: Place = center - (start + end) / 2.0
     return center - (chord.conjugate() * off).real * chord / abs(chord) ** 2
 
 
 def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
-    """The exact arc nearest to ends and a center that agree within `ARC_RADII`.
+    """Return an exact arc close to ends and a center whose radii agree within `ARC_RADII`.
 
-    Ends that are one point make a full circle.  Otherwise the center moves onto the bisector of the ends; where
-    that would take it farther than `ARC_RADII`, on a chord short against the radius, the end moves onto the circle.
+    Ends that are one point make a full circle.  Otherwise the center moves onto the bisector of the ends; if
+    that is farther than `ARC_RADII`, as on a chord much shorter than the radius, the end moves onto the circle.
     """
     radius = hypot(start[0] - center[0], start[1] - center[1])
     out = hypot(end[0] - center[0], end[1] - center[1])
@@ -167,11 +167,11 @@ def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
         return Arc(start, end, (moved.real, moved.imag), turn)
     scale = radius / out if out else 0.0
     onto = (center[0] + (end[0] - center[0]) * scale, center[1] + (end[1] - center[1]) * scale)
-    # rounding must not decide between a full circle and nothing
+    # rounding must not decide between a full circle and an empty arc
     same = hypot(onto[0] - start[0], onto[1] - start[1]) <= JOINED
     return Arc(start, start if same else onto, center, turn)
 
 
 def chord_factor(sweep: float) -> float:
-    """The chord of an arc of radius 1 that turns by `sweep`: 2 sin(sweep / 2)."""
+    """Return the chord of an arc of radius 1 that turns by `sweep`: 2 sin(sweep / 2)."""
     return 2.0 * sin(sweep / 2)

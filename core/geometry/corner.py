@@ -1,8 +1,8 @@
-"""A corner of two pieces blended by an arc tangent to both, or cut off by a line.
+"""Corners: `fillet` rounds the corner of two pieces with an arc tangent to both, `chamfer` cuts it off with a line.
 
-The center of an arc that runs the way both pieces run lies one radius to the same side of both: on the left
+The fillet's center lies one radius to the same side of both pieces, seen along their travel: on the left
 for an arc traveled counterclockwise, on the right for a clockwise one.  A chamfer takes the same length off both
-pieces: measured along a line, and of an arc along its tangent at the corner, as a drawing dimensions it square
+pieces, measured along a line or along an arc's tangent at the corner, as a drawing dimensions it square
 to the other edge.
 """
 
@@ -22,7 +22,7 @@ from core.tolerance import JOINED, ON_PATH
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """Two pieces shortened (None where nothing of one is left) and the arc or line between them."""
+    """Two shortened pieces (None if nothing is left of one) and the arc or line between them."""
 
     before: Piece | None
     between: Piece
@@ -30,28 +30,28 @@ class Corner:
 
 
 class Reason(Enum):
-    """Why a corner can be neither blended nor cut off."""
+    """The reason why a corner takes neither fillet nor chamfer."""
 
     TANGENT = auto()
     """The pieces already run smoothly into each other."""
     REVERSAL = auto()
-    """The second goes straight back."""
+    """The second piece goes straight back along the first."""
     TOO_LARGE = auto()
-    """The radius or the length does not fit between them."""
+    """The radius or the length does not fit between the pieces."""
 
 
 @dataclass(frozen=True, slots=True)
 class NoCorner:
-    """Neither blend nor chamfer; `largest` is the largest size that fits, None where that takes more than a formula."""
+    """No fillet or chamfer is possible; `largest` is the largest size that fits, None if no formula gives it."""
 
     reason: Reason
     largest: float | None = None
 
 
 def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
-    """The blend (radius in mm) nearest to the corner where `before` ends and `after` starts, which must have length.
+    """Round the corner where `before` ends and `after` starts (both with a length) with an arc of `radius` mm.
 
-    Nearest is the one that takes the least off both pieces together.
+    Of several arcs that fit, take the one that removes the least length from both pieces together.
     """
     turned = _turned(before, after)
     if abs(turned) * radius <= JOINED:
@@ -68,7 +68,7 @@ def fillet(before: Piece, after: Piece, radius: float) -> Corner | NoCorner:
 
 
 class _Fit(NamedTuple):
-    """A blend arc that touches within both pieces, and the length it takes off them together."""
+    """A fillet arc that touches both pieces between their ends, and the length that it removes from both together."""
 
     arc: Arc
     removed: float
@@ -88,7 +88,7 @@ def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_F
 
 
 def _foot(piece: Piece, center: complex, left: float) -> complex | None:
-    """Where a circle about `center`, `left` to the left of a piece's carrier, touches it; None about its own center."""
+    """Return where a circle about `center`, `left` to the left of a carrier, touches it; None about its own center."""
     if isinstance(piece, Line):
         return center - 1j * complex(*piece.direction_at(piece.start)) * left
     shifted, middle = piece.radius - piece.turn * left, complex(*piece.center)
@@ -96,7 +96,7 @@ def _foot(piece: Piece, center: complex, left: float) -> complex | None:
 
 
 def _travel(piece: Piece, at: complex) -> float:
-    """Length traveled from a piece's start to a point of its carrier; of an arc's two ways to it, the one on it."""
+    """Return the length traveled from a piece's start to a point of its carrier, in an arc's own direction."""
     start = complex(*piece.start)
     if isinstance(piece, Line):
         return ((at - start) * complex(*piece.direction_at(piece.start)).conjugate()).real
@@ -119,7 +119,7 @@ def _point(place: complex) -> Point:
 
 
 def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:
-    """The corner where `before` ends and `after` starts, which must have length, cut off by `length` (mm) on both."""
+    """Cut off the corner where `before` ends and `after` starts (both with a length) by `length` mm on both pieces."""
     if abs(_turned(before, after)) * length <= JOINED:
         return NoCorner(Reason.TANGENT)
     largest = min(_reach(before), _reach(after))
@@ -136,20 +136,20 @@ def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:
 
 
 def _turned(before: Piece, after: Piece) -> float:
-    """The angle from the direction in which `before` ends to that in which `after` starts, left positive."""
+    """Return the angle from the direction at the end of `before` to that at the start of `after`, left positive."""
     arriving, leaving = complex(*before.direction_at(before.end)), complex(*after.direction_at(after.start))
     return phase(leaving * arriving.conjugate())
 
 
 def _reach(piece: Piece) -> float:
-    """The largest length along the tangent at the corner that a piece has: of an arc at most its radius."""
+    """Return the largest length along the tangent at the corner that fits a piece: for an arc at most its radius."""
     if isinstance(piece, Line):
         return piece.length
     return piece.radius * sin(min(abs(piece.sweep), pi / 2))
 
 
 def _back(piece: Piece, length: float, *, at_end: bool) -> Point:
-    """The point of a piece at this length along its tangent at its end, or at its start."""
+    """Return the point of a piece that is `length` away along the tangent at its end, or at its start."""
     if isinstance(piece, Line):
         part = min(length / piece.length, 1.0)
         return piece.point_at(1.0 - part if at_end else part)

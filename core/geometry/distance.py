@@ -1,8 +1,8 @@
-"""Exact distances between lines and arcs, for arrays of points and arrays of pairs of pieces.
+"""This module calculates exact distances between lines and arcs, for arrays of points and of pairs of pieces.
 
-Piece k of one `PieceArrays` is held against piece k of another.  Every extreme of the distance along a piece lies at
-one of a few fractions that have a formula: its ends, the feet of the other's ends and center, the crossings.  Where a
-formula has no answer the place is replaced by the piece's start, which harms nobody: a place is only a proposal,
+Piece k of one `PieceArrays` is paired with piece k of another.  Every extreme of the distance along a piece lies at
+one of a few fractions that have a formula: its ends, the feet of the other's ends and center, the crossings.  If a
+formula has no solution, the piece's start takes its place.  This does no harm: a fraction is only a candidate, and
 its distance is always measured.
 """
 
@@ -17,13 +17,13 @@ from core.geometry.piece_arrays import PieceArrays, at, by_kind, traveled
 
 
 def foot(pieces: PieceArrays, points: Points) -> Floats:
-    """(..., n) fraction at which each piece is nearest to its point of `points` (..., n)."""
+    """Return the (..., n) fractions at which each piece is nearest to its point of `points` (..., n)."""
     t: Floats = by_kind(pieces.arcs, _line_foot, _arc_foot, pieces, points)
     return t
 
 
 def distance(pieces: PieceArrays, points: Points) -> Floats:
-    """(..., n) least distance of each piece from its point of `points` (..., n), in millimeters."""
+    """Return the (..., n) least distances of each piece from its point of `points` (..., n), in millimeters."""
     apart: Floats = by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
     return apart
 
@@ -39,9 +39,9 @@ def _line_distance(line: PieceArrays, points: Points) -> Floats:
 
 
 def _line_share(line: PieceArrays, off: Points) -> Floats:
-    """Fractions at which lines are nearest to points `off` from their starts.
+    """Return the fractions at which lines are nearest to points at `off` from their starts.
 
-    What is so short that its square is 0 is a point.
+    A line so short that its squared length is 0 counts as a point.
     """
     square = line.length * line.length
     return _clipped((off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square))
@@ -62,13 +62,13 @@ def _arc_distance(arc: PieceArrays, points: Points) -> Floats:
 
 
 def on_line(pieces: PieceArrays, through: Points, unit: Points) -> Floats:
-    """(2, ..., n) fractions at which the pieces meet endless lines through points along unit vectors; nan for none."""
+    """Return the (2, ..., n) fractions at which the pieces meet endless lines through points along `unit`; else nan."""
     met: Floats = by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
     return met
 
 
 def on_circle(pieces: PieceArrays, center: Points, radius: Floats) -> Floats:
-    """(2, ..., n) fractions at which the pieces, lines prolonged, meet whole circles; nan for none."""
+    """Return the (2, ..., n) fractions at which the pieces, lines extended, meet whole circles; nan for none."""
     met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
     return met
 
@@ -99,8 +99,8 @@ def _arc_on_circle(arc: PieceArrays, center: Points, radius: Floats) -> Floats:
 
 
 def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
-    """Fractions at the two directions from the arc's center at an angle to `axis`, half of which has the sine squared
-    `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
+    """Return the fractions at the two directions from the arc's center that are at an angle a to either side of `axis`,
+    with `share` = sin(a / 2) squared: unlike cos(a), it stays accurate near a touch, where a is almost 0."""
     half = 2.0 * np.arcsin(np.sqrt(share))
     turned = axis * np.conj(arc.arm)
     middle = np.arctan2(turned.imag, turned.real) * arc.turn
@@ -108,15 +108,15 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
 
 
 def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    """(8, n) fractions of n pieces, among them every local least distance from the partner in `other`, also n."""
+    """Return (8, n) fractions of n pieces that include every local least distance from the n partners in `other`."""
     fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
     return _inside(fractions)
 
 
 def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    """(10, n) fractions among which every local greatest distance from the partner in `other` is found, ends left out.
+    """Return (10, n) fractions that include every local greatest distance from the partner in `other`, except at ends.
 
-    Besides the antipodes of the feet these are those of the points equally far from an arc's two ends.
+    They are the feet, their antipodes, and the points equally far from an arc partner's two ends.
     """
     even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
     opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
@@ -124,10 +124,10 @@ def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
 
 
 def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
-    """(10, n) fractions in rising order that part each piece where its distance from its partner may pass `reach`.
+    """Return (10, n) rising fractions that split each piece where its distance from its partner may pass `reach` (n,).
 
-    These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
-    sideways both ways, and the circles about its ends; and its own ends.
+    These are the piece's ends, and where it meets the outline of all points within `reach` of the partner: the partner
+    offset to both sides, and the circles about its ends.
     """
     fractions = np.empty((10, len(pieces)))
     fractions[0], fractions[1], fractions[2:] = 0.0, 1.0, _inside(_outline(pieces, other, reach))
@@ -136,7 +136,7 @@ def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Float
 
 
 def _outline(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
-    """(8, n) meetings with the circles about both ends, and with a line's two sides or an arc's two circles."""
+    """Return (8, n) fractions at the circles about both ends, and at a line's two offsets or an arc's two circles."""
     bent, ends = other.arcs, (other.start, other.end)
     arcs = np.count_nonzero(bent)
     if not arcs:
@@ -183,7 +183,7 @@ def _crossing_arc(pieces: PieceArrays, arc: PieceArrays) -> Floats:
 
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
-    """(4, n) fractions at the feet of the other's two ends and, both ways, of its center or along its normal."""
+    """Return (4, n) fractions: the feet of the other's two ends and, both ways, of its center or along its normal."""
     fractions: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
     return fractions
 
@@ -219,5 +219,5 @@ def _no_places(pieces: PieceArrays, _other: PieceArrays) -> Floats:
 
 
 def between(pieces: PieceArrays, other: PieceArrays, fractions: Floats) -> Floats:
-    """(k, n) distances of the points at `fractions` (k, n) of each piece from its partner in `other`."""
+    """Return the (k, n) distances of the points at `fractions` (k, n) of each piece from its partner in `other`."""
     return distance(other, at(pieces, fractions))

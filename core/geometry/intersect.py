@@ -1,7 +1,7 @@
-"""Where lines and arcs meet: many pairs of pieces at once, tangent and overlapping cases distinguished.
+"""This module finds where lines and arcs meet, for arrays of pairs, and tells tangent and overlapping pairs apart.
 
-Words: a pair meets CROSS where one piece passes through the other or ends on it (one or two points), TOUCH where
-they are tangent or lie end to end in one line, OVERLAP where they run along each other, APART else.
+Words: a pair CROSSes if one piece passes through the other or ends on it (one or two points), TOUCHes if the pieces
+are tangent or lie end to end in one line, OVERLAPs if they run along each other, and is APART otherwise.
 A point's `along` is its distance from the piece's start, measured on the piece.  Inside this module points
 are complex numbers: conj(u) v has the dot product as real and the cross product as imaginary part.
 """
@@ -20,9 +20,9 @@ from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, coordi
 from core.tolerance import JOINED, ON_PATH
 
 _ROOM: Final = 1e-6
-"""How much too large a sector is times the radius: the exact test comes after it."""
+"""Share of the radius by which the sector test is too generous; the exact test follows it."""
 _ANGLE_ROUNDING: Final = 1e-14
-"""How far a calculated angle may be from the true one, radians: a few last digits of a whole turn."""
+"""Largest rounding error of a calculated angle, radians: a few units in the last place of a full turn."""
 
 
 class Meeting(IntEnum):
@@ -39,7 +39,7 @@ class Meetings:
     """How k pairs of pieces a, b meet, and the p points where they do.
 
     `kinds` (k,) holds a `Meeting` for each pair.  `pair` (p,) is the row of each point's pair, `along_a` and
-    `along_b` (p,) its distance from the start of either piece, `rest_a` and `rest_b` (p,) that from their ends,
+    `along_b` (p,) its distance from the start of either piece, `rest_a` and `rest_b` (p,) its distance from their ends,
     `points` (p, 2) the point.  Points come in the order of pairs and, within a pair, as traveled on a; a
     touch that is nearly a crossing may have two.  Millimeters.  An OVERLAP has no points.
     """
@@ -54,7 +54,7 @@ class Meetings:
 
 
 class _Points(NamedTuple):
-    """p points in the order of their pairs: `Meetings` without its kinds."""
+    """p points in the order of their pairs: `Meetings` without the kinds."""
 
     pair: Rows
     along_a: Floats
@@ -65,19 +65,19 @@ class _Points(NamedTuple):
 
 
 _Solved = tuple[NDArray[np.int8], _Points]
-"""How each of k pairs meets, and the points where they do."""
+"""The kind of each of k pairs, and the points where they meet."""
 
 
 def meet(first: Path, a: Rows, second: Path, b: Rows) -> Meetings:
-    """How pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair; `meet_pieces` says by which rules."""
+    """Find how pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair, by the rules of `meet_pieces`."""
     return meet_pieces(pieces_of(first), a, pieces_of(second), b)
 
 
 def meet_pieces(first: Pieces, a: Rows, second: Pieces, b: Rows) -> Meetings:
-    """How pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair.
+    """Find how pieces a (k,) of `first` meet pieces b (k,) of `second`, pair by pair.
 
-    A point counts when it lies on both pieces within ON_PATH.  Lines are parallel when they part by no more
-    than ON_PATH over the longer of them; arcs are concentric when their centers are within ON_PATH; circles
+    A point counts if it lies on both pieces within ON_PATH.  Lines are parallel if they diverge by no more
+    than ON_PATH over the longer of them; arcs are concentric if their centers are within ON_PATH; circles
     and lines within ON_PATH of tangency touch.
     """
     kinds = np.zeros(len(a), np.int8)
@@ -95,7 +95,7 @@ def meet_pieces(first: Pieces, a: Rows, second: Pieces, b: Rows) -> Meetings:
 
 
 def _joined(parts: list[_Points]) -> _Points:
-    """All points in the order of their pairs."""
+    """Return all points in the order of their pairs."""
     if len(parts) == 1:
         return parts[0]
     if not parts:
@@ -107,14 +107,14 @@ def _joined(parts: list[_Points]) -> _Points:
 
 
 def _kinds(count: int, pair: Rows, touching: Flags) -> NDArray[np.int8]:
-    """CROSS or TOUCH for the pairs that have a point."""
+    """Return CROSS or TOUCH for the pairs that have a point, APART for the others."""
     kinds = np.zeros(count, np.int8)
     kinds[pair] = np.where(touching[pair], Meeting.TOUCH.value, Meeting.CROSS.value)
     return kinds
 
 
 def _lines(a: Pieces, b: Pieces) -> _Solved:
-    """Line with line: a.start + s (a.end - a.start) = b.start + t (b.end - b.start) by cross products."""
+    """Meet lines with lines: solve a.start + s (a.end - a.start) = b.start + t (b.end - b.start) by cross products."""
     span_a, span_b, between = a.end - a.start, b.end - b.start, b.start - a.start
     length_a, length_b = np.abs(span_a), np.abs(span_b)
     cross = (span_a.conj() * span_b).imag
@@ -135,7 +135,7 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
 
 
 def _parallel(a: Pieces, b: Pieces) -> _Solved:
-    """Parallel lines: those in one line overlap, or touch end to end."""
+    """Meet parallel lines: those in one line overlap, or touch end to end."""
     span, other = a.end - a.start, b.end - b.start
     length = np.abs(span)
     unit = span / length
@@ -152,7 +152,7 @@ def _parallel(a: Pieces, b: Pieces) -> _Solved:
 
 
 def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
-    """Line with arc: half the chord on either side of the foot of the arc's center."""
+    """Meet lines with arcs: half the chord on either side of the foot of the arc's center."""
     span, radius = line.end - line.start, np.abs(arc.start - arc.center)
     length = np.abs(span)
     unit = span / np.where(length == 0.0, 1.0, length)
@@ -177,7 +177,7 @@ def _arc_line(arc: Pieces, line: Pieces) -> _Solved:
 
 
 def _arcs(a: Pieces, b: Pieces) -> _Solved:
-    """Arc with arc: half the common chord by Heron's formula, which keeps its digits near tangency."""
+    """Meet arcs with arcs: half the common chord by Heron's formula, which stays accurate near tangency."""
     between, big, small = b.center - a.center, np.abs(a.start - a.center), np.abs(b.start - b.center)
     apart, total, differ = np.abs(between), big + small, big - small
     concentric = apart <= ON_PATH
@@ -201,9 +201,9 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
 
 
 def _in_sector(point: Points, arc: Pieces) -> Flags:
-    """Which points may lie on their arc: between the rays to its ends by cross products, with room for rounding.
+    """True for points that may lie on their arc: between the rays to its ends by cross products, with some slack.
 
-    Of an arc of half a turn or more, and of one whose ends are nearly one point, those past either ray.
+    For an arc of half a turn or more, or with ends that are nearly one point, it is enough to be past either ray.
     """
     first, last, radial = arc.start - arc.center, arc.end - arc.center, point - arc.center
     room = _ROOM * np.maximum(np.abs(first), 1.0)
@@ -214,10 +214,10 @@ def _in_sector(point: Points, arc: Pieces) -> Flags:
 
 
 def _half_chords(half: Floats, room: Floats) -> tuple[Rows, Floats]:
-    """The pairs with a common chord, twice in a row, and its two halves, the first below 0.
+    """Return the pairs with a common chord, each twice in a row, and the signed halves of it, the negative one first.
 
-    Halves within JOINED make one point: the foot between them, once, free of rounding.  `room` is what the pair is
-    short of tangency; below 0 there is no chord.
+    Halves no longer than JOINED make one point, the foot between them: that pair comes once, with 0.  `room` is how far
+    the pair overlaps beyond tangency; below -ON_PATH there is no chord.
     """
     rows = (room >= -ON_PATH).nonzero()[0]
     pair = np.repeat(rows, np.where(half[rows] > JOINED, 2, 1))
@@ -227,18 +227,18 @@ def _half_chords(half: Floats, room: Floats) -> tuple[Rows, Floats]:
 
 
 def _overlap(a: Pieces, b: Pieces) -> Flags:
-    """Do arcs of one circle share more than their ends?"""
+    """True if arcs of one circle share more than their ends."""
     return _inside(a, _middle(b)) | _inside(b, _middle(a)) | _inside(a, b.start) | _inside(a, b.end)
 
 
 def _middle(arc: Pieces) -> Points:
-    """The point half way along each arc."""
+    """Return the point halfway along each arc."""
     middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
     return middle
 
 
 def _inside(arc: Pieces, point: Points) -> Flags:
-    """Does a point of the arc's circle lie on the arc, off its ends?  The angle's rounding grows with the radius."""
+    """True if a point of the arc's circle is on the arc, off its ends.  The angle's rounding scales with the radius."""
     radius = np.abs(arc.start - arc.center)
     run, rest = _along_arc(point, arc, radius)
     room = np.maximum(ON_PATH, _ANGLE_ROUNDING * radius)
@@ -246,7 +246,7 @@ def _inside(arc: Pieces, point: Points) -> Flags:
 
 
 def _turned(arc: Pieces, point: Points) -> Floats:
-    """The angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
+    """Return the angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
     across = (arc.start - arc.center).conj() * (point - arc.center)
     angle = np.arctan2(across.imag, across.real) * arc.turn
     turned: Floats = np.where(angle < 0.0, angle + tau, angle)
@@ -254,10 +254,10 @@ def _turned(arc: Pieces, point: Points) -> Floats:
 
 
 def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:
-    """Distance on each arc from its start to a point of its circle, and from there to its end.
+    """Return the distance on each arc from its start to a point of its circle, and from there to its end.
 
-    A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other past
-    the end.
+    A point off the arc counts from the nearer end: the first distance is negative before the start, the second one
+    past the end.
     """
     run, length, whole = _turned(arc, point) * radius, swept(arc) * radius, tau * radius
     run = np.where((run > length) & (whole - run < run - length), run - whole, run)
@@ -269,14 +269,14 @@ def _within(along: Floats, length: Floats) -> Flags:
 
 
 def _on_both(points: _Points) -> _Points:
-    """The points that lie on both pieces."""
+    """Return the points that lie on both pieces."""
     least = np.minimum(np.minimum(points.along_a, points.along_b), np.minimum(points.rest_a, points.rest_b))
     on = least >= -ON_PATH
     return _Points._make(column[on] for column in points)
 
 
 def _as_traveled(points: _Points) -> _Points:
-    """Put two points of a pair in the order in which a is traveled."""
+    """Put the two points of a pair in the order in which a is traveled."""
     pair, along = points.pair, points.along_a
     swap = ((pair[1:] == pair[:-1]) & (along[1:] < along[:-1])).nonzero()[0]
     for column in points[1:]:

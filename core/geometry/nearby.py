@@ -249,7 +249,7 @@ def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple
 
 
 def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[CoarseChords, Rows]:
-    """Return chords of the pieces and the row of each chord's piece; pieces longer than `typical` are split into at most
+    """Return chords of the pieces and the row of each chord's piece; those longer than `typical` are split into at most
     `most` extra parts in all."""
     length = max(typical, float(pieces.length.sum()) / most)
     counts = np.ones(len(pieces), np.intp)

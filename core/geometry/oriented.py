@@ -1,9 +1,9 @@
-"""Oriented lines and circles: where two of them meet or touch, every answer, in an order that stays.
+"""Oriented lines and circles: every point where two of them meet or touch, in a fixed order.
 
-A contour is traveled, so each line and circle of it has a sense.  A line of heading t has the left normal
+A contour is traveled, so each of its lines and circles has a direction.  A line of heading t has the left normal
 n = (-sin t, cos t) and the points X with n.X = p.  A circle has a center c and a signed radius rho, positive
-counterclockwise; the point of it that is traveled in direction t is c - rho n.  A point is a circle of rho 0.
-Two of them touch without doubling back where n.c - p = rho (line and circle) or |c - c'| = |rho - rho'| (two
+counterclockwise; travel has heading t at its point c - rho n.  A point is a circle of rho 0.
+Two of them touch without doubling back if n.c - p = rho (line and circle) or |c - c'| = |rho - rho'| (two
 circles): one equation for every case.  Millimeters and radians.
 """
 
@@ -29,7 +29,7 @@ class OrientedLine:
         return normal(self.heading)
 
     def shifted(self, dx: float, dy: float) -> OrientedLine:
-        """The line moved by a vector."""
+        """Return the line moved by a vector."""
         nx, ny = self.normal
         return OrientedLine(self.heading, self.offset + nx * dx + ny * dy)
 
@@ -42,7 +42,7 @@ class Circle:
     radius: float
 
     def shifted(self, dx: float, dy: float) -> Circle:
-        """The circle moved by a vector."""
+        """Return the circle moved by a vector."""
         return Circle((self.center[0] + dx, self.center[1] + dy), self.radius)
 
 
@@ -52,10 +52,10 @@ Locus = OrientedLine | Circle
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """The points two loci share: none, one or two; `grazing` where two have become one.
+    """The points that two loci share: none, one or two; `grazing` if two have merged into one.
 
-    `coincident`: both are the same; `apart` is by how much they miss each other, in millimeters.
-    """
+    `coincident`: both are the same.  Without points `apart` tells, in millimeters, the distance between parallel lines,
+    of a line from a circle's center, or between two centers."""
 
     points: tuple[Point, ...] = ()
     grazing: bool = False
@@ -64,26 +64,26 @@ class Meeting:
 
 
 def direction(heading: float) -> Point:
-    """The unit vector of a heading."""
+    """Return the unit vector of a heading."""
     return cos(heading), sin(heading)
 
 
 def normal(heading: float) -> Point:
-    """The unit vector to the left of a heading."""
+    """Return the unit vector to the left of a heading."""
     return -sin(heading), cos(heading)
 
 
 def line_through(point: Point, heading: float) -> OrientedLine:
-    """The line of a heading through a point."""
+    """Return the line of a heading through a point."""
     nx, ny = normal(heading)
     return OrientedLine(heading, nx * point[0] + ny * point[1])
 
 
 def meeting(first: Locus, second: Locus) -> Meeting:
-    """What two loci share.
+    """Find the points that two loci share.
 
-    A line and a circle: first along the line's heading; two circles: left of the way from the first center to the
-    second."""
+    The first point of a line and a circle comes first along the line; that of two circles is on the left, seen from the
+    first center to the second."""
     if isinstance(first, OrientedLine):
         return _lines(first, second) if isinstance(second, OrientedLine) else _line_circle(first, second)
     return _line_circle(second, first) if isinstance(second, OrientedLine) else _circles(first, second)
@@ -131,10 +131,10 @@ def _circles(first: Circle, second: Circle) -> Meeting:
 
 
 def headings_at_distances(first: Point, r: float, second: Point, s: float) -> tuple[tuple[float, ...], bool]:
-    """The headings of lines with n.first - p = r and n.second - p = s, and whether two have become one.
+    """Find the headings of lines with n.first - p = r and n.second - p = s; the flag is True if two merged into one.
 
-    n.(second - first) = s - r.  First the line that runs from the first point's foot to the second's, then the one
-    that runs the other way.  None where the points are nearer than the distances differ.
+    n.(second - first) = s - r.  The first heading runs from the first point's foot to the second's, the second one
+    the other way.  There is none if the points are closer together than the distances differ.
     """
     dx, dy = second[0] - first[0], second[1] - first[1]
     between, rise = hypot(dx, dy), s - r
@@ -149,7 +149,7 @@ def headings_at_distances(first: Point, r: float, second: Point, s: float) -> tu
 
 
 def touch_point(first: Point, rho: float, second: Point, sigma: float) -> tuple[Point, float] | None:
-    """Where a circle touches another traveled the same way, and the heading there; None for equal circles.
+    """Find where a circle touches another with the same direction of travel, and the heading there; None if equal.
 
     c - rho n = c' - sigma n, so that n = (c - c') / (rho - sigma).
     """

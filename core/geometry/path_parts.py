@@ -1,4 +1,4 @@
-"""Path parts: the parts of a contour between two of its points each."""
+"""Path parts: parts of a contour, each between two of its points."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.geometry.piece import Piece, Point
 
 
 class PartEnds(NamedTuple):
-    """k stretches (k,): the first segment of each and the point on it, its last segment and the point on that.
+    """k stretches (k,): the first segment of each and the start point on it, its last segment and the end point on it.
 
     Points are complex numbers.
     """
@@ -25,9 +25,9 @@ class PartEnds(NamedTuple):
 
 
 class PathParts(NamedTuple):
-    """Parts of a path one after the other, as one path: its pieces where `in_part` (n,) is True; the others join them.
+    """Parts of a path, strung together as one path: `in_part` (n,) marks their pieces; the other pieces link the parts.
 
-    A hundred little paths take longer to make than all that is done with them.
+    Making a hundred little paths would take longer than all the work on them.
     """
 
     path: Path
@@ -35,7 +35,7 @@ class PathParts(NamedTuple):
 
     @property
     def paths(self) -> list[Path]:
-        """Each part by itself."""
+        """Each part as a path of its own."""
         edges = np.flatnonzero(np.diff(self.in_part, prepend=False, append=False)).reshape(-1, 2)
         return [self.path.part(first, last) for first, last in edges.tolist()]
 
@@ -44,16 +44,16 @@ NO_PARTS: Final = PathParts(EMPTY, np.empty(0, np.bool_))
 
 
 def parts_between(surface: Path, wanted: PartEnds) -> PathParts:
-    """The parts of a surface from a point on one segment to a point on another, without those of unknown segments.
+    """Return the parts of a surface between the `wanted` ends; those on unknown segments are left out.
 
-    One runs past a closed contour's start if its last segment lies before its first.
+    A part whose last segment lies before its first one runs past a closed contour's start.
     """
     if not len(surface):
         return NO_PARTS
     begins, lasts, wanted = _rows(surface, wanted)
     if not len(begins):
         return NO_PARTS
-    # rows of points, one more than of pieces: after the last piece of each stretch its end
+    # rows of points, one more than of pieces: the end follows the last piece of each stretch
     counts = _steps(surface, begins, lasts, wanted) + 2
     bounds = counts.cumsum()
     heads, tails = bounds - counts, bounds - 1
@@ -70,7 +70,7 @@ def parts_between(surface: Path, wanted: PartEnds) -> PathParts:
 
 
 def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:
-    """Single pieces of a path, by their rows, each a part by itself."""
+    """Return the pieces of a path in `rows`, each as a part of its own."""
     if not len(rows):
         return NO_PARTS
     given, points = as_complex(path.points), np.empty(2 * len(rows), np.complex128)
@@ -82,7 +82,7 @@ def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:
 
 
 def _rows(surface: Path, wanted: PartEnds) -> tuple[Rows, Rows, PartEnds]:
-    """Of stretches on known segments the first segment's first row and the last one's last row, and their ends."""
+    """Return the first row of each first segment, the last row of each last one, and the ends; known segments only."""
     numbers = surface.numbers
     order = numbers.argsort(kind="stable")
     ranked = numbers[order]
@@ -95,11 +95,11 @@ def _rows(surface: Path, wanted: PartEnds) -> tuple[Rows, Rows, PartEnds]:
 
 
 def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: PartEnds) -> Rows:
-    """Rows from a point on one row to a point on another, or all around to the same one."""
+    """Return the number of rows from each start to its end; a full lap if the end is before the start on one row."""
     steps: Rows = (lasts - begins) % len(surface)
     for row in (begins == lasts).nonzero()[0].tolist():
         piece, start, end = surface[int(begins[row])], _point(wanted.start[row]), _point(wanted.end[row])
-        # from its start back to its start an arc is a full turn: what begins there ends after that on any piece
+        # a stretch from the piece's start ends after it: `_before` would take an arc from start to start for a full turn
         if start != piece.start and _before(piece, end, start):
             steps[row] += len(surface)
     return steps
@@ -110,5 +110,5 @@ def _point(place: np.complex128) -> Point:
 
 
 def _before(piece: Piece, point: Point, other: Point) -> bool:
-    """Is `point` passed before `other` on this piece?"""
+    """True if `point` comes before `other` on this piece."""
     return replace(piece, end=point).length < replace(piece, end=other).length

@@ -1,7 +1,7 @@
-"""Single lines and arcs as plain numbers: what a person types and what a drawing gives.
+"""Pieces: single lines and arcs as plain numbers, as a person types them and a drawing dimensions them.
 
-A point is a pair (x, y) in millimeters.  This module and `construct` need no numpy, so that a form can
-be solved and shown before it is loaded; whole paths are `core.geometry.path.Path`.
+A point is a pair (x, y) in millimeters.  This module and `construct` do not need numpy, so that a form can
+be solved and shown before numpy is loaded; whole paths are `core.geometry.path.Path`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Final
 Point = tuple[float, float]
 
 SLIVER: Final = 1e-9
-"""Radians by which rounding may carry an arc's end past its start: such an arc is empty, not a full circle."""
+"""Radians: an arc that is short of a full turn by less is an empty arc with rounding, not a full circle."""
 
 
 class Turn(IntEnum):
@@ -38,12 +38,12 @@ class Line:
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
 
     def point_at(self, part: float) -> Point:
-        """The point after a part of the length, 0 to 1."""
+        """Return the point after a part of the length, 0 to 1."""
         (x0, y0), (x1, y1) = self.start, self.end
         return x0 + part * (x1 - x0), y0 + part * (y1 - y0)
 
     def direction_at(self, _at: Point) -> Point:
-        """The unit vector of travel, at any point of a line that has a length."""
+        """Return the unit vector of travel, the same at any point; the line must have a length."""
         size = self.length
         return (self.end[0] - self.start[0]) / size, (self.end[1] - self.start[1]) / size
 
@@ -78,13 +78,13 @@ class Arc:
         return self.radius * abs(self.sweep)
 
     def point_at(self, part: float) -> Point:
-        """The point after a part of the length, 0 to 1."""
+        """Return the point after a part of the length, 0 to 1."""
         (cx, cy), angle = self.center, part * self.sweep
         dx, dy = self.start[0] - cx, self.start[1] - cy
         return cx + dx * cos(angle) - dy * sin(angle), cy + dx * sin(angle) + dy * cos(angle)
 
     def direction_at(self, at: Point) -> Point:
-        """The unit vector of travel at one of the arc's points."""
+        """Return the unit vector of travel at one of the arc's points."""
         dx, dy = at[0] - self.center[0], at[1] - self.center[1]
         size = hypot(dx, dy)
         return -dy / size * self.turn, dx / size * self.turn

@@ -227,7 +227,7 @@ def traveled(arc: PieceArrays, directions: Points) -> Floats:
 
 
 def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
-    """Return the piece and the fraction of the places `s` along the whole path; at a joint the piece that begins there."""
+    """Return piece and fraction at the lengths `s` along the whole path; at a joint the piece that begins there."""
     index = stations[1:-1].searchsorted(s, side="right")
     length = pieces.length.take(index)
     t = (s - stations.take(index)) / np.where(length == 0.0, 1.0, length)
