@@ -99,7 +99,7 @@ def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: PartEnds) -> Rows:
     steps: Rows = (lasts - begins) % len(surface)
     for row in (begins == lasts).nonzero()[0].tolist():
         piece, start, end = surface[int(begins[row])], _point(wanted.start[row]), _point(wanted.end[row])
-        # a stretch from the piece's start ends after it: `_before` would take an arc from start to start for a full turn
+        # no stretch ends before a piece's start; `_before` would take an arc from start to start for a full turn
         if start != piece.start and _before(piece, end, start):
             steps[row] += len(surface)
     return steps

@@ -1,7 +1,7 @@
 """Air cuts, and pieces that run along the surface against its direction.
 
-Neither is a gouge.  Lead moves always cut air; in a path read from elsewhere a stretch in the air that is no lead move,
-or a piece traveled backwards, is a mistake worth seeing.
+Neither is a gouge.  Lead moves always cut air; in a path read from a file, any other air cut, or a piece traveled
+backwards, is a mistake worth seeing.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, round
 from core.verify.uncut import POINT, gaps_of
 
 PARALLEL: Final = 1e-6
-"""Sine of the angle up to which a move and the wall it touches run the same way."""
+"""Sine of the largest angle at which a move and the wall it touches count as parallel."""
 
 
 @dataclass(frozen=True, slots=True)
 class AirCut:
-    """A stretch of the path farther from the surface than the radius: numbers and places of its ends, its length.
+    """A stretch of the path farther from the surface than the radius: numbers and points of its ends, its length.
 
-    `beyond` is how much farther than the radius it gets, at `farthest`.
+    `beyond` is its largest distance less the radius, reached at `farthest`.
     """
 
     first_number: float
@@ -41,16 +41,16 @@ class AirCut:
 
 
 def loose(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Rows of pieces that no single surface piece is a radius or less from at both ends and in the middle."""
+    """Return the rows of pieces without a single wall that is within the radius of both ends and the middle."""
     held = np.zeros(len(pairs.pieces), np.bool_)
     held[pairs.i[keeping(pairs, radius)]] = True
     return tuple(pairs.pieces.rows[~held].tolist())
 
 
 def air_cuts(surface: Path, radius: float, center: Path) -> tuple[AirCut, ...]:
-    """Where `center` leaves the surface by more than the radius (millimeters), in its order.
+    """Return where `center` is farther from the surface than the radius (millimeters), in the order of travel.
 
-    Nothing is known of a path that cannot be judged.
+    A path that cannot be judged has no air cuts.
     """
     if not (len(surface) and len(center) and measurable(radius, surface, center)):
         return ()
@@ -62,7 +62,7 @@ def air_cuts(surface: Path, radius: float, center: Path) -> tuple[AirCut, ...]:
 
 
 def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
-    """The path is to the surface what the surface is to the path: what does not reach it cuts air."""
+    """Use the search for uncut surface with path and surface swapped: path that does not reach the surface cuts air."""
     whole = np.zeros(len(pairs.pieces), np.bool_)
     whole[pairs.i[along(pairs, radius + pairs.grant)]] = True
     gaps = gaps_of(pairs, whole, radius)
@@ -80,15 +80,15 @@ def _point(place: complex) -> Point:
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Rows of pieces that touch walls along more than a point, all of them against the walls' direction.
+    """Return the rows of pieces that touch walls along more than a point, always against the walls' direction.
 
-    The walls nearest to a piece are asked: behind them a piece that gouges may run along others either way.
+    Only the walls nearest to a piece count: a piece that gouges may run along others behind them either way.
     """
     return tuple(pairs.pieces.rows[_ways(pairs, radius) < 0].tolist())
 
 
 def _ways(pairs: Pairs, radius: float) -> Rows:
-    """(n,) +1 for pieces that run the way of some wall they touch, -1 for those that run against all, else 0."""
+    """Return (n,) +1 for pieces that run with some wall they touch, -1 if they run against all of them, else 0."""
     touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
     way = np.zeros(len(touching), np.intp)
     for block in blocks(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
@@ -100,7 +100,7 @@ def _ways(pairs: Pairs, radius: float) -> Rows:
 
 
 def _way(pairs: Pairs, radius: float) -> Rows:
-    """+1 where a piece and the wall it touches run the same way beside each other, -1 against each other, else 0."""
+    """Return +1 if a piece and the wall it touches run side by side in the same direction, -1 if opposite, else 0."""
     limit = radius + pairs.grant
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
     feet = foot(wall, np.array((piece.start, piece.end)))
@@ -121,7 +121,7 @@ def _way(pairs: Pairs, radius: float) -> Rows:
 
 
 def _way_in_the_middle(pairs: Pairs, radius: float) -> Rows:
-    """The same where the middle of a piece is a radius from its wall and parallel to it there."""
+    """Return the same for pieces whose middle is a radius from the wall and parallel to it there."""
     piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
     half = np.full(len(pairs.i), 0.5)
     middle = at(piece, half)

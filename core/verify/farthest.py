@@ -1,10 +1,10 @@
-"""Farthest: where along stretches of one path the distance to another path is largest.
+"""Farthest finds where along stretches of one path the distance to another path is largest.
 
-The distance to a path is the least of the distances to its pieces, so along a span it is bounded from above by
-the largest distance to any one of them, which has a formula, and from below by its value anywhere.  A span
-whose bound exceeds the best value known on its stretch is divided where its two ends' nearest pieces are
-equally far, or where the one that is nearest to both is farthest, until both agree within `FINE`: if no other piece is
-nearer there, that is at once.
+The distance to a path is the least of the distances to its pieces.  Along a span, the largest distance to any one
+piece, which has a formula, is therefore an upper bound, and the distance at any place a lower bound.  A span whose
+upper bound exceeds the best value known on its stretch is divided where the nearest pieces of its two ends are
+equally far, or where a piece that is nearest to both ends is farthest, until both bounds agree within `FINE`.  If no
+other piece is nearer there, this takes one step.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from core.verify.pairs import Pairs, nearest
 from core.verify.stretches import Stretches
 
 FINE: Final = 1e-8
-"""Millimeters between the bounds of a largest distance at which it counts as known."""
+"""Millimeters: a largest distance counts as known once its bounds are this close."""
 
 BAND_PIECES: Final = 1_000
-"""Pieces of stretches that are worked out at a time."""
+"""Pieces of stretches that are examined at a time."""
 
 MAX_DIVISIONS: Final = 100
-"""Divisions after which doubles cannot part a span of any size further."""
+"""Divisions after which doubles cannot split a span of any size further."""
 
 SECTIONS: Final = np.linspace(0.0, 1.0, 17)[:, None]
 """(17, 1) shares of a span at which both nearest pieces are compared."""
@@ -40,13 +40,13 @@ NARROWINGS: Final = 3
 """Times that a span is narrowed to the section in which the other piece becomes the nearer one."""
 
 LEAST_SHARE: Final = 1e-3
-"""Share of a span nearer than which to its ends it is not divided."""
+"""A span is not divided closer to its ends than this share of it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
-    """(k,) for each stretch the place, in length traveled, that is farthest from the other path, its point, how far it
-    is, and the first of the other path's pieces that are nearest to it."""
+    """(k,) for each stretch the place, in length traveled, that is farthest from the other path, its point, distance
+    and the first piece of the other path nearest to it."""
 
     place: Floats
     point: Points
@@ -56,8 +56,8 @@ class Farthest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Spans:
-    """m parts of single pieces, `index`, each of stretch `owner`: fractions, distances and nearest pieces at both ends
-    (2, m)."""
+    """m parts of single pieces `index`, each within stretch `owner`; (2, m) fractions, distances and nearest pieces at
+    both ends."""
 
     owner: Rows
     index: Rows
@@ -70,11 +70,11 @@ class _Spans:
 
 
 def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
-    """The largest distance of each stretch of the pieces from the others, within FINE.
+    """Find the largest distance of each stretch of the pieces from the others, within FINE.
 
-    No distance is larger than `most`: a place as far as that is the farthest.
+    No distance is larger than `most`, so the search of a stretch ends at a place that far away.
     """
-    # stretches know nothing of each other: some at a time bound the memory in use
+    # stretches are independent of each other: some at a time bound the memory in use
     index = pairs.stations[1:-1].searchsorted(np.array((stretches.first, stretches.last)))
     begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
     edges = [0, *begins[1:], len(stretches)]
@@ -98,7 +98,7 @@ def _farthest(pairs: Pairs, stretches: Stretches, most: float) -> Farthest:
 
 
 def _look(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, Rows]:
-    """Points of the pieces, their distances from the other path and the first piece each is nearest to."""
+    """Return points of the pieces, their distances from the other path and the first piece nearest to each."""
     points = at(pairs.pieces.take(index), t)
     near = nearest(pairs, index, points)
     first = near.first
@@ -106,7 +106,7 @@ def _look(pairs: Pairs, index: Rows, t: Floats) -> tuple[Points, Floats, Rows]:
 
 
 def _begin(pairs: Pairs, stretches: Stretches) -> tuple[_Spans, Farthest]:
-    """Stretches parted at the joints within them, and the best of all ends of the parts."""
+    """Split the stretches at the joints within them; return the parts and the farthest of their ends."""
     parts = stretches.cut(pairs.stations[1:-1])
     owner, index = stretches.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
     length = np.where(pairs.pieces.length[index] == 0.0, 1.0, pairs.pieces.length[index])
@@ -122,7 +122,7 @@ def _begin(pairs: Pairs, stretches: Stretches) -> tuple[_Spans, Farthest]:
 def _better(
     pairs: Pairs, best: Farthest, owner: Rows, index: Rows, t: Floats, seen: tuple[Points, Floats, Rows]
 ) -> Farthest:
-    """`best` with the places `t` on pieces `index` of stretches `owner` where these are farther."""
+    """Return `best`, updated with the places `t` on pieces `index` of stretches `owner` that are farther."""
     points, apart, near = seen
     s = pairs.stations[index] + t * pairs.pieces.length[index]
     # of each stretch the largest comes first, and of equal ones the earliest
@@ -136,8 +136,8 @@ def _better(
 
 
 def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
-    """What the distance cannot exceed on each span, and the share of it where the piece nearest to its beginning may be
-    farthest, any where that is at an end."""
+    """Return an upper bound of the distance on each span, and the share of it where the piece nearest to its beginning
+    may be farthest, arbitrary if that is at an end."""
     t, count = spans.t, len(spans.index)
     piece, near = pairs.pieces.take(np.tile(spans.index, 2)), pairs.others.take(spans.near.ravel())
     across = distance(near, at(piece, t[::-1].ravel()))
@@ -147,8 +147,8 @@ def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:
 
 
 def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floats, Floats]:
-    """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest, and the
-    place, if there is one."""
+    """Return the largest distance to one nearest piece among the extremes inside the span `t` (2, m), and its fraction;
+    0 and the span's start without an extreme."""
     fractions = farthest_places(piece, near)
     inside = (fractions > t[0]) & (fractions < t[1])
     if not inside.any():
@@ -159,7 +159,7 @@ def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floa
 
 
 def _shares(pairs: Pairs, spans: _Spans, peaks: Floats) -> Floats:
-    """Where to divide each span, kept off both ends: at its peak if one piece is nearest to both."""
+    """Return where to divide each span, at its peak if one piece is nearest to both ends, never close to an end."""
     share, several = peaks, (spans.near[0] != spans.near[1]).nonzero()[0]
     if len(several):
         share[several] = _equally_far(pairs, spans.take(several))
@@ -168,7 +168,7 @@ def _shares(pairs: Pairs, spans: _Spans, peaks: Floats) -> Floats:
 
 
 def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
-    """The share of each span at which the nearest pieces of its two ends are equally far."""
+    """Return the share of each span at which the nearest pieces of its two ends are equally far."""
     piece, (first_wall, last_wall) = pairs.pieces.take(spans.index), (pairs.others.take(near) for near in spans.near)
     begin, end = spans.t
     low, high, each = begin, end, np.arange(len(begin))
@@ -184,7 +184,7 @@ def _equally_far(pairs: Pairs, spans: _Spans) -> Floats:
 
 
 def _divide(pairs: Pairs, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:
-    """Every span in two at `share` of its length, and the best of the places between."""
+    """Divide every span in two at `share` of its length; return the halves and `best`, updated with the new places."""
     t = spans.t[0] + share * (spans.t[1] - spans.t[0])
     points, apart, near = _look(pairs, spans.index, t)
     halves = [

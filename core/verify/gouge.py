@@ -1,4 +1,4 @@
-"""Gouge: the stretches of a center path nearer to the surface than the radius, each with its deepest point."""
+"""Gouges: the stretches of a center path nearer to the surface than the radius, each with its deepest point."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union,
 from core.verify.verdict import Approach, Gouge
 
 PAIRS_AT_A_TIME: Final = 2_500
-"""Pairs that gouge of which the parts and places are held at a time."""
+"""Gouging pairs that are processed at a time."""
 
 LOOP_GAP: Final = 1.0
-"""Millimeters between two loops, far more than ends that touch miss each other by."""
+"""Millimeters inserted between two loops, far more than the rounding between ends that touch."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gouging:
-    """k stretches of the center path that gouge, and of each the deepest place, its distance and its pair (i, j)."""
+    """k stretches of the center path that gouge, and for each the deepest place, its distance and its pair (i, j)."""
 
     stretches: Stretches
     place: Floats
@@ -40,9 +40,9 @@ class Gouging:
 
 
 def gouging(pairs: Pairs, limit: float) -> Gouging:
-    """Where the center path is nearer to the surface than the limit, less what uneven arcs leave open.
+    """Find where the center path is nearer to the surface than the limit, less the slack of uneven arcs.
 
-    Raises NotMeasurableError where a distance is not a number.
+    Raises NotMeasurableError if a distance is not a number.
     """
     limits = limit - uneven_slack(pairs.pieces, pairs.i, pairs.others, pairs.j)
     near = (pairs.least < limits).nonzero()[0]
@@ -57,20 +57,20 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
 
 
 def _some_at_a_time(rows: Rows) -> Iterator[Rows]:
-    """The rows in order, so many at a time that what is worked out for them stays small."""
+    """Yield the rows in order, PAIRS_AT_A_TIME at a time, which bounds the memory in use."""
     for first in range(0, len(rows), PAIRS_AT_A_TIME):
         yield rows[first : first + PAIRS_AT_A_TIME]
 
 
 def _near_parts(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
-    """What of the pieces of these pairs is nearer than the limit, and the places where it may be nearest."""
+    """Return the parts of these pairs' pieces nearer than the limit, and the places where they may be nearest."""
     spots, apart, pair = approaches(pairs, rows, limit)
     return joined((within(pairs, rows, limit), Parts(spots, spots, spots, apart, pair)))
 
 
 def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:
-    """Places, in length traveled, where the pieces of these pairs may be nearest to the others and are nearer than
-    `limit` (m,), how near they are there, and whose pair each place is."""
+    """Return the places, in length traveled, where these pairs' pieces may be nearest to the others, if nearer than
+    `limit` (m,); also the distance and the pair of each place."""
     batches = [np.zeros((3, 0))]
     for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
         pair = rows[block]
@@ -88,7 +88,7 @@ def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats,
 
 
 def closest(pairs: Pairs, surface: Path) -> Approach | None:
-    """Where the path comes nearest to the surface; places that differ by no more than GOUGE are equally near."""
+    """Find where the path comes nearest to the surface; distances that differ by no more than GOUGE count as equal."""
     if not len(pairs.i):
         return None
     least = pairs.least.min()
@@ -105,15 +105,15 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
 
 
 def _loops(moves: PieceArrays) -> Rows:
-    """(n,) which loop each move is part of: one begins wherever a move does not begin at the end of the one before."""
+    """Return (n,) the loop that each move belongs to; a loop begins where a move does not join the one before it."""
     loops: Rows = np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
     return loops
 
 
 def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
-    """Parts joined to stretches, each with the least distance measured in it; of equal ones that of the first pair.
+    """Join the parts to stretches, each with the least distance measured in it; the first pair wins a tie.
 
-    Meanwhile they are moved on by the `gaps` (n,) of their pieces, so that those of two loops do not touch.
+    For the joining, parts move on by the `gaps` (n,) of their pieces, so that those of two loops do not touch.
     """
     gap = gaps[pairs.i[parts.pair]]
     stretches = union(parts.first + gap, parts.last + gap)
@@ -125,7 +125,7 @@ def _deepest(pairs: Pairs, parts: Parts, gaps: Floats) -> Parts:
 
 
 def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
-    """The stretches as `Gouge`s, deepest first; `numbers` are those of the center path's pieces."""
+    """Return the stretches as `Gouge`s, deepest first; `numbers` are those of the center path's pieces."""
     if not len(hits):
         return ()
     piece, wall = pairs.pieces.take(hits.i), pairs.others.take(hits.j)
@@ -153,12 +153,12 @@ def gouges(hits: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: F
     for first, last in reversed(_over_seams(hits, pairs)):
         less, deeper = sorted((every.pop(last), every[first]), key=lambda gouge: gouge.depth)
         every[first] = replace(deeper, extent=deeper.extent + less.extent)
-    # of equal ones the earliest along the path comes first, whatever the last digits say
+    # among equally deep gouges the earliest along the path comes first, whatever the last digits say
     return tuple(sorted(every, key=lambda gouge: -round(gouge.depth / ON_PATH)))
 
 
 def _over_seams(hits: Gouging, pairs: Pairs) -> list[tuple[int, int]]:
-    """The first and the last stretch of each loop that ends where it begins and gouges there: these two are one."""
+    """Return the first and the last stretch of each closed loop that gouges across its start: these two are one."""
     moves, stations, loops = pairs.pieces, pairs.stations, _loops(pairs.pieces)
     owner = loops[hits.i]
     first = changes(owner)

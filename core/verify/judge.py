@@ -1,4 +1,4 @@
-"""Judge: what a center path, whoever made it, does to a surface."""
+"""Judge: decide what a center path from any source does to a surface."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def judge(
     *,
     leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
-    """What a cutter of this radius does whose center runs along `center`, lead moves included, beside `surface`.
+    """Judge what a cutter of this radius does to `surface` when its center runs along `center`, lead moves included.
 
-    Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
-    uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
-    or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
-    `arc_tolerance` (mm), or at all with both ends on one ray from the center, give a verdict that is not `judged` and
-    so never clean.  `leads` says what of the surface's ends may belong to an over-run.
+    Every distance between lines and arcs is exact.  A path nearer than the radius by no more than GOUGE plus the slack
+    of uneven arcs does not gouge: that is rounding.  Joined paths never raise an error.  A verdict is not `judged`, and
+    so never clean, if a coordinate or the radius is not finite or larger than LARGEST, or if an arc's radii at its
+    two ends differ by more than `arc_tolerance` (mm), or at all with both ends on one ray from the center.
+    `leads` says which parts of the surface's ends may belong to an over-run.
     """
     return judge_together(surface, side, radius, (center,), arc_tolerance, leads=leads)
 
@@ -49,7 +49,7 @@ def judge_together(
     *,
     leads: Leads = Leads.SEGMENTS,
 ) -> Verdict:
-    """The verdict on several center paths that are all cut, such as the loops of one contour.
+    """Judge several center paths that are all cut, such as the loops of one contour.
 
     A gouge's `path_piece` counts the pieces of all of them, in order.
     """
@@ -63,7 +63,7 @@ def judge_together(
 def judge_prepared(
     surface: Surface, radius: float, centers: Sequence[Path], arc_tolerance: float = ARC_RADII
 ) -> Verdict:
-    """The verdict of `judge_together` on a surface that is prepared."""
+    """Judge like `judge_together`, on a surface that is already prepared."""
     if not measurable(radius, *centers):
         return _unjudged(radius)
     with np.errstate(all="ignore"):
@@ -110,7 +110,7 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         over_run=surface.over_run,
         radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )
-    # the pairs of the walls need the room of those of the moves
+    # free the memory of the moves' pairs before those of the walls are made
     del pairs
     left = uncut(walls, moves, covered, radius, surface.path, side, closed=surface.closed)
     return replace(verdict, uncut=left)

@@ -1,4 +1,4 @@
-"""Pairs: the pieces of two paths that are nearest to each other somewhere, and the exact distance of each pair."""
+"""Pairs: pieces of two paths that are nearest to each other at some point, and the exact distance of each pair."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
 from core.tolerance import GOUGE, LARGEST, ON_PATH, STOCK, UNCUT
 
 ONCE: Final = 1e-6
-"""Radians by which two arcs about one center miss each other at one of the two places where they may overlap."""
+"""Radians that two concentric arcs must stay apart at one of the two places where they could be side by side."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pairs:
     """m pairs of a piece `i` and another path's piece `j`, by rising i: every j that is nearest to some place of its i.
 
-    `stations` (n + 1,) are the lengths traveled at the pieces' starts and at the end, `grant` (m,) what rounding and
-    the uneven radii of arcs leave open for a pair.  `least` (m,) is how near the pieces come to each other,
-    `from_piece` (3, m) how far the piece's start, middle and end are from the other one, and `from_other` (2, m) how
-    far the other one's start and end are from the piece.
+    `stations` (n + 1,) are the lengths traveled at the pieces' starts and at the end.  `grant` (m,) is each pair's
+    tolerance for rounding and the uneven radii of arcs.  `least` (m,) is the least distance between the pieces,
+    `from_piece` (3, m) the distance of the piece's start, middle and end from the other one, and `from_other` (2, m)
+    the distance of the other one's start and end from the piece.
     """
 
     pieces: PieceArrays
@@ -40,11 +40,11 @@ class Pairs:
 
     @property
     def begins(self) -> Rows:
-        """(n + 1,) where the pairs of each piece begin, and where the last ones end."""
+        """(n + 1,) the row where the pairs of each piece begin, and the row after the last pair."""
         return self.i.searchsorted(np.arange(len(self.pieces) + 1))
 
     def keep(self, rows: Rows) -> Pairs:
-        """The pairs of these indices."""
+        """Return the pairs of these indices."""
         return Pairs(
             self.pieces,
             self.others,
@@ -59,22 +59,22 @@ class Pairs:
 
 
 class NotMeasurableError(ArithmeticError):
-    """A distance that is not a number: whoever compares it would pass it over."""
+    """A distance is not a number, and comparisons would silently ignore it."""
 
 
 def measurable(radius: float, *paths: Path) -> bool:
-    """All coordinates and the radius are lengths a machine could have."""
+    """True if all coordinates and the radius are lengths that a machine could have."""
     arrays = [array.ravel() for path in paths for array in (path.points, path.centers)]
     numbers = np.concatenate((np.zeros(0), *arrays))
-    # what is not a number makes the largest one none, and no comparison holds
+    # one NaN makes the largest value NaN, and then the comparison is false
     sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST)
     return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
 
 
 def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Rows | None = None) -> Pairs:
-    """The pairs of the pieces, or of those in `rows` alone, and the others that are nearest to them somewhere.
+    """Pair the pieces, or only those in `rows`, with the others that are nearest to them at some point.
 
-    Others that are farther by no more than `rounding` and what uneven arcs leave open are nearest too.
+    Others that are farther by no more than `rounding` and the slack of uneven arcs count as nearest too.
     """
     slack = float(pieces.slack.max(initial=0.0) + others.slack.max(initial=0.0))
     i, j = nearest_pairs(pieces if rows is None else pieces.take(rows), others, 4.0 * (rounding + slack) + ON_PATH)
@@ -85,16 +85,16 @@ def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Ro
 
 
 def measured(apart: Floats) -> Floats:
-    """These distances; raises NotMeasurableError where one is not a number."""
+    """Return these distances; raise NotMeasurableError if one is not a number."""
     if np.isnan(apart).any():
         raise NotMeasurableError
     return apart
 
 
 def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> Floats:
-    """(m,) what the uneven radii of both arcs of each pair leave open between them.
+    """Return the (m,) uncertainty of each pair's distance that comes from the uneven radii of its arcs.
 
-    Once where the one is the offset of the other about the same center: both differ alike from the arcs taken for them.
+    It counts once if one arc is the offset of the other about the same center: both then deviate alike.
     """
     first, second = pieces.slack[i], others.slack[j]
     slack: Floats = first + second
@@ -108,7 +108,7 @@ def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> 
 
 
 def rounding_of(*paths: PieceArrays) -> float:
-    """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
+    """Return the error that counts as rounding: UNCUT plus 4 units in the last place of the largest coordinate."""
     largest = max(float(max(np.abs(path.start.view(np.float64)).max(), path.radius.max())) for path in paths)
     return UNCUT + 4.0 * ulp(largest)
 
@@ -126,7 +126,7 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
 
 
 def _between_ends(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """Least distances of pairs that neither piece has at an end; infinite where there is none."""
+    """Return the least distance of each pair away from both pieces' ends; infinite if there is none."""
     apart = np.empty(len(piece))
     bent = 2 * piece.arcs + other.arcs
     for kind, formula in enumerate((_lines, _line_and_arc, _arc_and_line, _arcs)):
@@ -137,7 +137,7 @@ def _between_ends(piece: PieceArrays, other: PieceArrays) -> Floats:
 
 
 def _lines(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """0 for lines that cross between their ends."""
+    """Return 0 for lines that cross between their ends, else infinity."""
     off = other.start - piece.start
     turn = (np.conj(piece.vector) * other.vector).imag
     start, end = (np.conj(piece.vector) * off).imag, (np.conj(other.vector) * off).imag
@@ -146,12 +146,12 @@ def _lines(piece: PieceArrays, other: PieceArrays) -> Floats:
 
 
 def _line_and_arc(line: PieceArrays, arc: PieceArrays) -> Floats:
-    """Where the line passes the arc at the foot of its center, and 0 where they cross."""
+    """Return the distance at the foot of the arc's center on the line, or 0 if they cross."""
     square = np.maximum(line.length * line.length, np.finfo(float).tiny)
     share = ((arc.center - line.start) * np.conj(line.vector)).real / square
     off = line.start + share * line.vector - arc.center
     height = np.abs(off)
-    # of a line that passes the circle the root is no number, and nothing is within it
+    # the root is NaN for a line that misses the circle, and then no comparison holds
     step = np.sqrt((arc.radius - height) * (arc.radius + height) / square)
     shares = np.array((share, share - step, share + step))
     met = _within(arc, line.start + shares * line.vector - arc.center) & (shares >= 0.0) & (shares <= 1.0)
@@ -164,7 +164,7 @@ def _arc_and_line(arc: PieceArrays, line: PieceArrays) -> Floats:
 
 
 def _arcs(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """On the line through both centers, and 0 where the arcs cross."""
+    """Return the least distance on the line through both centers, or 0 if the arcs cross."""
     between = other.center - piece.center
     size, least, most = np.abs(between), piece.radius - other.radius, piece.radius + other.radius
     ahead, back = (_within(piece, way * between) for way in (1.0, -1.0))
@@ -172,7 +172,7 @@ def _arcs(piece: PieceArrays, other: PieceArrays) -> Floats:
     gaps = np.where(
         (ahead & toward, ahead & away, back & toward), np.abs((size - most, size - least, size + least)), np.inf
     )
-    # about one center an end of the one is as near as it gets, or they are nowhere side by side
+    # concentric arcs are nearest at an end of one of them, if they are side by side at all
     apart: Floats = np.where(size > 0.0, gaps.min(axis=0), np.inf)
     crossing = (size > np.abs(least)) & (size < most)
     met = on_circle(piece, other.center, other.radius)
@@ -182,26 +182,26 @@ def _arcs(piece: PieceArrays, other: PieceArrays) -> Floats:
 
 
 def _within(arc: PieceArrays, toward: Points) -> Flags:
-    """Whether directions from the centers lie within the arcs."""
+    """True for directions from the centers that lie within the arcs."""
     within: Flags = traveled(arc, toward) <= arc.angle
     return within
 
 
 def keeping(pairs: Pairs, radius: float) -> Flags:
-    """Pairs of which the other piece is no farther than the radius from the piece's ends and its middle."""
+    """True for pairs whose other piece is no farther than the radius from the piece's ends and its middle."""
     near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
     return near
 
 
 def along(pairs: Pairs, limit: Floats) -> Flags:
-    """Pairs of which the other piece is within the limit of all of the piece for sure: two lines, or arcs about one
-    center, and both ends of the piece are."""
+    """True for pairs whose other piece is surely within the limit of all of the piece: its start, middle and end are
+    within the limit, and both are lines or concentric arcs."""
     near: Flags = pairs.from_piece.max(axis=0) <= limit
     return near & (_straight(pairs) | concentric(pairs))
 
 
 def covering(pairs: Pairs, limit: Floats) -> Flags:
-    """Pairs of which the piece is within the limit of all of the other piece for sure."""
+    """True for pairs whose piece is surely within the limit of all of the other piece."""
     near: Flags = pairs.from_other.max(axis=0) <= limit
     return near & (_straight(pairs) | concentric(pairs))
 
@@ -212,7 +212,7 @@ def _straight(pairs: Pairs) -> Flags:
 
 
 def concentric(pairs: Pairs) -> Flags:
-    """Pairs of arcs about one center that are beside each other only once."""
+    """True for pairs of concentric arcs that are side by side in only one place."""
     first, second = pairs.pieces.arcs[pairs.i], pairs.others.arcs[pairs.j]
     matching = first & second
     for rows in blocks(first, second):
@@ -231,7 +231,7 @@ def _about_one_center(piece: PieceArrays, other: PieceArrays) -> Flags:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Nearest:
-    """All pieces nearest to places: pairs of place `k` and piece `j` in rising order of k, ties included."""
+    """All pieces nearest to each point: pairs of point `k` and piece `j` in rising order of k, ties included."""
 
     k: Rows
     j: Rows
@@ -239,12 +239,12 @@ class Nearest:
 
     @property
     def first(self) -> Rows:
-        """(n,) the row of each place's first piece."""
+        """(n,) the row of each point's first piece."""
         return changes(self.k)
 
 
 def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
-    """What of the other path is nearest to these points, each on the piece `index`; ties within ON_PATH included."""
+    """Find the other path's pieces nearest to these points, each on piece `index`; ties within ON_PATH included."""
     begins = pairs.begins
     counts = begins[index + 1] - begins[index]
     starts = counts.cumsum() - counts

@@ -1,4 +1,4 @@
-"""Report: a verdict as findings, in a machinist's words."""
+"""Report turns a verdict into findings, in a machinist's words."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ DIGIT: Final = 0.00254
 """Millimeters: the last digit of a form in inches."""
 
 SHOWN: Final = DIGIT / 2.0
-"""Lengths below this would be told as zeros."""
+"""Lengths below this would be displayed as zeros."""
 
 MAX_NAMED_CORNERS: Final = 6
-"""Corners of one kind that are named; of the rest only the number is."""
+"""Corners of one kind that are named; the rest are only counted."""
 
 Names = Callable[[int, float], str]
-"""The name of a move by its row in the judged path and by its number."""
+"""Returns the name of a move from its row in the judged path and its number."""
 
 
 def by_number(_row: int, number: float) -> str:
-    """All that a number says: the path of segment k, or of the corner after it by k + 1/2."""
+    """Name a move by its number alone: k is the path of segment k, k + 1/2 the path at the corner after it."""
     return f"the path of {int(number)}" if number == int(number) else f"the path at {_corner(number)}"
 
 
 def move_name(path: Path, row: int, surface: Path) -> str:
-    """A move of a compensated path: along a segment, about a corner, or straight across what the tool cannot enter."""
+    """Name a move of a compensated path: along a segment, around a corner, or straight across a place too tight."""
     number = path.numbers[row].item()
     if number != int(number):
         arc = f"the corner arc after {int(number)}"
@@ -49,9 +49,9 @@ def _corner(number: float) -> str:
 
 
 def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:
-    """What the operator must know: errors first, then warnings, then what stays uncut in the contour's order.
+    """Return the findings of a verdict: gouges, wrong side, crossings, then uncut stretches in the contour's order.
 
-    `names` says what the moves of the judged path are.
+    `names` names the moves of the judged path.
     """
     if not verdict.judged:
         return (_unjudged(verdict.uneven_arc),)
@@ -64,7 +64,7 @@ def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) 
 
 
 def contact_findings(air_cuts: Sequence[AirCut], backwards: Sequence[int]) -> tuple[Finding, ...]:
-    """What an operator should see of a path's cuts in the air and of the rows that are traveled backwards."""
+    """Return the findings on a path's air cuts and on its moves that run against the contour."""
     against: tuple[Finding, ...] = ()
     if backwards:
         count = len(backwards)
@@ -86,7 +86,7 @@ def _air_cut(stretch: AirCut) -> Finding:
 
 
 def _unjudged(arc: UnevenArc | None) -> Finding:
-    """Why nothing is known of the path."""
+    """Return the finding that says why the path was not judged."""
     if arc is None:
         text = "Not judged: a coordinate or the tool radius is not a number, or too large for any machine."
         return Finding("UNJUDGED", Severity.ERROR, text)
@@ -99,12 +99,12 @@ def _unjudged(arc: UnevenArc | None) -> Finding:
 
 
 def or_more(gouge: Gouge, radius: float) -> str:
-    """What is said after a depth that is told no farther than all of the cutter is behind the surface."""
+    """Return " or more" for a gouge in which the whole cutter is inside the part: its depth is not measured further."""
     return " or more" if gouge.depth >= 2.0 * radius else ""
 
 
 def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
-    """The segment is the surface's; `lengths` holds the length of path that gouges."""
+    """Return the finding on a gouge: its segment is the surface's, `lengths` holds the length of path that gouges."""
     fine = gouge.depth < SHOWN
     depth = "less than {1}" if fine else "{value}" + or_more(gouge, radius)
     move = names(gouge.path_piece, gouge.path_number)
@@ -146,13 +146,13 @@ def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
 
 
 def enumerated(what: str, numbers: Sequence[float]) -> str:
-    """Numbers in a sentence: `line 3`, `lines 3 and 4`, `lines 3, 4 and 9`."""
+    """Return numbers as words of a sentence: `line 3`, `lines 3 and 4`, `lines 3, 4 and 9`."""
     *names, last = (f"{int(number)}" for number in dict.fromkeys(map(int, numbers)))
     return f"{what}s {', '.join(names)} and {last}" if names else f"{what} {last}"
 
 
 def _over_run(over_run: OverRun) -> Finding:
-    """Says that the contour's ends are leads; a warning where START or the last end may be mistyped."""
+    """Say that the contour's ends are leads; warn if they may be walls, or if START or the last end may be mistyped."""
     if not over_run.doubtful and over_run.lead_numbers:
         which = enumerated("segment", over_run.lead_numbers)
         text = f"Over-run at X {{x}} Y {{y}}. Taken for lead beyond it: {which}. Check that no wall is cut there."
@@ -169,7 +169,7 @@ def _over_run(over_run: OverRun) -> Finding:
 
 
 def _uncut_findings(verdict: Verdict, surface: Path) -> Iterator[Finding]:
-    """What stays uncut in the contour's order; equal inside corners sharper than the cutter are one finding."""
+    """Yield the uncut stretches in the contour's order; equal inside corners sharper than the cutter share one."""
     equal = {corners[0]: corners for corners in _equal_corners(verdict, surface)}
     later = {row for corners in equal.values() for row in corners[1:]}
     for row, stretch in enumerate(verdict.uncut):
@@ -180,10 +180,10 @@ def _uncut_findings(verdict: Verdict, surface: Path) -> Iterator[Finding]:
 
 
 def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
-    """Rows of the uncut stretches in corners of two lines that are sharper than the cutter, two or more of one kind.
+    """Group the uncut stretches at corners of two lines that are sharper than the cutter: rows of two or more alike.
 
-    A cutter of radius r leaves (r - f) (1 / cos(t / 2) - 1) where two lines turn by t about an arc of radius f, which
-    is 0 at a sharp corner.  A stretch of any other thickness is not left by its corner alone.
+    A cutter of radius r leaves (r - f) (1 / cos(t / 2) - 1) at a corner of two lines that turn by t with a rounding of
+    radius f, 0 if it is sharp.  If a stretch has another thickness, its corner is not the only cause.
     """
     order, numbers, count = surface.numbers.argsort(), verdict.uncut.columns[:2], len(surface)
     first, last = (order[np.searchsorted(surface.numbers, ends, sorter=order)] for ends in numbers)
@@ -201,7 +201,7 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
 
 
 def _corners(corners: Sequence[Uncut]) -> Finding:
-    """Equal inside corners that are sharper than the cutter; the segment and the place are those of the first."""
+    """Return one finding on equal inside corners sharper than the cutter, with the first one's segment and place."""
     named = ", ".join(
         f"{_number(corner.first_number)}-{_number(corner.last_number)}" for corner in corners[:MAX_NAMED_CORNERS]
     )
@@ -221,9 +221,9 @@ def _corners(corners: Sequence[Uncut]) -> Finding:
 
 
 def _uncut(uncut: Uncut, surface: Path) -> Finding:
-    """The segment is the one the stretch begins on; `lengths` holds the largest thickness.
+    """Return the finding on an uncut stretch: its segment is where it begins, `lengths` holds the largest thickness.
 
-    There is no thickness where there is no path.
+    Without a path there is no thickness.
     """
     where = _segments(uncut, surface)
     if isinf(uncut.thickness):
@@ -244,7 +244,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
 
 
 def _segments(uncut: Uncut, surface: Path) -> str:
-    """The segments a stretch lies on, from the one it begins on to the one it ends on."""
+    """Name the segments of a stretch, from the one it begins on to the one it ends on."""
     first, last = _number(uncut.first_number), _number(uncut.last_number)
     if first == last:
         return f"segment {first}"

@@ -1,4 +1,4 @@
-"""Self-crossings: where a surface crosses or touches itself elsewhere than at its joints, and its over-runs."""
+"""Self-crossings: where a surface crosses or touches itself away from its joints."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from core.geometry.piece_arrays import PieceArrays, at, direction
 from core.tolerance import JOINED
 
 TURN: Final = 1e-6
-"""Radians short of half a turn that are taken for one."""
+"""Radians: an angle this little short of half a turn counts as half a turn."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SelfCrossings:
-    """m places (m, 2) in length traveled at which a surface meets itself, in order, and the points (m,)."""
+    """The `points` (m,) where a surface meets itself, in order, and both lengths traveled to each, `places` (m, 2)."""
 
     places: Floats
     points: Points
@@ -30,11 +30,11 @@ class SelfCrossings:
 
 
 NO_CROSSINGS: Final = SelfCrossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
-"""A surface that does not meet itself."""
+"""The crossings of a surface that does not meet itself."""
 
 
 def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
-    """Where pieces that are not neighbors come within JOINED of each other, and neighbors away from their joint."""
+    """Find where pieces come within JOINED of each other; neighbors only away from their joint."""
     i, j = _candidates(surface, closed=closed)
     if not len(i):
         return NO_CROSSINGS
@@ -54,7 +54,7 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
 
 
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
-    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbors that come back."""
+    """Return pairs i < j that may meet away from a joint: any near pieces, and neighbors that may turn back."""
     bounds = surface.boxes
     i, j = sorted_pairs(near_pairs_within(bounds, JOINED))
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
@@ -64,13 +64,13 @@ def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
         if seam.any() and not _turned(surface, np.array([-1]), np.array([0])).item() > pi - TURN:
-            # a curve must turn half round to come back
+            # a curve must turn through half a turn to come back
             i, j = i[~seam], j[~seam]
     return i, j
 
 
 def _may_come_back(surface: PieceArrays) -> Flags:
-    """(n - 1,) pieces and the next ones that are not both straight, or that go back by all but half a turn."""
+    """Return (n - 1,) True for pieces that may meet the next one again: either is an arc, or the next reverses."""
     vector, length, bent = surface.vector, surface.length, surface.arcs
     back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
     back |= bent[:-1] | bent[1:]
@@ -78,14 +78,14 @@ def _may_come_back(surface: PieceArrays) -> Flags:
 
 
 def _turned(surface: PieceArrays, rows: Rows, following: Rows) -> Floats:
-    """How much these pieces, the following ones and the joints between them turn, radians."""
+    """Return by how much these pieces, the following ones and the joints between them turn in all, radians."""
     end, begin = at_joints(surface, rows, following)
     turned: Floats = np.abs(np.angle(begin * np.conj(end)))
     return turned + surface.angle[rows] + surface.angle[following]
 
 
 def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
-    """(2, m) the directions in which these pieces end and the following ones begin, of any length."""
+    """Return (2, m) the directions at the ends of these pieces and the starts of the following ones, of any length."""
     both = np.array((rows, following))
     vector, turn, arm = surface.vector[both], surface.turn[both], surface.arm[both]
     arm[0] += vector[0]
@@ -93,7 +93,7 @@ def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
 
 
 def _overlapping(bounds: Floats) -> Flags:
-    """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbors are one."""
+    """Return (n - 1,) True for boxes that overlap the next one by more than they must at a joint of neighbors."""
     shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
     wide = shared > 5.0 * JOINED
     either: Flags = wide[0] | wide[1]
@@ -103,7 +103,7 @@ def _overlapping(bounds: Floats) -> Flags:
 def _away(
     piece: PieceArrays, other: PieceArrays, fractions: Floats, points: Points, following: Flags, around: Flags
 ) -> Flags:
-    """(9, m) places that are no part of a joint.
+    """Return (9, m) True for places that do not belong to a joint.
 
     Pieces that leave a joint smoothly stay within any tolerance of each other for a while; they meet again
     only if they are apart in between, or if the later one runs back over the earlier one.

@@ -1,4 +1,4 @@
-"""Stretches: which lengths of a path are nearer to another path than a limit, as exact intervals."""
+"""Stretches: the parts of a path nearer to another path than a limit, as exact intervals of length traveled."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from core.verify.pairs import Pairs, measured
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretches:
-    """k stretches of a path, apart from each other and in order: lengths traveled (k,) at `first` and `last`."""
+    """k disjoint stretches of a path in order: the lengths traveled (k,) at their starts `first` and ends `last`."""
 
     first: Floats
     last: Floats
@@ -26,42 +26,42 @@ class Stretches:
 
     @property
     def middle(self) -> Floats:
-        """(k,) lengths traveled in the middle."""
+        """(k,) lengths traveled at the middle of each."""
         return (self.first + self.last) / 2.0
 
     def index(self, s: Floats) -> Rows:
-        """The stretch each place `s` is in or follows; -1 before the first."""
+        """Return the index of the stretch that each place `s` is in or follows; -1 before the first."""
         return self.first.searchsorted(s, side="right") - 1
 
     def holds(self, s: Floats) -> Flags:
-        """Which places are strictly inside a stretch."""
+        """True for places strictly inside a stretch."""
         owner = self.index(s)
         inside = owner >= 0
         inside[inside] = (s[inside] > self.first[owner[inside]]) & (s[inside] < self.last[owner[inside]])
         return inside
 
     def keep(self, chosen: Flags | Rows) -> Stretches:
-        """The stretches for which `chosen` (k,) is True, or those of these numbers."""
+        """Return the stretches for which `chosen` (k,) is True, or those of these indices."""
         return Stretches(self.first[chosen], self.last[chosen])
 
     def part(self, first: int, last: int) -> Stretches:
-        """Stretches first ... last - 1."""
+        """Return stretches first ... last - 1."""
         return Stretches(self.first[first:last], self.last[first:last])
 
     def cut(self, cuts: Floats) -> Stretches:
-        """What is between these places within the stretches."""
+        """Split the stretches at these places."""
         s = np.sort(np.concatenate((self.first, self.last, cuts[self.holds(cuts)])))
         parts = Stretches(s[:-1], s[1:])
         return parts.keep((parts.last > parts.first + ON_PATH) & self.holds(parts.middle))
 
 
 NO_STRETCHES = Stretches(np.zeros(0), np.zeros(0))
-"""Nothing of a path."""
+"""No part of a path."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Parts:
-    """m parts of pieces: lengths traveled at both ends and in the middle, the distance there, and whose pair it is."""
+    """m parts of pieces: lengths traveled at both ends and at a place between, the distance there, the pair's row."""
 
     first: Floats
     last: Floats
@@ -71,9 +71,9 @@ class Parts:
 
 
 def within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
-    """All parts of the pieces of these pairs that are nearer to the others than `limit` (m,), one for each pair.
+    """Return all parts of these pairs' pieces that are nearer to the others than `limit` (m,), one limit for each pair.
 
-    The pieces are parted wherever the distance can pass the limit, and the middle of each part decides.
+    The pieces are split wherever the distance can pass the limit, and the middle of each part decides.
     """
     batches = [
         _within(pairs, rows[block], limit[block])
@@ -94,14 +94,14 @@ def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
 
 
 def joined(batches: Sequence[Parts]) -> Parts:
-    """All of these parts."""
+    """Concatenate these parts."""
     columns = [[part.first, part.last, part.middle, part.apart] for part in batches]
     first, last, middle, apart = np.concatenate(columns, axis=1) if batches else np.zeros((4, 0))
     return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in batches))))
 
 
 def union(first: Floats, last: Floats) -> Stretches:
-    """Overlapping and touching parts as stretches."""
+    """Merge overlapping and touching parts into stretches."""
     order = first.argsort(kind="stable")
     first, furthest = first[order], np.maximum.accumulate(last[order])
     begins = np.ones(len(first), np.bool_)

@@ -1,4 +1,4 @@
-"""Surface: a contour prepared for any number of paths beside it, without the over-runs at its ends."""
+"""Surface: a contour prepared for judging any number of paths along it, without the over-runs at its ends."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from core.verify.verdict import OverRun
 from core.verify.wrong_side import on_part_side, sided
 
 LONG_LEAD: Final = 0.25
-"""Share of its segment from which on a lead may be a wall all the same, with START or the last end mistyped."""
+"""A lead that takes a larger share of its segment may be a wall, with START or the last end mistyped."""
 
 MOST: Final = 0.5
-"""The same where the other end runs past its segment too, and of all leads to what is left of the contour."""
+"""The same limit if the contour's other end over-runs too; also the limit of a lead's share of the closed contour."""
 
 BLEND: Final = 0.02
-"""Radians between the directions of an arc and of the wall beside it up to which it leads off that wall."""
+"""Largest angle in radians between an arc and its neighboring wall for the arc to count as tangent to that wall."""
 
 IN_LINE: Final = 1e-3
-"""Radians between the directions of lines that are one straight line with rounded points."""
+"""Largest angle in radians between lines that count as one straight line with rounded points."""
 
 
 class Leads(Enum):
-    """What of a contour's ends may be leads, where they run past each other, and no walls.
+    """Which parts of a contour's ends may be leads, not walls, if the ends run past each other.
 
-    NONE: nothing.  SEGMENTS: the first and the last segment beyond their crossing.  MOVES: one more move at each end.
+    NONE: none.  SEGMENTS: the first and the last segment beyond their crossing.  MOVES: one more move at each end.
     """
 
     NONE = auto()
@@ -45,9 +45,9 @@ class Leads(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
-    """The walls of a contour on whose `side` the cutter runs, and where they meet themselves.
+    """The walls of a contour, the `side` of them on which the cutter runs, and their self-crossings.
 
-    Where the contour's ends are an `over_run` the walls are closed without them.
+    If the contour's ends are an `over_run`, the walls are closed and do not include them.
     """
 
     path: Path
@@ -59,7 +59,7 @@ class Surface:
 
     @staticmethod
     def prepare(path: Path, side: Side, *, leads: Leads = Leads.SEGMENTS) -> Surface:
-        """The surface of a contour that can be judged."""
+        """Prepare the surface of a contour that can be judged."""
         with np.errstate(all="ignore"):
             whole = Surface._of(path, side)
             if leads is Leads.NONE:
@@ -80,9 +80,9 @@ class Surface:
 
 
 def _without_overlap(surface: Surface) -> Path | None:
-    """The path without what its last element runs along its first one again; None where it does not.
+    """Return the path without the overlap of its last element along its first one; None if there is no overlap.
 
-    Many contours are closed so: the cutter leaves a little beyond the place where it began.
+    Many contours are closed this way: the cutter leaves a little past the place where it began.
     """
     walls, path = surface.walls, surface.path
     if len(walls) < 3 or not (_same_line(walls) or _same_circle(walls)):
@@ -108,11 +108,10 @@ def _same_circle(walls: PieceArrays) -> bool:
 
 
 def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
-    """The surface between the crossing of its first and its last element.
+    """Return the closed surface that begins and ends at the crossing of its first and its last element.
 
-    One of them may begin, end or join the next element at the crossing, as long as either runs beyond it.  None where
-    anything else crosses, where a run beyond the crossing is not clear of what is left, and where it is as long as
-    that.
+    One of them may begin, end or join the next element at the crossing, as long as either runs past it.  Return None if
+    anything else crosses, or if a run past the crossing is not clear of the closed surface or is at least as long.
     """
     walls, stations = surface.walls, surface.walls.stations
     crossing = _crossing_of_ends(surface, leads=leads)
@@ -129,7 +128,7 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
     runs += [_run_out(surface, last, at)] if lead_out > JOINED else []
     if not all(_is_clear(run, left, surface.side) for run in runs):
         return None
-    # leads that are moves of their own are none by mistake
+    # a lead that is a move of its own is programmed on purpose
     own_in = begin > 0 and (walls.arcs[0] or first <= stations[begin] + JOINED)
     own_out = end < len(walls) - 1 and (walls.arcs[-1] or last >= stations[end + 1] - JOINED)
     if lead_in > JOINED:
@@ -151,10 +150,10 @@ def _without_over_run(surface: Surface, *, leads: Leads) -> Surface | None:
 
 
 def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, float] | None:
-    """The one place where a surface crosses itself, if its first and its last element do so, and the lengths traveled.
+    """Return the point where the first and the last element cross, and the length traveled to it on each, or None.
 
-    Lines that continue each other are one element.  With MOVES the elements next to those may cross too, and an
-    arc at an end that runs on tangent from its neighbor may not: it is a lead, and a wall that it crosses is cut.
+    No other place may cross.  Collinear lines are one element.  With MOVES the next elements may cross too, but not an
+    arc at an end that is tangent to its neighbor: it is a lead, and it really cuts a wall that it crosses.
     """
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
@@ -179,7 +178,7 @@ def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, 
 
 
 def _blends(walls: PieceArrays, end: int, neighbor: int) -> bool:
-    """Whether the piece at an end is an arc that is tangent to the one beside it."""
+    """True if the piece at an end is an arc that is tangent to its neighbor."""
     if not walls.arcs[end]:
         return False
     before, after = sorted((end % len(walls), neighbor % len(walls)))
@@ -188,7 +187,7 @@ def _blends(walls: PieceArrays, end: int, neighbor: int) -> bool:
 
 
 def _in_line(walls: PieceArrays, rows: range) -> int:
-    """The last of these rows up to which all are one straight line, else the first."""
+    """Return the last of these rows that continues the first one in a straight line, else the first."""
     for near, far in pairwise(rows):
         if walls.arcs[near] or walls.arcs[far] or abs(walls.unit[near] - walls.unit[far]) > IN_LINE:
             return near
@@ -196,10 +195,10 @@ def _in_line(walls: PieceArrays, rows: range) -> int:
 
 
 def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float) -> set[int]:
-    """Those of the rows from the crossing outward that are taken for leads and may be walls.
+    """Return the rows, from the crossing `outward`, that are taken for leads but may be walls.
 
-    They are lines that bend off the first of these rows, and that one itself if more than this share of it is `beyond`
-    the crossing, millimeters.  Where the crossing is a joint, the moves beyond it are leads by intention.
+    They are lines that bend off the first of these rows, and that row itself if more than the share `most` of its
+    element lies `beyond` (mm) the crossing.  If the crossing is a joint, the moves past it are leads on purpose.
     """
     if beyond <= JOINED:
         return set()
@@ -211,7 +210,7 @@ def _may_be_walls(walls: PieceArrays, outward: range, beyond: float, most: float
 
 
 def _between(path: Path, begin: int, end: int, at: Point) -> Path:
-    """The path's pieces from one row to another, begun and ended at a point; those outside have no length."""
+    """Return the path from row `begin` to row `end`, started and ended at point `at`; other pieces get no length."""
     ended = _ended_at(path, end, np.array(at))
     points, centers, turns = ended.points.copy(), ended.centers.copy(), ended.turns.copy()
     points[: begin + 1] = at
@@ -222,7 +221,7 @@ def _between(path: Path, begin: int, end: int, at: Point) -> Path:
 
 
 def _ended_at(path: Path, row: int, at: Floats) -> Path:
-    """The path up to a row, that piece ended at a point; those behind it have no length."""
+    """Return the path with piece `row` ended at a point; the pieces after it get no length."""
     points, centers, turns = path.points.copy(), path.centers.copy(), path.turns.copy()
     points[row + 1 :] = at
     turns[row + 1 :] = 0
@@ -232,7 +231,7 @@ def _ended_at(path: Path, row: int, at: Floats) -> Path:
 
 
 def _run_in(surface: Surface, first: float, at: Point) -> Path:
-    """What lies before a point at a length traveled, backwards: it ends where the surface begins."""
+    """Return the path from the point `at`, at the length `first` traveled, back to the surface's beginning."""
     walls = surface.walls
     row = int(walls.rows[np.count_nonzero(walls.stations[:-1] < first - JOINED) - 1])
     part = surface.path.part(int(walls.rows[0]), row + 1).reversed()
@@ -240,7 +239,7 @@ def _run_in(surface: Surface, first: float, at: Point) -> Path:
 
 
 def _run_out(surface: Surface, last: float, at: Point) -> Path:
-    """What lies behind a point at a length traveled."""
+    """Return the path from the point `at`, at the length `last` traveled, to the surface's end."""
     walls = surface.walls
     row = int(walls.rows[np.count_nonzero(walls.stations[1:-1] <= last + JOINED)])
     return _begun_at(surface.path.part(row, int(walls.rows[-1]) + 1), at)
@@ -255,9 +254,9 @@ def _begun_at(path: Path, at: Point) -> Path:
 
 
 def _is_clear(run: Path, left: PieceArrays, side: Side) -> bool:
-    """Whether a run from a point of closed walls, which meets them nowhere else, ends off them on the cutter's side.
+    """True if a run, which meets the closed walls only where it begins, ends off them on the cutter's side.
 
-    One that ends on them, such as part of a full circle, is part of them.
+    A run that ends on the walls, such as part of a full circle, belongs to them.
     """
     pieces = piece_arrays(run)
     pairs = pairs_of(pieces, left, rounding_of(left))

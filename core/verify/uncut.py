@@ -1,4 +1,4 @@
-"""Uncut: the stretches of surface that no point of the center path reaches, and how thick they stay."""
+"""Uncut: the stretches of surface that the cutter does not reach from any point of its path, and their thickness."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ from core.verify.stretches import Stretches, within
 from core.verify.verdict import NOTHING, UncutStretches
 
 POINT: Final = 1e-6
-"""Millimeters of a piece that count as one point."""
+"""Millimeters: a part of a piece no longer than this counts as one point."""
 
 ON_EDGE: Final = 1e-7
-"""Millimeters from the cutter's edge at which an end of a gap is on it."""
+"""Millimeters: the end of a gap that is no farther from the cutter's edge counts as on it."""
 
 GAPS_AT_A_TIME: Final = 2_500
-"""Gaps whose ends are looked at together: what is worked out for them stays small."""
+"""Gaps whose ends are examined together, which bounds the memory in use."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gaps:
-    """k stretches of a path's pieces that the others do not reach: (2, k) the first and the last piece of each and the
-    points at its ends, and which ends are `reached`; the point that is farthest from the others, and how far it is.
+    """k stretches of a path that the other path does not reach.
 
-    `corner` is the one place from which both of its ends are reached, and `area` what lies between the stretch and the
-    circle of the radius about it, positive where the stretch runs counterclockwise; no numbers without such a place.
-    """
+    (2, k): the first and the last `pieces` of each, the points at its `ends`, and which ends are `reached`.  (k,): the
+    point `farthest` from the other path, and its distance `apart`.  `corner` is the only place from which both ends are
+    reached, `area` lies between the stretch and the circle of the radius about `corner`, positive if the stretch runs
+    counterclockwise; both are NaN without such a place."""
 
     stretches: Stretches
     pieces: Rows
@@ -48,7 +48,7 @@ class Gaps:
 
 
 def covered_walls(pairs: Pairs, radius: float, *, closed: bool) -> Flags:
-    """(n,) which walls leave nothing worth a word, as the pairs of the center path's pieces with them show."""
+    """Return (n,) True for walls with nothing uncut worth reporting, by their pairs with the center path's pieces."""
     whole = np.zeros(len(pairs.others), np.bool_)
     whole[pairs.j[covering(pairs, radius + pairs.grant)]] = True
     return whole | _in_thin_runs(pairs, whole, radius, closed=closed)
@@ -57,10 +57,10 @@ def covered_walls(pairs: Pairs, radius: float, *, closed: bool) -> Flags:
 def uncut(
     walls: PieceArrays, moves: PieceArrays, covered: Flags, radius: float, surface: Path, side: Side, *, closed: bool
 ) -> UncutStretches:
-    """Stretches farther than the radius from the moves, in the contour's order, each over its joints in one.
+    """Return the stretches farther than the radius from the moves, in the contour's order and across joints.
 
-    Walls that are `covered` are known to be reached.  In a closed contour a stretch that runs over START stands last.
-    What is nowhere thicker than STOCK is left out.
+    Walls that are `covered` are known to be reached.  In a closed contour a stretch that runs over START comes last.
+    Stretches that are nowhere thicker than STOCK are left out.
     """
     if covered.all():
         return NOTHING
@@ -82,8 +82,8 @@ def uncut(
 
 
 def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) -> Flags:
-    """Walls between two that are reached from end to end, with nothing thicker than STOCK on any wall between these:
-    fine chords of a curve leave that at every joint, and none of it is told."""
+    """True for walls between two fully reached ones (or an open end), if no wall between these leaves more than STOCK:
+    fine chords of a curve leave that little at every joint, and it is not reported."""
     thick = ~whole
     thick[pairs.j[covering(pairs, np.full(len(pairs.j), radius + STOCK))]] = False
     runs = whole.cumsum()
@@ -97,7 +97,7 @@ def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) ->
 
 
 def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
-    """Stretches of `pairs.pieces` farther than `radius` (mm) from the other path; none shorter than STOCK.
+    """Return the stretches of `pairs.pieces` farther than `radius` (mm) from the other path, if longer than STOCK.
 
     `whole` (n,) marks the pieces that are known to be reached from end to end.
     """
@@ -120,9 +120,9 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
 
 
 def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
-    """The stretches of the pieces within the radius of the others.
+    """Return the stretches of the pieces within the radius of the others.
 
-    What is granted for rounding and for uneven arcs decides whether a place is reached; where a stretch ends is then
+    The tolerance for rounding and uneven arcs helps to decide whether a place is reached; where a stretch ends is then
     settled with the radius alone.
     """
     stations, limit = pairs.stations, radius + pairs.grant
@@ -149,10 +149,10 @@ def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
 
 
 def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats]:
-    """First and last fraction of the pieces of these pairs that is an end, or the foot of an end of the other piece,
-    within the limit; the first is the larger one where there is none.
+    """Return the first and the last fraction of these pairs' pieces within the limit, among their ends and the feet of
+    the other piece's ends; the first one is the larger if there is none.
 
-    The distance from a line is convex along another: what lies between is within too.
+    The distance from a line is convex along another line, so all that lies between is within the limit too.
     """
     near = np.concatenate((pairs.from_piece[::2, rows], pairs.from_other[:, rows])) <= limit
     fractions = np.zeros((4, len(rows)))
@@ -165,8 +165,8 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
 
 
 def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags, radius: float) -> Stretches:
-    """Parts from `first` to `last` as stretches; their ends drawn in to where a pair that is `drawn` reaches them with
-    the radius alone."""
+    """Join the parts from `first` to `last` to stretches; ends that belong to a `drawn` pair move inward to where that
+    pair is exactly the radius apart."""
     order = first.argsort(kind="stable")
     first, last = first[order], last[order]
     furthest = np.maximum.accumulate(last)
@@ -187,10 +187,10 @@ def _settled(pairs: Pairs, first: Floats, last: Floats, pair: Rows, drawn: Flags
 
 
 def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float) -> Floats:
-    """How far `inward` (+1 or -1 along the path) from these ends the distance is the radius, or least.
+    """Return how far `inward` (+1 or -1 along the path) from these ends the distance is the radius, or least.
 
-    What is granted moves an end by as much as sqrt(2 r grant) where the reach ends in a circle about the end of a
-    piece; the foot of that end is where it stops when the piece is exactly a radius away.
+    The tolerance moves an end by up to sqrt(2 r grant) if the reach ends in a circle about the end of a
+    piece; the end stops at the foot of that end if the piece is exactly a radius away.
     """
     i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
     piece, other = pairs.pieces.take(i), pairs.others.take(j)
@@ -202,7 +202,7 @@ def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: f
 
 
 def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
-    """(k,) the places of the others from which both ends of each gap are reached, and (2, k) which ends are."""
+    """Return (k,) the places of the others from which both ends of each gap are reached, and (2, k) which ends are."""
     corner, reached = np.full(len(index[0]), complex(nan, nan)), np.zeros(ends.shape, np.bool_)
     for first in range(0, len(corner), GAPS_AT_A_TIME):
         some = slice(first, first + GAPS_AT_A_TIME)
@@ -224,7 +224,7 @@ def _some_corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tup
 
 
 def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floats:
-    """(k,) area between each gap and the circle about its corner."""
+    """Return the (k,) areas between each gap and the circle about its corner."""
     parts = gaps.cut(pairs.stations[1:-1])
     owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
     areas, sectors, arcs = np.zeros(len(gaps)), np.empty(len(piece)), pairs.pieces.arcs[piece]
@@ -236,7 +236,7 @@ def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floa
 
 
 def _sectors(pieces: PieceArrays, parts: Stretches, starts: Floats, corner: Points, radius: float) -> Floats:
-    """(m,) area between each part of a piece and the circle about its corner, signed as it runs about it."""
+    """Return the (m,) areas between each part of a piece and the circle about its corner, positive counterclockwise."""
     length = np.where(pieces.length == 0.0, 1.0, pieces.length)
     t = np.clip((np.array((parts.first, parts.middle, parts.last)) - starts) / length, 0.0, 1.0)
     first, middle, last = at(pieces, t) - corner

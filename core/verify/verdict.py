@@ -1,4 +1,4 @@
-"""The verdict's words: what a center path does to a surface.  Millimeters throughout."""
+"""The verdict's data types: what a center path does to a surface.  Millimeters throughout."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from core.geometry.piece import Point
 
 @dataclass(frozen=True, slots=True)
 class Gouge:
-    """One stretch of the center path nearer to the surface than the radius, told by its deepest point.
+    """One stretch of the center path nearer to the surface than the radius, reported by its deepest point.
 
-    `depth` is how far the cutter reaches behind the surface there: the radius less the center's distance from it, and
-    where the center itself is on the part's side the radius and that distance.  The stretch ends where the center is
-    the radius away again; where that is behind the surface, all of the cutter is, and it is told twice the radius
-    deep however far the path goes on: `wrong_side` tells the moves.  Beside an open contour nothing is behind where
-    one of its ends is nearest, and where its arms contradict each other a move's side is asked for at 63 places
-    between any two at which it meets a wall.  Where a contour crosses itself the sides of its walls contradict each
-    other: distances alone count there, and no depth is larger than the radius.
+    `depth` is how far the cutter reaches into the part there: the radius less the center's distance from the surface,
+    or the radius plus that distance if the center itself is on the part's side.  The stretch ends where the center is
+    the radius away again.  If that is on the part's side, the whole cutter is inside the part: the depth is then twice
+    the radius however far the path goes on, and `wrong_side` lists the moves.  An open contour has no part's side where
+    one of its ends is the nearest point; where its arms contradict each other, a move's side is tested at 63 places
+    between any two at which it meets a wall.  If a contour crosses itself, the sides of its walls contradict each
+    other: only distances count then, and no depth is larger than the radius.
 
     `at` is the center there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
     path, `path_number` its number, `surface_number` the contour's segment; `extent` the stretch's length.
@@ -41,7 +41,7 @@ class Gouge:
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """The least distance from path to surface, and the first place along the path that is so near.
+    """The least distance from path to surface, and the first place along the path with that distance.
 
     `at` is the center there, `surface_at` the surface point, `surface_number` the contour's segment.
     """
@@ -54,12 +54,11 @@ class Approach:
 
 @dataclass(frozen=True, slots=True)
 class Uncut:
-    """One stretch of the surface that no point of the path reaches: segments it begins and ends on, and its ends.
+    """One stretch of the surface that the cutter does not reach: the segments it begins and ends on, and its ends.
 
-    `thickness` is the largest distance from the stretch to the swept area, met at `thickest`.  `area` is what lies
-    between both, square millimeters; None where the stretch ends at the contour's end, or where the cutter moves on
-    while it is away from it.
-    """
+    `thickness` is the largest distance from the stretch to the swept area, reached at `thickest`.  `area` lies between
+    the two, in square millimeters; it is None if the stretch ends at the contour's end, or if the cutter travels
+    between its contacts with the stretch's ends."""
 
     first_number: float
     last_number: float
@@ -72,7 +71,7 @@ class Uncut:
 
 
 class UncutStretches(Sequence[Uncut]):
-    """k stretches in the contour's order, held as columns (k,): there may be as many as a contour has corners."""
+    """k stretches in the contour's order, stored as columns (k,): there may be as many as the contour has corners."""
 
     __slots__ = ("columns", "length", "thickness")
 
@@ -105,16 +104,16 @@ class UncutStretches(Sequence[Uncut]):
 
     @property
     def ends(self) -> PartEnds:
-        """Each stretch's first segment and the point on it, its last segment and the point on that."""
+        """Each stretch's first segment and the start point on it, its last segment and the end point on it."""
         first, last, start, end = self.columns[:4]
         return PartEnds(first, start, last, end)
 
     def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
-        """The stretches for which `chosen` (k,) is True."""
+        """Return the stretches for which `chosen` (k,) is True."""
         return self if chosen.all() else UncutStretches(*(column[chosen] for column in self.columns))
 
     def over_start(self, area: float) -> UncutStretches:
-        """A closed contour's first and last stretch as the one they are, standing last, with its area."""
+        """Merge a closed contour's first and last stretch, which join over START, into one with `area`, placed last."""
         first, last = self[0], self[-1]
         thicker = max(last, first, key=lambda stretch: stretch.thickness)
         both = (
@@ -132,7 +131,7 @@ class UncutStretches(Sequence[Uncut]):
 
 
 def _stretches(columns: Iterable[NDArray[Any]]) -> Iterator[Uncut]:
-    """The stretches of columns (k,) one by one."""
+    """Yield the stretches of columns (k,) one by one."""
     firsts, lasts, starts, ends, lengths, thicknesses, thickest, areas = columns
     known = (None if isnan(area) else area for area in areas.tolist())
     plain = (lengths.tolist(), thicknesses.tolist(), _points(thickest))
@@ -151,8 +150,8 @@ NOTHING: Final = UncutStretches(
 
 @dataclass(frozen=True, slots=True)
 class UnevenArc:
-    """An arc that cannot be judged: its radii at both ends differ by so much, which is infinite where nobody knows
-    whether it is empty or a full circle."""
+    """An arc that cannot be judged: its radii at both ends differ by `difference`, which is infinite if the arc may be
+    empty or a full circle."""
 
     number: float
     difference: float
@@ -161,11 +160,11 @@ class UnevenArc:
 
 @dataclass(frozen=True, slots=True)
 class OverRun:
-    """Where a contour's first and last element meet, `at`, and how long what lies before and behind that is: leads.
+    """The point `at` where a contour's first and last element meet, and the lengths of the leads before and after it.
 
-    `first_number` and `last_number` are those of the pieces that meet.  `doubtful` is one lead alone that is so long a
-    part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that segment and
-    may be mistyped.  `lead_numbers` are those of all leads, where they are so long that they may be walls.
+    `first_number` and `last_number` are those of the pieces that meet.  `doubtful` marks a single lead that takes so
+    large a part of its segment that it may be a wall: the contour's other end, START or the last one, lies on that
+    segment and may be mistyped.  `lead_numbers` are those of all leads, if they are so long that they may be walls.
     """
 
     at: Point
@@ -179,21 +178,20 @@ class OverRun:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """What one center path does to one surface.
+    """The effects of one center path on one surface.
 
     `closest` is where the path comes nearest to the surface, None for an empty path; gouges are deepest first, uncut
-    stretches in the contour's order.  `wrong_side` lists rows of the path that are behind the surface somewhere,
-    on the part's side of what is nearest to them, by more than GOUGE: all of them where a closed contour does not cross
-    itself; beside any other those that meet a wall, and those that are so at their ends, in their middles or where
-    they gouge most.
+    stretches in the contour's order.  `wrong_side` lists rows of the path that are somewhere inside the part, on the
+    part's side of the nearest wall, by more than GOUGE.  The list is complete for a closed contour that does not cross
+    itself; for any other it has the rows that meet a wall, and those inside the part at their ends, in their middles or
+    where they gouge most.
     `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
     `backwards` rows that run against all walls they touch.
-    `crossing_at` is the first place where the surface crosses or touches itself.  There is an `over_run` where its
-    first and its last element meet, and nothing else, if what lies beyond is clear of the part: that is judged as
-    lead-in and lead-out and is no surface.  `radius_slack` is how much the uneven radii of arcs add to the tolerance at
-    most.
-    `judged` is False, and `clearance` not a number, where coordinates or radius are no lengths a machine could have or
-    an arc, `uneven_arc`, has two clearly different radii: nothing is known then.
+    `crossing_at` is the first place where the surface crosses or touches itself.  There is an `over_run` if only its
+    first and its last element meet, and the ends beyond that point are clear of the part: these ends count as lead-in
+    and lead-out, not as surface.  `radius_slack` is the most that the uneven radii of arcs add to the tolerance.
+    If `judged` is False and `clearance` NaN, nothing is known: a coordinate or the radius is not a length that a
+    machine could have, or an arc, `uneven_arc`, has two clearly different radii.
     """
 
     radius: float
@@ -218,14 +216,14 @@ class Verdict:
 
     @property
     def clearance(self) -> float:
-        """The least distance from path to surface, infinite for an empty path and no number if nothing is judged."""
+        """The least distance from path to surface, infinite for an empty path and NaN if the path is not judged."""
         if not self.judged:
             return nan
         return inf if self.closest is None else self.closest.distance
 
     @property
     def clean(self) -> bool:
-        """All is judged, nothing is gouged and nothing runs on the wrong side."""
+        """True if the path is judged, gouges nothing and nowhere runs on the wrong side."""
         return self.judged and not self.gouges and not self.wrong_side
 
     @property
@@ -235,5 +233,5 @@ class Verdict:
 
     @property
     def uncut_length(self) -> float:
-        """Length of surface that is not reached."""
+        """Length of surface that the cutter does not reach."""
         return float(self.uncut.length.sum())

@@ -1,7 +1,7 @@
-"""Wrong side: which pieces of a center path run on the part's side of the surface, and how far inside they get there.
+"""Wrong side: which pieces of a center path run on the part's side of the surface, and how far inside they get.
 
-A path changes sides where it meets the surface, and beside an open contour where it passes the normal at a free end,
-beyond which there is no side.  Parted there it has one side in each part: that of the part's middle.
+A path changes sides where it meets the surface and, along an open contour, where it passes the normal at a free end,
+beyond which there is no side.  Split at these places, each part of the path is on one side: that of its middle.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ from core.verify.self_crossings import SelfCrossings, at_joints
 from core.verify.stretches import NO_STRETCHES, Stretches, union
 
 CLEARLY: Final = 1e-6
-"""Sine of an angle to the surface's tangent below which a point is on neither side."""
+"""A point whose angle to the surface's tangent has a smaller sine is on neither side."""
 
 SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
-"""(63, 1) shares of a part at which its side is asked for where walls may contradict each other."""
+"""(63, 1) shares of a part at which its side is tested where walls may contradict each other."""
 
 HALVINGS: Final = 40
-"""Times that the place where the side changes is drawn nearer: to the last digit of any part's length."""
+"""Bisections that locate a change of side: enough for the last digit of any part's length."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sided:
-    """A surface that has a side: `side` is the cutter's.
+    """A surface with sides; the cutter belongs on `side`.
 
-    `stations` are lengths traveled at its pieces' starts and at the end.  Before `first` and behind `last`, and at
-    them, the surface has no side unless it is `endless`.  Where it is `crossed` the sides of two of its walls may
+    `stations` are lengths traveled at its pieces' starts and at the end.  The surface has a side only between `first`
+    and `last`, exclusive, unless it is `endless`.  If it is `crossed`, the sides of two of its walls may
     contradict each other near both.
     """
 
@@ -52,10 +52,10 @@ class Sided:
 
 
 def sided(side: Side, walls: PieceArrays, crossings: SelfCrossings, *, closed: bool) -> Sided:
-    """An over-run bounds no material and has no side.
+    """Return the surface with its sides; an over-run bounds no material and has no side.
 
-    It is the run from an open contour's end to the outermost crossing with itself, when it is shorter than what lies
-    between the outermost crossings.
+    An over-run is the stretch from an open contour's end to its outermost self-crossing, if it is shorter than the
+    stretch between the outermost self-crossings.
     """
     stations = walls.stations
     first, last = 0.0, float(stations[-1])
@@ -66,13 +66,13 @@ def sided(side: Side, walls: PieceArrays, crossings: SelfCrossings, *, closed: b
 
 
 def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tuple[Flags, Gouging]:
-    """(n,) True where a piece of the center path runs on the part's side; and the gouges, with their depth there.
+    """Return (n,) True for pieces of the center path on the part's side, and the gouges with their depth there.
 
-    A gouge that gets to that side is told by the place farthest inside.  Every piece is tested at its middle, one that
-    is away from the surface at its ends too, and each of its parts between the places where it may change sides.
-    Beside an open contour, which has a side only as far as something is nearest to more than its ends, the nearest wall
-    decides: every piece that does not keep to one wall is tested at its ends, a gouge at its ends, in its middle and
-    where it is deepest, and a piece that meets no wall may be on another side between these places.
+    A gouge that reaches the part's side is reported at its place farthest inside.  Every piece is tested at its middle,
+    one away from the surface also at its ends, and gouging stretches in each part between possible changes of side.
+    An open contour has no side where one of its ends is the nearest point; elsewhere the nearest wall decides.  There
+    every piece that does not keep to one wall is tested at its ends, and a gouge at its ends, its middle and its
+    deepest place; a piece that meets no wall may still be on another side between these places.
     """
     if not len(pairs.pieces):
         return np.zeros(0, np.bool_), hits
@@ -94,7 +94,7 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
 
 
 def _on_part_side(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags:
-    """Which places at the fractions `t` of pieces `index` are on the part's side."""
+    """True for places, at fractions `t` of pieces `index`, that are on the part's side."""
     on_part = np.zeros(len(index), np.bool_)
     for first in range(0, len(index), BLOCK_PAIRS):
         block = slice(first, first + BLOCK_PAIRS)
@@ -104,14 +104,13 @@ def _on_part_side(pairs: Pairs, index: Rows, t: Floats, surface: Sided) -> Flags
 
 
 def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, radius: float) -> tuple[Flags, Gouging]:
-    """With what of these parts, which are on the part's side, is more than GOUGE there.
+    """Mark in `wrong` the pieces that go deeper than GOUGE in the parts `inside`, and update the gouges' depths.
 
-    A gouge's distance counts as negative there.  It ends where the path is the radius away again, short of which it is
-    by GOUGE and what uneven arcs leave open: at the end that is farthest inside all of the cutter is behind the
-    surface.
+    On the part's side a gouge's distance is negative.  A gouge ends where the path is the radius away again, less GOUGE
+    and the slack of uneven arcs: if its farthest place is such an end, the whole cutter is inside the part there.
     """
     inside = inside.cut(pairs.stations[1:-1])
-    # what gouges is nowhere farther from the surface
+    # a gouge is nowhere farther from the surface
     most = radius - GOUGE if radius > GOUGE else inf
     far = farthest(pairs, inside, most)
     deep = (far.apart > GOUGE).nonzero()[0]
@@ -133,17 +132,17 @@ def _with_depth(pairs: Pairs, inside: Stretches, hits: Gouging, wrong: Flags, ra
 
 
 def _near(pairs: Pairs, radius: float) -> Flags:
-    """Pieces whose middles are no farther from the surface than the radius."""
+    """True for pieces whose middle is no farther from the surface than the radius."""
     middle = np.minimum.reduceat(pairs.from_piece[1], pairs.begins[:-1])
     near: Flags = middle <= radius + 10.0 * GOUGE
     return near
 
 
 def _kept(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
-    """Pieces that gouge nothing and keep to one inner wall from end to end: they are on one side of it.
+    """True for pieces that do not gouge and keep to one inner wall from end to end: they stay on one side of it.
 
-    From the one side to the other they could only go about the wall's end, where the next wall would be met; beyond
-    the first and the last one there is none.
+    A piece could only change sides around the wall's end, where it would meet the next wall; the first and the last
+    wall, which lack such a neighbor, do not count as inner walls.
     """
     inner = keeping(pairs, radius) & (pairs.j > 0) & (pairs.j < len(pairs.others) - 1)
     kept = np.zeros(len(pairs.pieces), np.bool_)
@@ -155,24 +154,24 @@ def _kept(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
 
 
 def _gouged(hits: Gouging, surface: Sided) -> Floats:
-    """Places along the center path that stand for the gouges: of a closed contour that does not cross itself none."""
+    """Return the places along the center path that represent the gouges; none for a closed, uncrossed contour."""
     if not len(hits) or (surface.endless and not surface.crossed):
         return np.zeros(0)
     return np.concatenate((hits.stretches.first, hits.stretches.last, hits.stretches.middle, hits.place))
 
 
 def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Stretches:
-    """Gouging stretches parted where the center path may change sides.
+    """Return the gouging stretches, split where the center path may change sides.
 
-    A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
-    Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
+    A cutter of radius 0 gouges nothing: for it, test the pieces that meet walls without running along one.
+    If the surface crosses itself, the sides of its walls contradict each other, and there is nothing to test.
     """
     if surface.crossed or not (len(hits) or radius <= GOUGE):
         return NO_STRETCHES
     met, stretches = _meeting(pairs, radius), hits.stretches
     if radius <= GOUGE:
         stretches = union(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
-    # what is exactly JOINED away is met too
+    # a wall exactly JOINED away counts as met
     spots, _, _ = approaches(pairs, met, np.full(len(met), np.nextafter(JOINED, 1.0)))
     cuts = spots, _ends_passed(pairs, stretches, surface), _joints(pairs, surface)
     parts = stretches.cut(np.concatenate(cuts))
@@ -180,7 +179,7 @@ def _parts(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> Stretc
 
 
 def _meeting(pairs: Pairs, radius: float) -> Rows:
-    """Pairs whose pieces meet; along a wall the center of a cutter of no radius does so everywhere."""
+    """Return the pairs whose pieces meet; for radius 0, without pieces that run along a wall and meet it everywhere."""
     meets = pairs.least <= JOINED
     if radius <= GOUGE:
         held = np.zeros(len(pairs.pieces), np.bool_)
@@ -190,13 +189,13 @@ def _meeting(pairs: Pairs, radius: float) -> Rows:
 
 
 def _joints(pairs: Pairs, surface: Sided) -> Floats:
-    """Places between pieces at which the side may be another one: beside a closed contour those where a path ends."""
+    """Return the joints where the side may change: any for an open contour, only gaps of the path for a closed one."""
     joints, moves = pairs.stations[1:-1], pairs.pieces
     return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if surface.endless else joints
 
 
 def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
-    """Places of these stretches' pieces on the normals at the surface's two ends, or at a closed one's open seam."""
+    """Return where the stretches' pieces pass the normals at an open surface's ends, or are nearest to an open seam."""
     walls, moves = pairs.others, pairs.pieces
     if surface.endless and abs(walls.end[-1] - walls.start[0]) <= ON_PATH:
         return np.zeros(0)
@@ -217,8 +216,8 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
 
 
 def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
-    """Places where these parts change sides halfway between arms of an open contour, with its part's side of the one
-    and the cutter's of the other: nothing is met there."""
+    """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
+    the part's side of one arm to the cutter's side of the other."""
     parts = parts.keep(_about_ends(pairs, parts))
     if not len(parts):
         return np.zeros(0)
@@ -235,18 +234,18 @@ def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
 
 
 def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
-    """Which places along the center path are on the part's side."""
+    """True for places `s` along the center path that are on the part's side."""
     return _on_part_side(pairs, *place(pairs.pieces, pairs.stations, s), surface)
 
 
 def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
-    """Parts between whose nearest walls there may be an end of the surface: no other changes sides meeting nothing.
+    """True for parts near an end of the surface: only these can change sides without meeting a wall.
 
-    Let it leave a place nearest to `a` on the left and come to one nearest to `b` on the right.  The way from `a` along
-    the surface to `b` and back over the path is a loop that the surface's other two branches leave to different sides,
-    and cross nowhere: one of its ends is inside.  The loop runs within the boxes of the walls from the first to the
-    last that are nearest to any place of the part's piece, and of what is within their distance of it.  Where an uneven
-    arc misses an end of its own a path may slip through all the same, and no part is left out.
+    Suppose a part goes from a place on the left, nearest to wall point `a`, to one on the right, nearest to `b`.  From
+    `a` along the surface to `b` and back over the path is a loop.  The surface's two remaining branches leave it to
+    different sides and never cross it, so one of the surface's ends is inside.  The loop lies within two boxes: that of
+    the walls between the first and the last one nearest to the part's piece, and that of the piece grown by its
+    distance from them.  An uneven arc may miss its own end and let a path slip through: then all parts count.
     """
     walls, moves = pairs.others, pairs.pieces
     if walls.slack.any():
@@ -263,7 +262,7 @@ def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
         outside = np.zeros(len(parts), np.bool_)
         for axis in (1.0, -1.0, 1j, -1j):
             farthest_out = ((walls.start + walls.vector / 2.0) * axis).real + reach
-            # a run may end behind the last wall
+            # the upper bound of a run may be one past the last wall
             along_walls = np.maximum.reduceat(np.append(farthest_out, -inf), runs)[::2]
             outside |= (end * axis).real > np.maximum(along_walls, (middle * axis).real + room)
         held |= ~outside
@@ -271,7 +270,7 @@ def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
 
 
 def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sided) -> Flags:
-    """Which of the points are clearly on the part's side of all that is nearest to them."""
+    """True for points that are clearly on the part's side of all walls nearest to them."""
     if not len(points):
         return np.zeros(0, np.bool_)
     wall, spots = walls.take(near.j), points[near.k]
@@ -292,9 +291,9 @@ def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sid
 
 
 def _left(walls: PieceArrays, off: Points) -> Floats:
-    """1 for points that are on the left of their walls, in the direction `off` from the walls' starts, -1 on the right.
+    """Return 1 for points on the left of their walls and -1 on the right; `off` is the vector from the wall's start.
 
-    Those on the left of an arc are within its circle where it turns left, and without where it turns right.
+    The left of an arc is the inside of its circle if the arc turns left, the outside if it turns right.
     """
     across = (np.conj(walls.vector) * off).imag
     bent = walls.turn * (walls.radius - np.abs(off + walls.arm))
@@ -302,12 +301,12 @@ def _left(walls: PieceArrays, off: Points) -> Floats:
 
 
 def _off_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) -> Floats:
-    """For points to which the joint behind wall `before` is nearest, `off` from it and so `apart`, a number that is
-    positive for those on the left.
+    """Return a positive number for points on the left; each point's nearest place is the joint after wall `before`, at
+    the vector `off` and the distance `apart`.
 
-    They lie beyond the ends of both walls, so that they are on the left where it turns right.  Where it turns back on
-    itself the sines of both walls may all but cancel each other, and the turn alone is asked; walls that touch there
-    turn to the side on which the way back runs.
+    The points lie beyond the ends of both walls, so they are on the left if the joint turns right.  If the surface
+    turns back there, the sines to both walls nearly cancel each other, and the turn alone decides; walls that are
+    tangent there turn to the side on which the second wall runs back.
     """
     after = (before + 1) % len(walls)
     along = at_joints(walls, before, after)
