@@ -1,7 +1,7 @@
-"""Compensation of MILL CONTOUR blocks: the center path under the conversational control's look-ahead.
+"""Cutter compensation of MILL CONTOUR blocks: the center path under the conversational control's look-ahead.
 
-`compensate` calls the stages: `offset`, `crossings`, `prune`, `blend_moves`.  What goes around an outside corner is
-one piece, an arc about the vertex, made in `offset`; `best_path.raw_offset`, `best_path.trim`, `verify.report` and
-`importing.offset_back` count on that.  Klartext's M120 uses these stages too.  G41, G42, RL and RR of NC programs are
-`controls.compensation`.
+`compensate` calls the stages: `offset`, `crossings`, `prune`, `blend_moves`.  `offset` goes around an outside corner
+with one piece, an arc about the vertex; `best_path.raw_offset`, `best_path.trim`, `verify.report` and
+`importing.offset_back` rely on that.  Klartext's M120 uses these stages too.  G41, G42, RL and RR of NC programs are
+in `controls.compensation`.
 """

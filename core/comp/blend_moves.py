@@ -1,4 +1,4 @@
-"""Blend moves: the quarter circles on which the cutter comes to the path and leaves it.
+"""Blend moves: the quarter circles on which the cutter approaches the path and leaves it.
 
 With E the path's end point, t its direction there and n the normal away from the material, a blend arc of radius B has
 its center at E + B n; it comes from E + B n - B t (the plunge point), or leaves to E + B n + B t.
@@ -17,11 +17,11 @@ from core.geometry.piece import Line, Piece, Point, Side
 from core.tolerance import CLOSED, JOINED
 
 _AT_ITS_START: Final = 2.0 * CLOSED
-"""So far apart may the ends of a closed contour's path be, millimeters: a gap in the contour also turns a segment."""
+"""Millimeters: largest gap between the ends of a closed contour's path; a gap in the contour also turns a segment."""
 
 
 def blend_in(path: Path, side: Side, blend: float) -> Path:
-    """The arc of radius `blend` millimeters (0 = none) tangent to the path at its start, with its first number."""
+    """Return the arc of radius `blend` mm (0 = none) tangent to the path at its start, with the path's first number."""
     if not len(path) or blend <= 0.0:
         return EMPTY
     first = path[0]
@@ -31,10 +31,10 @@ def blend_in(path: Path, side: Side, blend: float) -> Path:
 
 
 def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: bool) -> Path:
-    """What follows the path: the overlap, then the arc of radius `blend` millimeters, with its last number.
+    """Return the moves after the path: the overlap, then the arc of radius `blend` millimeters, with the last number.
 
-    A closed contour whose path ends where it starts runs `overlap` millimeters past the start before it leaves:
-    its own first pieces once more, under their own numbers.
+    If a closed contour's path ends where it starts, it runs `overlap` millimeters past the start before it leaves:
+    it repeats its own first pieces, under their own numbers.
     """
     again = past_start(path, overlap) if closed else EMPTY
     whole = again if len(again) else path
@@ -52,10 +52,10 @@ def _arc(start: Point, end: Point, center: Point, side: Side, number: Floats) ->
 
 
 def past_start(path: Path, overlap: float) -> Path:
-    """The path's first `overlap` millimeters, at most one lap, if it ends where it starts; else nothing.
+    """Return the path's first `overlap` millimeters, at most one lap, if it ends where it starts; else nothing.
 
-    A contour counts as closed though its ends are a little apart: so does the path, and the overlap then begins with
-    the straight move to its start.
+    A contour counts as closed even with a small gap between its ends, and so does its path; the overlap then begins
+    with a straight move to the path's start.
     """
     gap = abs(_gap(path)) if len(path) else inf
     if overlap <= JOINED or gap > _AT_ITS_START:
@@ -78,17 +78,17 @@ def _gap(path: Path) -> complex:
 
 
 def _from(start: Point, piece: Piece) -> Piece:
-    """The same piece from a start that is the same point."""
+    """Return the same piece from a start that is the same point within rounding; full circles stay full."""
     return replace(piece, start=start, end=start if piece.end == piece.start else piece.end)
 
 
 def _beginning(piece: Piece, length: float) -> Piece:
-    """The first `length` millimeters of a piece that is longer."""
+    """Return the first `length` millimeters of a piece that is longer."""
     return replace(piece, end=piece.point_at(length / piece.length))
 
 
 def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
-    """The far end and the center of the quarter circle at a path's end that reaches `outer` along it."""
+    """Return the far end, toward `outer` from the center, and the center of the quarter circle at a path's end."""
     center = complex(*at) + blend * side.sign * 1j * along
     return _point(center + blend * outer), _point(center)
 

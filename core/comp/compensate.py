@@ -1,6 +1,6 @@
-"""Compensate: a MILL CONTOUR block's center path under the look-ahead, with every stage kept.
+"""Compensate: calculate a MILL CONTOUR block's center path under the look-ahead, and keep the result of every stage.
 
-The stages: zero-length segments dropped, offset to the raw chain, crossings found, walked and pruned, blended.
+The stages: drop zero-length segments, offset to the raw chain, find the crossings, walk and prune, add blend moves.
 """
 
 from __future__ import annotations
@@ -32,22 +32,21 @@ def compensate(
     blend: float = 0.0,
     overlap: float = 0.0,
 ) -> Compensated:
-    """The center path of a contour at `radius` millimeters to `side`, at one look-ahead.
+    """Calculate the center path of a contour, `radius` millimeters to `side`, at one look-ahead.
 
-    `closed` is whether the programmed contour ends at its start; its first and last segments are then never tested
-    against each other.  `blend` is the radius of the blend arcs, `overlap` how far a closed contour runs past its
-    start, millimeters, 0 = none.  A contour that cannot be compensated gives an empty path and an error finding.
+    `closed` is True if the programmed contour ends at its start; its first and last segments are then never tested
+    against each other.  `blend` is the radius of the blend arcs, `overlap` the distance that a closed path runs past
+    its start, millimeters, 0 = none.  A contour that cannot be compensated gives an empty path and an error finding.
     """
     return offset_contour(contour, side, radius, (lookahead,), closed=closed).path_at(lookahead, blend, overlap)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class OffsetContour:
-    """A contour offset, with the crossings of its raw chain: the stages that no look-ahead changes.
+    """An offset contour with the crossings of its raw chain: the stages that do not depend on the look-ahead.
 
-    `chain` is None for a contour that has no center path at any look-ahead; `findings` tell why, or what is always
-    said.
-    """
+    `chain` is None if the contour has no center path at any look-ahead; `findings` then say why.  Otherwise they apply
+    at every look-ahead."""
 
     contour: Path
     side: Side
@@ -58,11 +57,11 @@ class OffsetContour:
     findings: tuple[Finding, ...]
 
     def tested(self, lookahead: int) -> int:
-        """How many crossings this look-ahead tests."""
+        """Return how many crossings this look-ahead tests."""
         return self.candidates.count(lookahead) if self.candidates else 0
 
     def path_at(self, lookahead: int, blend: float, overlap: float) -> Compensated:
-        """What this look-ahead, no larger than the largest it was made for, makes of the contour."""
+        """Return the contour's path at this look-ahead, no larger than the largest one that `offset_contour` got."""
         chain, candidates = self.chain, self.candidates
         if chain is None or candidates is None:
             return self._without_path(lookahead)
@@ -110,7 +109,7 @@ class OffsetContour:
 def offset_contour(
     contour: Path, side: Side, radius: float, lookaheads: Sequence[int], *, closed: bool
 ) -> OffsetContour:
-    """The stages of `compensate` that all of these look-aheads have in common."""
+    """Run the stages of `compensate` that all of these look-aheads have in common."""
     refused = findings.contour_refusals(contour, radius, lookaheads)
     if refused:
         return OffsetContour(contour, side, radius, closed, None, None, refused)
@@ -126,7 +125,7 @@ def offset_contour(
 
 
 def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
-    """The contour without its zero-length segments, and a finding for each of them."""
+    """Return the contour without its zero-length segments, and a finding for each of them."""
     ends = as_complex(contour.points)
     near = (np.abs(ends[1:] - ends[:-1]) <= JOINED).nonzero()[0]
     dropped = np.array([row for row in near.tolist() if _is_point(contour[row])], np.intp)
@@ -136,7 +135,7 @@ def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
 
 
 def _is_point(piece: Piece) -> bool:
-    """No longer than JOINED, of a piece whose ends are as near; an arc about its end has no direction there."""
+    """True if a piece with ends within JOINED has no length; an arc centered on its end has no direction there."""
     return piece.length <= JOINED or (isinstance(piece, Arc) and piece.center == piece.end)
 
 
@@ -150,7 +149,7 @@ def compensate_all(
     blend: float = 0.0,
     overlap: float = 0.0,
 ) -> tuple[Compensated, ...]:
-    """`compensate` at several look-aheads, in their order; those that test the same crossings are walked once."""
+    """Run `compensate` at several look-aheads, in their order; those that test the same crossings share one walk."""
     if not lookaheads:
         return ()
     offset = offset_contour(contour, side, radius, lookaheads, closed=closed)

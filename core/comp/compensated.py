@@ -1,4 +1,4 @@
-"""Compensated: the center path of a contour and everything that became of the contour on the way."""
+"""Compensated: the center path of a contour and the results of all stages on the way to it."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ class Deletions:
 class Compensated:
     """A contour's center path at one look-ahead, with its stages.
 
-    `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` what is
-    left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges still standing.
-    `lead_in` and `lead_out` are the blend moves.  Millimeters.  `tested` is how many crossings the look-ahead tests:
-    two look-aheads of one contour that test equally many test the same, and make one path.
+    `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` is what is
+    left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges never replaced.
+    `lead_in` and `lead_out` are the blend moves with the overlap.  Millimeters.  `tested` is the number of crossings
+    that the look-ahead tests: look-aheads of one contour with equal numbers make the same path.
     """
 
     contour: Path

@@ -1,7 +1,7 @@
-"""Crossings: where pieces of the raw chain meet, for every pair a look-ahead allows.
+"""Crossings: where pieces of the raw chain meet, for every pair that a look-ahead allows.
 
-All of it is found before the walk, on whole pieces: trimming a piece never moves where it meets another, it only
-decides which of those points are left.  The walk itself then needs no geometry.
+All crossings are found before the walk, on whole pieces: trimming a piece never moves the points where it meets
+others, it only decides which of them remain.  The walk itself then needs no geometry.
 """
 
 from __future__ import annotations
@@ -36,31 +36,31 @@ class Crossings:
         return len(self.a)
 
     def chosen(self, rows: Flags | Rows) -> Crossings:
-        """Those crossings only."""
+        """Return the crossings of these rows."""
         return Crossings(*(getattr(self, name)[rows] for name in self.__slots__))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
-    """All crossings of a chain: `joints` of neighbors at inside corners, `others` with their reach in half steps."""
+    """All crossings of a chain: `joints` of neighbors at inside corners, `others` with their `reach` in half steps."""
 
     joints: Crossings
     others: Crossings
     reach: Rows
 
     def within(self, lookahead: int) -> Crossings:
-        """The crossings of pieces that are not neighbors and that this look-ahead tests."""
+        """Return the crossings of non-neighboring pieces that this look-ahead tests."""
         return self.others.chosen(self.reach <= 2 * lookahead)
 
     def count(self, lookahead: int) -> int:
-        """How many of these this look-ahead tests: look-aheads of one count test the same."""
+        """Return how many of these this look-ahead tests; look-aheads with equal counts test the same crossings."""
         return int(np.count_nonzero(self.reach <= 2 * lookahead))
 
 
 def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
-    """Every crossing that a look-ahead up to `lookahead` may have to know of.
+    """Find every crossing that a look-ahead up to `lookahead` may need.
 
-    Tangent touches of pieces that are not neighbors are left out: a cutter that just fits passes.  The first and
+    Tangent touches of non-neighboring pieces are left out: a cutter that just fits passes.  The first and
     the last segment of a closed contour are never tested against each other, unless they are neighbors.
     """
     pieces = pieces_of(chain.raw)
@@ -76,7 +76,7 @@ def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
 
 
 def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
-    """Some of the points at which pairs of pieces a, b have met."""
+    """Return the `chosen` points at which pairs of pieces a, b meet."""
     rows = chosen.nonzero()[0]
     pair = met.pair[rows]
     return Crossings(
@@ -91,11 +91,11 @@ def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
 
 
 def _near_pairs(chain: RawChain, pieces: Pieces, reach: int) -> tuple[Rows, Rows]:
-    """Pairs a < b, by b, then a, of segments and corners that are not next to each other in the chain, within reach
-    and with boxes that meet.
+    """Return pairs a < b, by b, then a, of segments and corner arcs that are not adjacent in the chain, are within
+    `reach` half steps and have boxes that meet.
 
-    No two have one place, so that there are no more than `reach` of them within reach: shifting all of them along
-    themselves by one, two and so on finds every pair, and no more where a thousand pieces lie on top of each other.
+    Each has a half step of its own, so no more than `reach` of them are within reach of one: comparing all of them with
+    themselves shifted by 1, 2, ... finds every pair, at the same cost if a thousand pieces lie on top of each other.
     """
     rows = (chain.parts <= RawPart.CORNER).nonzero()[0]
     half_steps, grown = chain.half_steps[rows], _grown_boxes(pieces.take(rows))
@@ -116,7 +116,7 @@ def _near_pairs(chain: RawChain, pieces: Pieces, reach: int) -> tuple[Rows, Rows
 
 
 def _grown_boxes(pieces: Pieces) -> Floats:
-    """Boxes a hair larger than the pieces, and than the circle for which an arc of two different radii is taken."""
+    """Return boxes a hair larger than the pieces, grown for an arc with two different radii by their difference."""
     first, last = np.abs(pieces.start - pieces.center), np.abs(pieces.end - pieces.center)
     grow = ON_PATH + np.where(pieces.turn == 0, 0.0, np.abs(last - first))
     grown = boxes(pieces)

@@ -1,4 +1,4 @@
-"""Findings of compensation: contours it refuses, and what became of one that the operator must know."""
+"""Findings of compensation: why it refuses a contour, and what the operator must know about a compensated one."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
 
 MAX_NAMED_PLACES: Final = 100
-"""The number of places of one kind that are listed; a last finding then says how many there are."""
+"""At most this many places of one kind are listed; a last finding then says how many there are in all."""
 
 
 def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
-    """Why a contour cannot be compensated at all; nothing if it can."""
+    """Return why a contour cannot be compensated at all; empty if it can."""
     if not isfinite(radius) or not 0.0 < radius <= LARGEST:
         return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)
     if min(lookaheads, default=1) < 1:
@@ -38,7 +38,7 @@ def _error(code: str, text: str, segment: float | None = None) -> Finding:
 
 
 def _usable(values: Floats) -> bool:
-    """Are all values numbers a machine could have?  Comparisons with NaN are false."""
+    """True if all values are coordinates that a machine could have; comparisons with NaN are false."""
     return bool(np.abs(values).max() <= LARGEST)
 
 
@@ -50,9 +50,9 @@ def _not_finite(contour: Path) -> Finding:
 
 
 def _not_arcs(contour: Path) -> tuple[Finding, ...]:
-    """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing.
+    """Return errors for arcs whose radii at start and end differ by more than rounding, or have a radius of zero.
 
-    Where they differ by less, an arc whose ends are on one ray from its center is a full turn or none at all.
+    If the radii differ by less, an arc whose ends are on one ray from its center may be a full turn or empty.
     """
     rows = contour.turns.nonzero()[0]
     if not len(rows):
@@ -79,7 +79,7 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
 
 
 def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats, last: Floats) -> tuple[Finding, ...]:
-    """An error for each bad arc, with its radii."""
+    """Return an error for each bad arc, with its radii."""
     return tuple(
         Finding(code, Severity.ERROR, text, float(numbers[row]), lengths=(float(first[row]), float(last[row])))
         for row in bad.nonzero()[0][:MAX_NAMED_PLACES].tolist()
@@ -87,13 +87,13 @@ def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats
 
 
 def zero_length(contour: Path, rows: Rows) -> list[Finding]:
-    """Segments dropped because they have no length."""
+    """Return a warning for each segment that is skipped because it has no length."""
     text = "No length: skipped. Type its end, or F1 deletes it."
     return _named("ZERO_LENGTH", text, contour.numbers[rows], contour.points[rows])
 
 
 def start_in_corner_finding(contour: Path, side: Side, radius: float) -> list[Finding]:
-    """A closed contour that starts at an inside corner: the cutter comes down in the other wall."""
+    """Warn about a closed contour that starts in an inside corner: the cutter plunges into the last wall."""
     first, last = contour[0], contour[-1]
     bend = complex(*last.direction_at(last.end)).conjugate() * complex(*first.direction_at(first.start))
     if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
@@ -104,7 +104,7 @@ def start_in_corner_finding(contour: Path, side: Side, radius: float) -> list[Fi
 
 
 def bridge_findings(contour: Path, chain: RawChain, pruned: Pruned, radius: float) -> list[Finding]:
-    """Bridges that still stand in the path: inside arcs and corners the tool cannot enter."""
+    """Return warnings for the bridges that remain in the path: inside arcs and corners that the tool cannot enter."""
     rows = pruned.bridges
     if not len(rows):
         return []
@@ -122,7 +122,7 @@ def _vanished(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list
 
 
 def _missed(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[Finding]:
-    """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
+    """Warn about bridged inside corners whose bridge enters a wall: by its length squared over the tool diameter."""
     points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
     text = "Corner too tight for the tool: the path runs straight across and may gouge."
@@ -131,7 +131,7 @@ def _missed(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[F
 
 
 def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
-    """A closed contour of which the look-ahead deleted more than half the length."""
+    """Warn about a closed contour if the look-ahead deleted more than half of its length."""
     deleted = pruned.deleted.segments
     if not len(deleted):
         return []
@@ -146,12 +146,12 @@ def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
 
 
 def nothing_left() -> Finding:
-    """The path that has no length at all."""
+    """Return the error for a path with no length at all."""
     return _error("NO_PATH", "Nothing is left of the path: the tool does not fit.")
 
 
 def segment_list(numbers: NDArray[np.float64]) -> str:
-    """Segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
+    """Return segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
     whole = numbers.astype(int)
     runs = np.split(whole, (np.diff(whole) != 1).nonzero()[0] + 1)
     words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:MAX_NAMED_PLACES]]
@@ -159,7 +159,7 @@ def segment_list(numbers: NDArray[np.float64]) -> str:
 
 
 def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | None = None) -> list[Finding]:
-    """One warning for each place, and one more for those beyond the number that is named."""
+    """Return a warning for each of the first MAX_NAMED_PLACES places; one more gives the total if there are more."""
     first = slice(MAX_NAMED_PLACES)
     sizes = [None] * len(numbers[first]) if values is None else values[first].tolist()
     rows = zip(numbers[first].tolist(), at[first].tolist(), sizes, strict=True)

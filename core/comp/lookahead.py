@@ -1,4 +1,4 @@
-"""Look-ahead: the calculated value (CAL), the range of a typed one (USR), the one to recommend; the rule is `prune`."""
+"""Look-ahead: the calculated value (CAL), the range of typed values (USR), the recommended one; `prune` applies it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _LARGEST_CALCULATED: Final = 8
 
 
 def calculated(count: int, *, closed: bool) -> int:
-    """The CAL value for `count` segments, START not counted (LOOK_AHEAD.md).
+    """Return the CAL value for `count` segments, START not counted (LOOK_AHEAD.md).
 
     Closed: count - 1, at least 3.  Open: count - 3, at least 2.  Never more than 8.
     """
@@ -26,7 +26,7 @@ def calculated(count: int, *, closed: bool) -> int:
 
 
 class LookaheadOutcome(Protocol):
-    """What one look-ahead value does to a contour: lengths in millimeters."""
+    """The effect of one look-ahead value on a contour: lengths in millimeters."""
 
     @property
     def value(self) -> int:
@@ -34,15 +34,15 @@ class LookaheadOutcome(Protocol):
 
     @property
     def clean(self) -> bool:
-        """Whether its path gouges nothing."""
+        """True if its path gouges nothing."""
 
     @property
     def uncut(self) -> float:
-        """Length of surface it leaves."""
+        """Length of surface that it leaves uncut."""
 
 
 def recommended(outcomes: Sequence[LookaheadOutcome]) -> int | None:
-    """The clean value that leaves least uncut, of those the smallest; None when no value is clean."""
+    """Return the smallest of the clean values that leave the least uncut; None if no value is clean."""
     clean = [outcome for outcome in outcomes if outcome.clean]
     least = min((outcome.uncut for outcome in clean), default=0.0)
     return min((outcome.value for outcome in clean if outcome.uncut <= least + JOINED), default=None)

@@ -1,9 +1,9 @@
-"""Offset: every segment moved one radius to the side, and the corner arcs between, also for best paths and M120.
+"""Offset: move every segment one radius to the side and put corner arcs between, also for best paths and M120.
 
-Words: the chain's parts are offset SEGMENTs, CORNER arcs about outside corners, BRIDGEs (provisional lines where
-an inside corner's two offsets are to be tested), and VANISHED segments (inside arcs not larger than the tool,
-bridged likewise).  The position of a part in half steps is 2 k for the k-th segment (from 0), 2 k + 1 for what lies
-between it and the next: two parts are within a look-ahead of v when they are within 2 v half steps.
+Words: the chain's parts are offset SEGMENTs, CORNER arcs about outside corners, BRIDGEs (provisional lines at inside
+corners, whose two offsets are still to be tested), and VANISHED segments (inside arcs not larger than the tool, also
+replaced by a line).  The position of a part in half steps is 2 k for the k-th segment (from 0), 2 k + 1 for the part
+between it and the next: two parts are within a look-ahead of v if they are within 2 v half steps.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from core.tolerance import JOINED
 
 
 class RawPart(IntEnum):
-    """What a piece of the raw chain is."""
+    """The kind of a piece of the raw chain."""
 
     SEGMENT = 0
     CORNER = 1
@@ -31,7 +31,7 @@ class RawPart(IntEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RawChain:
-    """The raw chain of m pieces: `raw`, the `parts` (m,) they are and their positions `half_steps` (m,)."""
+    """The raw chain of m pieces: their path `raw`, their kinds `parts` (m,) and their positions `half_steps` (m,)."""
 
     raw: Path
     parts: NDArray[np.uint8]
@@ -42,7 +42,7 @@ class RawChain:
 
 
 class _Offsets(NamedTuple):
-    """n offset segments: their starts and ends (2, n), the unit normals there to the left (2, n), which vanish (n,)."""
+    """n offset segments: starts and ends (2, n), the left unit normals there (2, n), and which have `vanished` (n,)."""
 
     ends: Points
     normals: Points
@@ -50,9 +50,9 @@ class _Offsets(NamedTuple):
 
 
 def offset(contour: Path, side: Side, radius: float) -> RawChain:
-    """The raw chain of a contour without zero-length segments, at `radius` > 0 millimeters to `side`.
+    """Return the raw chain of a contour without zero-length segments, `radius` > 0 millimeters to `side`.
 
-    Each segment has two slots, for itself and for its joint with the next one; the chain takes some of them.
+    Each segment has two slots, one for itself and one for its joint with the next; the chain takes the slots in use.
     """
     offsets = _offsets(contour, side.sign * radius)
     link, outside = _joints(offsets.normals, side.sign, radius)
@@ -79,7 +79,7 @@ def offset(contour: Path, side: Side, radius: float) -> RawChain:
 
 
 def _offsets(contour: Path, shift: float) -> _Offsets:
-    """All segments moved by `shift` along their left normals."""
+    """Move all segments by `shift` along their left normals."""
     points, centers, turns = as_complex(contour.points), as_complex(contour.centers), contour.turns
     ends = np.array((points[:-1], points[1:]))
     normals = np.where(turns == 0, 1j * (ends[1] - ends[0]), (centers - ends) * turns)
@@ -89,10 +89,10 @@ def _offsets(contour: Path, shift: float) -> _Offsets:
 
 
 def _joints(normals: Points, sign: int, radius: float) -> tuple[Flags, Flags]:
-    """Which joints of segments with each other need a link, and which are outside corners.
+    """Return which joints need a link between their segments, and which are outside corners.
 
-    The offset ends' distance decides about tangency: the radius times that of the normals.
-    An exact reversal is an outside corner: its offsets would meet nowhere on the other side.
+    A joint is tangent if its offset ends coincide: their distance is the radius times the distance of the normals.
+    An exact reversal is an outside corner: its offsets never meet on the other side.
     """
     before, following = normals[1, :-1], normals[0, 1:]
     bend = before.conj() * following
@@ -101,7 +101,7 @@ def _joints(normals: Points, sign: int, radius: float) -> tuple[Flags, Flags]:
 
 
 def _close_circles(starts: Points, contour: Path, half_steps: Rows) -> None:
-    """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
+    """Keep full circles full: set their start equal to their end, which is the next piece's start in the chain."""
     ends = as_complex(contour.points)
     circles = (ends[1:] == ends[:-1]).nonzero()[0]
     for row in half_steps.searchsorted(2 * circles)[::-1].tolist():

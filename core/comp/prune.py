@@ -1,9 +1,9 @@
 """Prune: the conversational control's walk along the raw chain, which trims, bridges and deletes under the look-ahead.
 
-The pieces b come one after the other.  Each is first joined to its predecessor; then it is tested against what is
-left of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,
-everything between is deleted (LOOK_AHEAD.md).  What is left of a piece is a range of distances along it and all
-crossings are known, so that the walk compares numbers and visits only pieces at which something is not settled.
+The walk takes the pieces b in order.  Each is first joined to its predecessor; then it is tested against the remaining
+parts of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,
+and everything between is deleted (LOOK_AHEAD.md).  The rest of a piece is a range of distances along it, and all
+crossings are known beforehand, so the walk only compares numbers and visits only pieces that are not settled.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from core.tolerance import JOINED, ON_PATH
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pruned:
-    """What the walk leaves: the path, its `bridged` pieces (len(path),), and the deleted segments.
+    """The result of the walk: the path, a flag for each of its `bridged` pieces (len(path),), and the deleted segments.
 
-    `bridges` are the rows of bridges of the chain that still stand.
+    `bridges` are the chain's rows of the bridges that remain.
     """
 
     path: Path
@@ -36,8 +36,8 @@ class Pruned:
 
 
 class _Left(NamedTuple):
-    """What is left of the chain's m pieces: from `low` to `high` (m,) millimeters along them, infinite for a whole end;
-    the points `starts` (m,) where they start, and which of them stand (m,)."""
+    """The rest of the chain's m pieces: from `low` to `high` (m,) millimeters along them, `high` infinite if the end is
+    untrimmed; the points `starts` (m,) where they start; `stands` (m,) is True for pieces that remain."""
 
     low: Floats
     high: Floats
@@ -46,9 +46,9 @@ class _Left(NamedTuple):
 
 
 def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
-    """Walk the chain with the crossings of its joints and those of other pieces that the look-ahead tests.
+    """Walk the chain, given the crossings at its joints and those of other pieces that the look-ahead tests.
 
-    `last_wins`: a joint takes the latest point on the earlier piece (closed contours of two segments).
+    With `last_wins` a joint takes the last point along the earlier piece (closed contours of two segments).
     """
     again, wins = joints.b[1:] == joints.b[:-1], np.ones(len(joints), np.bool_)
     (wins[:-1] if last_wins else wins[1:])[again] = False
@@ -63,8 +63,8 @@ def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: b
 class _Walk:
     """One walk along a chain of `count` pieces.
 
-    Inside corners are trimmed by `trims` before it begins: only the joints of pieces whose start is then beyond their
-    end are made anew.
+    `trims` cut the inside corners before the walk begins; it then redoes only the joints of pieces whose start is past
+    their end.
     """
 
     def __init__(self, count: int, trims: Crossings, joints: Crossings, others: Crossings) -> None:
@@ -82,10 +82,10 @@ class _Walk:
         """Rows of `others` that deleted something, in order."""
 
     def visit(self) -> None:
-        """Test every piece by its crossings: it takes the first that lies on what is left of both pieces.
+        """Test every piece's crossings and take the first one that lies on the remaining parts of both pieces.
 
-        One's very end at the other's very start is no crossing.  The earlier piece then ends there, the later one
-        starts there, everything between is gone.
+        The earlier piece then ends there, the later one starts there, and everything between is deleted.  A point at
+        the very end of one piece and the very start of the other is not a crossing.
         """
         low, high, gone, agenda, others = self._low, self._high, self.gone, self._agenda, self._others
         columns = others.b, others.a, others.along_a, others.along_b, others.a_ends, others.b_ends
@@ -110,13 +110,13 @@ class _Walk:
         self._settle(len(low))
 
     def _settle(self, until: int) -> None:
-        """Join anew what no longer holds, up to the joint of piece `until` with its predecessor."""
+        """Redo the joints that no longer hold, up to the joint of piece `until` with its predecessor."""
         low, high, agenda = self._low, self._high, self._agenda
         while agenda and agenda[-1] <= until:
             piece = agenda.pop()
             start = low[piece - 2] - ON_PATH
             if high[piece - 2] < start:
-                # at their other crossing, if they have one that is left, else by a bridge
+                # join the pieces at their other crossing if it remains, else by a bridge
                 row = bisect_right(self._joint_pieces, piece) - 1
                 along = float(self._joints.along_a[row])
                 if along >= start:
@@ -129,7 +129,7 @@ class _Walk:
                 agenda.append(piece + 2)
 
     def left(self, chain: RawChain) -> _Left:
-        """What the walk has left of the chain."""
+        """Return what the walk has left of the chain."""
         raw_starts, bridged = as_complex(chain.raw.points)[:-1], np.array(self._bridged, np.intp)
         starts, stands = raw_starts.copy(), np.ones(len(chain), np.bool_)
         starts[self._trims.b], stands[self._trims.b - 1] = self._trims.points, False
@@ -141,7 +141,7 @@ class _Walk:
 
 
 def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
-    """The path of the pieces that still stand; the rows of the bridges among them, and the rows of all."""
+    """Return the path of the remaining pieces, the rows of the bridges among them, and the rows of all."""
     alive = left.stands.nonzero()[0]
     starts = np.append(left.starts[alive], as_complex(chain.raw.points)[-1:])
     real = _not_slivers(chain, left, alive, starts)
@@ -156,9 +156,9 @@ def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]
 
 
 def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> Flags:
-    """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle.
+    """True for pieces that still have a length: an arc trimmed to a point must not become a full circle.
 
-    One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
+    An arc that remains a full turn within rounding gets equal ends in `starts`, and so stays a full circle.
     """
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
     for row in (~real & (chain.raw.turns[alive] != 0)).nonzero()[0].tolist():
@@ -170,7 +170,7 @@ def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> F
 
 
 def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
-    """The segments among the pieces that are gone, each by the first event, a row in `met`, that spans it."""
+    """Return the deleted segments, each with the first event, a row in `met`, that spans it."""
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
     deleted = gone.nonzero()[0]

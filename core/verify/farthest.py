@@ -45,8 +45,8 @@ LEAST_SHARE: Final = 1e-3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
-    """(k,) for each stretch the place, in length traveled, that is farthest from the other path, its point, distance
-    and the first piece of the other path nearest to it."""
+    """(k,) for each stretch: the place, in length traveled, that is farthest from the other path, its point, its
+    distance and the first piece of the other path nearest to it."""
 
     place: Floats
     point: Points

@@ -70,7 +70,7 @@ def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
 
 
 def _may_come_back(surface: PieceArrays) -> Flags:
-    """Return (n - 1,) True for pieces that may meet the next one again: either is an arc, or the next reverses."""
+    """Return (n - 1,) True for pieces that may meet the next one again: one is an arc, or the next nearly reverses."""
     vector, length, bent = surface.vector, surface.length, surface.arcs
     back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
     back |= bent[:-1] | bent[1:]

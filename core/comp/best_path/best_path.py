@@ -1,10 +1,10 @@
-"""Best path: the true offset of a whole contour, every place its cutter can reach and nothing it cannot.
+"""Best path: the true offset of a whole contour, with every place that the cutter can reach and none that it cannot.
 
-The control's look-ahead rule does not bind it: it is trimmed globally, across the start too, in one or several loops.
+The control's look-ahead rule does not limit it: it is trimmed globally, also across the start, in one or more loops.
 The stages: surface, raw offset, trim, slices, clearance, stitch.  BEST_PATH.md explains them with a picture.
 
-Two things count as surface on both sides: an open contour, about whose ends the cutter could go, and a contour that
-crosses itself, where over-run lead-ins are walls like any other segment; a finding says so.
+Two kinds of contour are walls on both sides: an open contour, since the cutter could go around its ends, and a contour
+that crosses itself, in which over-run lead-ins are walls like any other segment; a finding says so.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ from core.geometry.piece import Side
 from core.tolerance import GOUGE, JOINED, WHISKER
 
 MAX_LOOPS: Final = 10_000
-"""More loops than any part has: such a scribble is refused."""
+"""More loops than any real part has: such a scribble is refused."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BestPath:
-    """The loops of the best path in the contour's direction and the order of its segments; `closed` tells which are.
+    """The loops of the best path in the contour's direction and the order of its segments; `closed` marks closed ones.
 
-    A closed loop starts at the image of START if that is on it, else with the first segment of the contour it follows.
-    An open contour has open chains too.  Pieces bear the programmed number k, corner arcs k + 1/2.
+    A closed loop starts at the offset of START if that is on it, else with the first segment that it follows.
+    An open contour has open chains too.  Pieces have the programmed number k, corner arcs k + 1/2.
     Without loops, a finding says why.
     """
 
@@ -44,10 +44,10 @@ class BestPath:
 
 
 def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
-    """Every place of the cutter's center at `radius` millimeters from the contour on `side` that is clear of all of it.
+    """Return every position of the cutter's center `radius` mm from the contour on `side` that is clear of all of it.
 
-    `closed` is whether the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
-    where the cutter fits nowhere, gives no loops and an error finding.
+    `closed` is True if the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
+    that has no room for the cutter, gives no loops and an error finding.
     """
     surface = prepare_contour(contour, radius, closed=closed)
     if not len(surface.path):
@@ -67,7 +67,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
 
 
 def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findings: tuple[Finding, ...]) -> BestPath:
-    """The loops longer than rounding, and what is to be said of them."""
+    """Return the best path: the loops longer than rounding, with their findings."""
     walked = [(rows, ring) for rows, ring in chains(made) if not _is_rounding(made, rows)]
     if len(walked) > MAX_LOOPS:
         return BestPath((), (), (*findings, _tangled()))
@@ -80,7 +80,7 @@ def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findin
 
 
 def _is_rounding(made: StitchedSlices, rows: Rows) -> bool:
-    """Are these slices no longer than what rounding leaves, which is more where it has parted them?"""
+    """True if these slices are so short that rounding made them; the limit is larger where it left gaps in them."""
     return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
 
 
@@ -101,7 +101,7 @@ def _crossing(numbers: tuple[float, float]) -> Finding:
 
 
 def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
-    """The largest gap that rounding has left between neighbors' offsets and that was closed on the path."""
+    """Report the largest gap on the path that rounding left between neighbors' offsets and that was closed."""
     cut, bridges = made.cut, made.gaps[rows]
     until = cut.until[rows]
     passed = np.zeros(len(raw) + 1)
@@ -120,7 +120,7 @@ def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedC
 
 
 def _broken(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
-    """The first place where the path ends or begins though the cutter could go on."""
+    """Warn about the first place where the path ends or begins although the cutter could go on."""
     cut = made.cut
     loose = rows[made.loose_end[rows] | made.loose_begin[rows]]
     if not len(loose):

@@ -1,8 +1,8 @@
-"""Clearance: along which slices the cutter is nowhere nearer to the surface than its radius.
+"""Clearance: find the slices along which the cutter is nowhere nearer to the surface than its radius.
 
-Slices that are clear or not together make a GROUP: those that at crossings turn to each other on the cutter's side.
-A group with one slice that turns the wrong way is not clear.  Of every other group the distance to the surface is
-measured at a sample of slices, and at all of them if these disagree.
+Slices that turn into each other at crossings, on the cutter's side, form a GROUP: all of them are clear, or none is.
+A group with one slice that turns the wrong way is not clear.  In every other group the distance to the surface is
+measured at a sample of slices, and at all of them if the sample disagrees.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from core.geometry.path import Flags, Points, Rows, as_complex
 from core.tolerance import CLEAR
 
 SAMPLE: Final = 64
-"""Of a group's slices in their order the first and then one in this number are measured, and all that are long."""
+"""Interval between the slices of a group that are measured; all long slices are measured too."""
 
 
 def clear_slices(raw: RawOffset, cut: Slices, walls: Walls, radius: float) -> Slices:
-    """The slices along which the cutter is nowhere nearer to the surface than the radius."""
+    """Return the slices along which the cutter is nowhere nearer to the surface than the radius."""
     if not len(cut):
         return cut
     turning = (cut.turning >= 0).nonzero()[0]
@@ -44,7 +44,7 @@ def clear_slices(raw: RawOffset, cut: Slices, walls: Walls, radius: float) -> Sl
 
 
 def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, walls: Walls, radius: float) -> Flags:
-    """Which of the slices that are asked about are clear, each measured in its middle."""
+    """Return which of the `asked` slices are clear, each measured in its middle."""
     good = asked.copy()
     points, piece = cut.middles(raw, asked.nonzero()[0])
     good[asked] = clear(points, raw.segment[piece], walls, radius)
@@ -52,10 +52,10 @@ def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, walls: Walls, ra
 
 
 def clear(points: Points, segments: Rows, walls: Walls, radius: float) -> Flags:
-    """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR.
+    """Return (k,) True for points that are no nearer to any piece of the surface than the radius, within CLEAR.
 
-    `segments` (k,) are the pieces the points were offset from: most points that are not clear are too near to a vertex
-    not far from there.
+    `segments` (k,) are the pieces that the points were offset from: most points that are not clear are too near to a
+    vertex close to that piece.
     """
     good = _clear_of_vertices(points, segments, as_complex(walls.path.points), radius)
     rows = good.nonzero()[0]
@@ -67,7 +67,7 @@ def clear(points: Points, segments: Rows, walls: Walls, radius: float) -> Flags:
 
 
 def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius: float) -> Flags:
-    """Which points are clear of the vertices 1, 2, 4, 8 ... segments ahead and behind, until none is near."""
+    """True for points that are clear of the vertices 1, 2, 4, 8 ... segments ahead and back, until none is near."""
     good = np.ones(len(points), np.bool_)
     step, near = 1, True
     while near and step < len(vertices):
@@ -82,7 +82,7 @@ def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius:
 
 
 def _rank(group: Rows) -> Rows:
-    """Each slice's place in its group."""
+    """Return each slice's rank within its group."""
     order = np.argsort(group, kind="stable")
     ordered = group[order]
     rank = np.empty(len(group), np.intp)

@@ -1,4 +1,4 @@
-"""Prepared contour: the contour made fit to be offset globally, and whether it crosses itself or winds."""
+"""Prepared contour: a contour made ready for the global offset, and tests for whether it crosses itself or winds."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from core.geometry.piece_arrays import PieceArrays, even_centers, piece_arrays
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF_TURN: Final = 3.1
-"""Radians, safely under half a turn; whether a corner sharper than this turns left or right its angle does not tell."""
+"""Radians, safely under half a turn: with a sharper corner the angle does not tell whether it turns left or right."""
 
 NOT_WHOLE_TURN: Final = 6.0
 """Radians; an arc that turns through less ends well away from its start."""
 
 RUN: Final = 16
-"""Consecutive segments whose headings are looked at together."""
+"""Consecutive segments whose headings are compared together."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PreparedContour:
-    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused."""
+    """`path` is the surface moved by -`origin` (2,) so that it lies around (0, 0); empty if it is refused."""
 
     path: Path
     origin: Floats
@@ -36,10 +36,10 @@ class PreparedContour:
 
 
 def prepare_contour(contour: Path, radius: float, *, closed: bool) -> PreparedContour:
-    """The contour made fit to be offset, or why it cannot be.
+    """Prepare the contour for the offset, or return why that is impossible.
 
-    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) is made one of one radius.
-    A closed contour's gap is bridged by a line of its last segment's number.
+    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) gets one radius.
+    A closed contour's gap is bridged by a line with its last segment's number.
     """
     refused = comp_findings.contour_refusals(contour, radius, ())
     if refused:
@@ -59,9 +59,9 @@ def prepare_contour(contour: Path, radius: float, *, closed: bool) -> PreparedCo
 
 
 def _even(path: Path) -> Path:
-    """The path with arcs of one radius each, nowhere farther from the given ones than their two radii are apart.
+    """Return the path with one radius for each arc, which moves it nowhere by more than its two radii differ.
 
-    An arc of more than half a turn whose center would move farther is parted in its middle first, half way between its
+    An arc of more than half a turn whose center would move farther is first split in its middle, at the mean of its
     radii.
     """
     rows = path.turns.nonzero()[0]
@@ -78,7 +78,7 @@ def _even(path: Path) -> Path:
 
 
 def _halved(path: Path, rows: Rows, angles: Floats) -> Path:
-    """The path with arcs `rows`, which turn through `angles`, in two halves that meet between their radii."""
+    """Split the arcs `rows`, which turn through `angles`, into halves that meet at the mean of each arc's radii."""
     points, center = as_complex(path.points), as_complex(path.centers)[rows]
     arm, last = points[rows] - center, points[rows + 1] - center
     size = (np.abs(arm) + np.abs(last)) / 2.0
@@ -89,7 +89,7 @@ def _halved(path: Path, rows: Rows, angles: Floats) -> Path:
 
 
 def _closed(path: Path) -> Path:
-    """The path that ends exactly at its start."""
+    """Return the path, made to end exactly at its start."""
     gap = float(np.abs(as_complex(path.points)[-1] - as_complex(path.points)[0]))
     if gap <= JOINED:
         points = path.points.copy()
@@ -105,7 +105,7 @@ def _closed(path: Path) -> Path:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Walls:
-    """The surface of a contour that is offset, with its pieces and a tree of their boxes."""
+    """The surface of an offset contour, with its pieces and a tree of their boxes."""
 
     path: Path
     pieces: PieceArrays
@@ -113,13 +113,13 @@ class Walls:
 
     @staticmethod
     def of(path: Path) -> Walls:
-        """The walls of a surface."""
+        """Make the walls of a surface."""
         pieces = piece_arrays(path)
         return Walls(path, pieces, BoxTree.of(pieces.boxes))
 
 
 def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
-    """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
+    """Return the numbers of two segments that cross, touch or run along each other away from their joint, or None.
 
     A full circle among other segments touches its neighbors with both ends.
     """
@@ -135,7 +135,7 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
         if closed and apart[-1]:
             known |= j - i == len(path) - 1
         i, j = i[~known], j[~known]
-        # of several crossings the one is named between which fewest segments lie
+        # among several crossings, report the one with the fewest segments between
         order = np.lexsort((i, j - i))
         i, j = i[order], j[order]
         met = meet(path, i, path, j)
@@ -147,9 +147,9 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
 
 
 def _meet_next_only_at_joint(path: Path) -> Flags:
-    """(n,) which pieces meet the next one, the last one the first, nowhere but at their joint.
+    """Return (n,) True for pieces that meet the next one (the last one: the first) only at their joint.
 
-    It is so where the two together turn through less than half a turn.
+    That is so if the two together turn through less than half a turn.
     """
     first, last = tangents(path)
     turned = np.abs(np.angle(last.conj() * next_in_ring(first)))
@@ -163,9 +163,9 @@ def _meet_next_only_at_joint(path: Path) -> Flags:
 
 
 def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Flags:
-    """Which arcs go on so smoothly in one of the other turn that their circles meet nowhere but at the joint.
+    """True for arcs that continue tangent into an arc of the other turn, so that their circles meet only at the joint.
 
-    The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
+    The chord between two circles' common points is no longer than the smaller diameter times the angle between them.
     """
     radii = np.abs(as_complex(path.points)[:-1] - as_complex(path.centers))
     tangent: Flags = 2.0 * np.minimum(radii, next_in_ring(radii)) * joint <= JOINED
@@ -175,7 +175,7 @@ def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Fl
 
 
 def tangents(path: Path) -> tuple[Points, Points]:
-    """(n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
+    """Return the (n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
     points, centers = as_complex(path.points), as_complex(path.centers)
     chord = points[1:] - points[:-1]
     arcs = path.turns.nonzero()[0]
@@ -189,7 +189,7 @@ def tangents(path: Path) -> tuple[Points, Points]:
 
 
 def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
-    """Which points are the joint of neighbors i and j, or of the last and the first of a closed path."""
+    """True for points at the joint of neighbors i and j, or of the last and the first piece of a closed path."""
     points = as_complex(path.points)
     near = (j - i == 1) & (np.abs(at - points[j]) <= JOINED)
     around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
@@ -198,10 +198,10 @@ def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
 
 
 def winds(path: Path, radius: float) -> bool:
-    """May some place `radius` from one segment and as far on the other side of another be clear of both?
+    """True if a place `radius` away from one segment, and as far on the other side of another, may be clear of both.
 
-    `path` is open and does not cross itself.  True where it may not be but that is not easily seen.  BEST_PATH.md,
-    "Winding", shows that between two such segments the contour turns by more than half a turn.
+    `path` is open and does not cross itself.  Also True if that is hard to exclude.  BEST_PATH.md, "Winding", shows
+    that the contour turns by more than half a turn between two such segments.
     """
     first, last = tangents(path)
     joints = np.angle(last[:-1].conj() * first[1:])
@@ -216,7 +216,7 @@ def winds(path: Path, radius: float) -> bool:
 
 
 def _faces_itself(path: Path, radius: float, low: Floats, high: Floats) -> bool:
-    """Are there segments no farther apart than the cutter is wide whose headings differ by more than half a turn?"""
+    """True if there are segments within the cutter's width whose headings differ by more than half a turn."""
     pieces = piece_arrays(path)
     low, high = low[pieces.rows], high[pieces.rows]
     box, starts = pieces.boxes, np.arange(0, len(pieces), RUN)

@@ -1,6 +1,6 @@
-"""Raw offset: the offset curve of a whole contour before trimming, joined across the start, and what else cuts it.
+"""Raw offset: the offset curve of a whole contour before trimming, joined across the start, and what cuts it.
 
-Words: the SIDE pieces are the offset segments and corner arcs on the cutter's side; of a closed contour they are
+Words: the SIDE pieces are the offset segments and corner arcs on the cutter's side; for a closed contour they are
 joined across its start.  The OUTLINE pieces are the rest of the outline of all points nearer than the radius: the
 other side, and the half circles about an open contour's two ends.  They only cut.
 """
@@ -21,13 +21,13 @@ from core.tolerance import CROWDED, JOINED, ON_PATH
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RawOffset:
-    """m raw pieces in order of travel; the side pieces follow each other without a gap.
+    """m raw pieces in order of travel; the side pieces come in consecutive rows.
 
     `start`, `end`, `center` (m,) complex; `turns` (m,); `numbers` (m,) programmed; `lengths` (m,) mm.  `following`
-    (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined so that nothing
-    vanished between; `gaps` (m,) is by how much they missed each other before they were joined, 0 for most.  `side`
+    (m,) is the piece whose start is this one's end, -1 if there is none; `smooth` (m,) marks pieces joined to it with
+    nothing vanished between; `gaps` (m,) is the gap to it before the two were joined, mostly 0.  `side`
     (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to the corner after it.
-    `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
+    `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall at that end.
     """
 
     start: Points
@@ -54,23 +54,23 @@ class RawOffset:
 
     @property
     def next_in_row(self) -> Flags:
-        """(m,) which pieces are followed by the next one in number."""
+        """(m,) True for pieces that are followed by the piece in the next row."""
         next_row: Flags = self.following == np.arange(1, len(self) + 1)
         return next_row
 
     def kept(self, keep: Flags) -> RawOffset:
-        """Some pieces (m,); those that followed a piece that is gone follow none."""
+        """Return the pieces marked in `keep` (m,); pieces whose following piece is dropped have none."""
         columns = {field.name: getattr(self, field.name)[keep] for field in fields(self)}
         return RawOffset(**{**columns, "following": renumbered(columns["following"], keep)})
 
     def directions(self, rows: Rows, points: Points) -> Points:
-        """(k,) directions of travel of pieces at points on them, not of unit length."""
+        """Return the (k,) directions of travel of pieces at points on them, not of unit length."""
         turns, span = self.turns[rows], self.end[rows] - self.start[rows]
         along: Points = np.where(turns == 0, span, 1j * turns * (points - self.center[rows]))
         return along
 
     def along(self, rows: Rows, points: Points) -> Floats:
-        """(k,) distances from the pieces' starts of the positions abreast of points."""
+        """Return the (k,) distances along the pieces, from their starts, to the positions abreast of points."""
         start, center, turns = self.start[rows], self.center[rows], self.turns[rows]
         straight = turns == 0
         span = self.end[rows] - start
@@ -82,7 +82,7 @@ class RawOffset:
         return along
 
     def at(self, rows: Rows, along: Floats) -> Points:
-        """(k,) points at distances from the pieces' starts."""
+        """Return the (k,) points at distances from the pieces' starts."""
         start, turns = self.start[rows], self.turns[rows]
         arm = np.where(turns == 0, start - self.end[rows], start - self.center[rows])
         size = np.abs(arm)
@@ -94,10 +94,10 @@ class RawOffset:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Untrimmed:
-    """The raw offset before its inside corners are cut, and the surface's `vertices`: those of row k are k and k + 1.
+    """The raw offset before its inside corners are cut; segment k of the surface has the `vertices` k and k + 1.
 
-    `order` (m,) is each piece's next in its ring, -1 at an open end; `inside` (m,) marks an inside corner between
-    them, `corner` (m,) the corner arcs.
+    `order` (m,) is each piece's successor in its ring, -1 at an open end; `inside` (m,) marks an inside corner between
+    the two, `corner` (m,) marks corner arcs.
     """
 
     raw: RawOffset
@@ -108,16 +108,16 @@ class Untrimmed:
 
 
 def renumbered(rows: Rows, keep: Flags) -> Rows:
-    """Rows as they are called among those that are kept; -1 stays, and is what a lost row becomes."""
+    """Return the new indices of `rows` among the kept rows; -1 stays -1, and a dropped row becomes -1."""
     place = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
     return place[rows]
 
 
 def raw_offset(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
-    """The raw offset of a surface; of a closed one that crosses itself also the outline of its other side.
+    """Return the raw offset of a surface; for a closed one that crosses itself, with the outline of its other side.
 
-    An open contour that winds or crosses itself is taken there and back, as a closed one without width: the way back
-    is its other side.  Of another open contour the half circles about its ends are all the outline that can cut.
+    An open contour that winds or crosses itself is traveled there and back like a closed one without width: the way
+    back is its other side.  For any other open contour only the half circles about its ends can cut.
     """
     if closed:
         return _around_closed(surface, side, radius, crossing=crossing)
@@ -143,7 +143,7 @@ def _around_closed(surface: Path, side: Side, radius: float, *, crossing: bool) 
 
 
 def _ring(surface: Path, side: Side, radius: float) -> RawChain:
-    """The offset of a closed surface with the joint at its start: traveled on over the first segment."""
+    """Return the offset of a closed surface with the joint at its start, found by repeating the first segment."""
     chain = offset(joined((surface, surface.part(0, 1))), side, radius)
     last = int(np.searchsorted(chain.half_steps, 2 * len(surface)))
     chain = RawChain(chain.raw.part(0, last), chain.parts[:last], chain.half_steps[:last])
@@ -151,10 +151,10 @@ def _ring(surface: Path, side: Side, radius: float) -> RawChain:
 
 
 def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
-    """The chain without half circles about reversals whose inside faces the cutter, since they lie inside the wall.
+    """Replace half circles about reversals whose inside faces the cutter, since they lie inside the wall, by bridges.
 
-    Which side is inside shows in how far to the left the way back lies of the way there, a little before the tip:
-    by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.
+    The inside shows in how far the way back lies to the left of the way there, a little before the tip, by the angle
+    between them and by their curvatures.  If they lie on each other, both sides are outside.
     """
     points, centers = as_complex(chain.raw.points), as_complex(chain.raw.centers)
     corners = (chain.parts == RawPart.CORNER.value).nonzero()[0]
@@ -175,13 +175,13 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
 
 
 def _curvature(path: Path) -> Floats:
-    """Curvatures of pieces, positive to the left, 0 of a line."""
+    """Return the curvatures of pieces, positive to the left, 0 for a line."""
     curvature: Floats = path.turns / np.where(path.turns == 0, 1.0, path.radii)
     return curvature
 
 
 def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:
-    """Two chains as one, a bridge between them; the second one's half steps begin at `shift`."""
+    """Join two chains with a bridge between them; the second one's half steps begin at `shift`."""
     path = Path.of(
         np.concatenate((there.raw.points, back.raw.points)),
         np.concatenate((there.raw.centers, there.raw.points[-1:], back.raw.centers)),
@@ -194,10 +194,10 @@ def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:
 
 
 def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
-    """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
+    """Return the segments and corner arcs of a chain, joined across provisional bridges of no length.
 
-    Side pieces have half steps 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is
-    joined to its first; the row at its end, if there are more, belongs to neither ring.
+    Side pieces have half steps 0 ... `sides` - 1.  A ring ends before each of the rows `rings`, and its last piece is
+    joined to its first; if more rows follow, the row at its end belongs to neither ring.
     """
     path = chain.raw
     rows = (chain.parts <= RawPart.CORNER.value).nonzero()[0]
@@ -227,7 +227,7 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
 
 
 def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:
-    """The row after each of `count` rows, around each ring; and of the rows `rows` the next one of them, or -1."""
+    """Return the row after each of `count` rows, around each ring; and for each of `rows` the next of them, or -1."""
     onward = np.minimum(np.arange(1, count + 1), count - 1)
     order = np.arange(1, len(rows) + 1)
     order[-1:] = -1
@@ -241,10 +241,10 @@ def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]
 
 
 def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
-    """The chain with neighbors that miss tangency by the rounding of typed numbers joined half way between their ends.
+    """Join neighbors that miss tangency by the rounding of typed numbers, halfway between their ends.
 
-    Their circles cross there at so small an angle that no formula finds where.  The middle of the gap lies off either
-    offset by its square over eight radii: no more than ON_PATH (BEST_PATH.md, "Near-tangent joints").
+    They cross there at so small an angle that no formula finds the point.  The middle of the gap is off either
+    offset by the gap squared over eight radii: no more than ON_PATH (BEST_PATH.md, "Near-tangent joints").
     """
     before, between, after = _near_tangent(chain)
     raw = chain.raw
@@ -270,7 +270,7 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
 
 
 def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
-    """Pieces that end within CROWDED of the next one's start, the tiny corner arc between or -1, and the next ones."""
+    """Return pieces that end within CROWDED of the next one, the tiny corner arc between or -1, and the next ones."""
     raw, order = chain.raw, chain.order
     inside = (chain.inside & (np.abs(raw.start[order] - raw.end) <= CROWDED)).nonzero()[0]
     corners = (chain.corner & raw.smooth & (raw.lengths <= CROWDED)).nonzero()[0]

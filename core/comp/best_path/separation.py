@@ -1,8 +1,8 @@
-"""Separation: what separates the control's path from the best path, that is, what more could be cut.
+"""Separation: the parts of the best path that the control's path misses, that is, what more could be cut.
 
 The best path is FOLLOWED where a piece of the control's path runs along it: on the same line or circle within GOUGE,
-whichever way it travels.  The rest is given in stretches, the longest runs of the best path that are not followed.
-Crossing the best path is not following it.
+in either direction.  The rest is returned in stretches, the longest runs of the best path that are not followed.
+A crossing of the best path does not follow it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from core.tolerance import GOUGE
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Separation:
-    """`length` millimeters of the best path's `whole` length are not followed; `stretches` are these, in its order."""
+    """`length` millimeters of the best path's `whole` length are not followed, in `stretches` in the path's order."""
 
     length: float
     whole: float
@@ -31,7 +31,7 @@ class Separation:
 
 
 def separation(control: Path, best: BestPath, radius: float) -> Separation:
-    """What of the best path the control's path does not follow, blends left out of `control`.
+    """Return the parts of the best path that the control's path, without its blends, does not follow.
 
     Two paths closer than GOUGE, or a thousandth of `radius` (millimeters) if that is less, are the same.  Stretches
     shorter than that are rounding.
@@ -50,7 +50,7 @@ def separation(control: Path, best: BestPath, radius: float) -> Separation:
 
 
 def _unfollowed(control: PieceArrays, loop: PieceArrays, limit: float) -> list[tuple[float, float]]:
-    """The gaps between the intervals in which the control's path follows the loop, as millimeters traveled on it."""
+    """Return the gaps between the intervals in which the control's path follows the loop, in millimeters traveled."""
     stations = loop.stations
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
     for i, j in near_pairs(loop.boxes, control.boxes, 2.0 * limit):
@@ -72,7 +72,7 @@ def _unfollowed(control: PieceArrays, loop: PieceArrays, limit: float) -> list[t
 
 
 def _abreast(piece: PieceArrays, move: PieceArrays) -> Iterator[tuple[Floats, Floats]]:
-    """From where to where on each piece the ends of its move project; twice, for an arc may run over the start."""
+    """Yield the interval on each piece between the projections of its move's ends; twice, as arcs may pass a start."""
     ends = [(piece.unit.conj() * (point - piece.start)).real for point in (move.start, move.end)]
     entry = np.where(move.turn == piece.turn, move.start, move.end)
     begin = traveled(piece, entry - piece.center) * piece.radius
@@ -84,7 +84,7 @@ def _abreast(piece: PieceArrays, move: PieceArrays) -> Iterator[tuple[Floats, Fl
 
 
 def _part(path: Path, loop: PieceArrays, first: float, last: float) -> Path:
-    """The stretch of a path between two lengths traveled."""
+    """Return the part of a path between two lengths traveled."""
     stations = loop.stations
     low = int(np.searchsorted(stations[1:], first, side="right"))
     high = min(int(np.searchsorted(stations[1:], last, side="left")), len(loop) - 1)

@@ -1,10 +1,10 @@
 """Slices: the side pieces of the raw offset cut at every self-intersection.
 
-Whether the cutter is clear of the part changes only where raw pieces meet.  Where two properly cross, the cutter may
-only come along the one and leave along the other so that it turns toward its free side; the two other stretches lie,
-next to the point, nearer to a wall than the radius.  So a slice runs from one meeting to the next, over as many pieces
-as are joined smoothly, and at a crossing two slices are clear or not together.  Nodes are the points where slices
-begin and end; points within JOINED of each other on a piece are one node.
+The cutter can only become clear of the part, or cease to be, where raw pieces meet.  At a proper crossing it may only
+arrive along one piece and leave along the other so that it turns toward its free side; near the crossing, the other
+two stretches are nearer to a wall than the radius.  So a slice runs from one meeting to the next, across smooth
+joints, and the two slices that turn into each other at a crossing are either both clear or both not.  Nodes are the
+points where slices begin and end; points within JOINED of each other on a piece are one node.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from core.geometry.path import Flags, Floats, Points, Rows, as_complex, boxes, n
 from core.tolerance import CROWDED, JOINED, ON_PATH
 
 MAX_PAIRS: Final = 8_000_000
-"""More pairs of pieces near one another than any part has: such a scribble is refused."""
+"""More pairs of near pieces than any real part has: such a scribble is refused."""
 
 MAX_INTERSECTIONS: Final = 2_000_000
-"""More meetings than any part has, likewise."""
+"""More meetings than any real part has, likewise."""
 
 _ALMOST_FULL_TURN: Final = 6.28
 """Radians, a little less than a full turn."""
@@ -36,8 +36,8 @@ _ALMOST_FULL_TURN: Final = 6.28
 class Intersections:
     """e meetings of raw pieces `a` and `b` (e,) at `points` (e,), `along_a` and `along_b` mm along them.
 
-    `turn` (e,) is positive where they cross off their ends and the way from a to b turns to the cutter's side,
-    negative where the way from b to a does, 0 where they touch, overlap, or meet at an end.
+    `turn` (e,) is positive if they cross away from their ends and going from a to b turns to the cutter's side,
+    negative if going from b to a does, 0 if they touch, overlap, or meet at an end.
     """
 
     a: Rows
@@ -52,7 +52,7 @@ class Intersections:
 
 
 def _self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
-    """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
+    """Return all meetings of side pieces with raw pieces away from joints; None if too many for a real part."""
     parts, pairs, count = [], 0, 0
     for i, j in _pairs(raw):
         pairs += len(i)
@@ -68,9 +68,9 @@ def _self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
 
 
 def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
-    """Pairs of side pieces, and of side and outline pieces, that lie near each other and may meet off their joint.
+    """Yield pairs of near side pieces, and of near side and outline pieces, that may meet away from their joint.
 
-    Pieces joined smoothly meet only at their joint, unless together they go once around one way.
+    Smoothly joined pieces meet only at their joint, unless together they turn once around in one direction.
     """
     box, side, outline = boxes(raw.pieces), raw.side.nonzero()[0], (~raw.side).nonzero()[0]
     apart = _meet_next_only_at_joint(raw)
@@ -85,7 +85,7 @@ def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
 
 
 def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
-    """(m,) which pieces meet the one that follows nowhere but at their joint."""
+    """Return (m,) True for pieces that meet the following one only at their joint."""
     arm = np.abs(raw.start - raw.center)
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
     after = raw.following
@@ -111,7 +111,7 @@ def _intersections(raw: RawOffset, i: Rows, j: Rows, met: Meetings, sign: int) -
 
 
 def _overlaps(raw: RawOffset, i: Rows, j: Rows) -> Intersections:
-    """Of pieces that run along each other, each end that lies on the other piece."""
+    """Return, for pieces that run along each other, each end that lies on the other piece."""
     parts = []
     for a, b in ((i, j), (j, i)):
         for ends, along in ((raw.start[b], np.zeros(len(b))), (raw.end[b], raw.lengths[b])):
@@ -125,9 +125,9 @@ def _overlaps(raw: RawOffset, i: Rows, j: Rows) -> Intersections:
 class Slices:
     """s slices in order of travel: from `begin` mm along `piece` to `end` mm along `until` (s,), `size` mm long.
 
-    They run from node `first` to node `last` (s,).  `dead` (s,) marks slices that turn the wrong way at one of their
-    ends or are blunt there; `turning` (s,) is the slice that a slice at its end turns to at a crossing, -1 if none.
-    `points` are the nodes' places; `outer` marks the nodes where the outline takes part.
+    They run from node `first` to node `last` (s,).  `dead` (s,) marks slices that turn the wrong way or are blunt at
+    one end; `turning` (s,) is the slice into which a slice turns at the crossing at its end, -1 if none.
+    `points` are the nodes' positions; `outer` marks the nodes at which an outline piece is involved.
     """
 
     piece: Rows
@@ -146,7 +146,7 @@ class Slices:
         return len(self.piece)
 
     def take(self, rows: Rows) -> Slices:
-        """Some slices, with all nodes."""
+        """Return the slices of these rows, with all nodes."""
         keep = np.zeros(len(self), np.bool_)
         keep[rows] = True
         names = ("piece", "until", "begin", "end", "size", "first", "last", "dead")
@@ -155,7 +155,7 @@ class Slices:
         return Slices(**columns, turning=turning, points=self.points, outer=self.outer)
 
     def middles(self, raw: RawOffset, rows: Rows) -> tuple[Points, Rows]:
-        """The points half way along slices, and the pieces they lie on."""
+        """Return the points halfway along slices, and the pieces that these lie on."""
         piece, along = self.piece[rows], (self.begin[rows] + self.end[rows]) / 2.0
         several = (piece != self.until[rows]).nonzero()[0]
         if len(several):
@@ -169,9 +169,9 @@ class Slices:
 
 
 class _Strands(NamedTuple):
-    """Side pieces joined smoothly one after the other: the first and the last of each, and their nodes.
+    """Strands are runs of smoothly joined side pieces: their first pieces, their last pieces and their end nodes.
 
-    A strand that another one follows ends at that one's first node.  `nodes` is how many nodes the strands have.
+    A strand that another one follows ends at that one's first node.  `nodes` is the number of nodes reserved for them.
     """
 
     heads: Rows
@@ -181,9 +181,9 @@ class _Strands(NamedTuple):
 
 
 class _Stations(NamedTuple):
-    """Every intersection on both its pieces, by piece and as traveled: piece, distance along it, its node, its turn.
+    """Every intersection on both of its pieces, by piece and as traveled: piece, distance along it, node, turn.
 
-    `turn` is positive where the piece ends its clear stretch there, negative where it begins it.
+    `turn` is positive if the piece ends its clear stretch there, negative if it begins one.
     """
 
     piece: Rows
@@ -192,18 +192,18 @@ class _Stations(NamedTuple):
     turn: Floats
 
     def of(self, pieces: Flags) -> _Stations:
-        """Those on some pieces."""
+        """Return the stations on the marked pieces."""
         rows = pieces[self.piece].nonzero()[0]
         return _Stations._make(column[rows] for column in self)
 
     def twins(self) -> tuple[Rows, Rows]:
-        """The nodes of stations that follow each other on one piece within JOINED."""
+        """Return the node pairs of consecutive stations on one piece within JOINED of each other."""
         same = (self.piece[1:] == self.piece[:-1]) & (self.along[1:] - self.along[:-1] <= JOINED)
         return self.node[:-1][same], self.node[1:][same]
 
 
 def sliced(raw: RawOffset, sign: int) -> Slices | None:
-    """The side pieces cut at all self-intersections; None if there are too many to be a part's."""
+    """Cut the side pieces at all self-intersections; return None if there are too many for a real part."""
     met = _self_intersections(raw, sign)
     if met is None:
         return None
@@ -233,7 +233,7 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
 
 
 def _strands(raw: RawOffset) -> _Strands:
-    """The strands of a raw offset; full circles are strands of their own."""
+    """Return the strands of a raw offset; each full circle is a strand of its own."""
     pieces = raw.side.nonzero()[0]
     goes_on = raw.smooth & raw.next_in_row & (raw.start != raw.end)
     goes_on[:-1] &= raw.start[1:] != raw.end[1:]
@@ -258,14 +258,14 @@ def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
 
 
 def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
-    """(s,) lengths of slices, by differences on one piece where they can be."""
+    """Return the (s,) lengths of slices, as a difference along the piece if a slice lies on a single one."""
     traveled = np.cumsum(raw.lengths) - raw.lengths
     size: Floats = np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
     return size
 
 
 def _alone(raw: RawOffset, stations: _Stations) -> Flags:
-    """The stations with no other, and no joint beyond which another may be, within CROWDED on their piece."""
+    """True for stations with no other station within CROWDED on their piece, nor a joint that may hide one."""
     piece, along = stations.piece, stations.along
     joined = np.zeros(len(raw), np.bool_)
     joined[raw.following[raw.following >= 0]] = True
@@ -278,7 +278,7 @@ def _alone(raw: RawOffset, stations: _Stations) -> Flags:
 
 
 def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Flags, Rows]:
-    """Which of `count` slices turn the wrong way, and where the others turn to; slice at[k] ends at station k."""
+    """Return which of `count` slices turn the wrong way, and where the others turn; slice at[k] ends at station k."""
     dead, turning = np.zeros(count, np.bool_), np.full(count, -1)
     ending, beginning = stations.turn > 0.0, stations.turn < 0.0
     dead[at[ending] + 1] = True
@@ -291,7 +291,7 @@ def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Fla
 
 
 def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:
-    """All nodes before welding: the strands' starts and ends, then the meetings; and where the outline takes part."""
+    """Return all nodes before welding: the strands' starts and ends, then the meetings; and those on the outline."""
     count = len(strands.heads)
     points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], met.points))
     outer = np.zeros(len(points), np.bool_)
@@ -305,7 +305,7 @@ def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Point
 
 
 def _welded(cut: Slices, node: Rows, other: Rows) -> Slices:
-    """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `node` and `other`."""
+    """Drop slices no longer than JOINED and merge their two nodes; also merge nodes `node` with nodes `other`."""
     short = cut.size <= JOINED
     if not short.any() and not len(node):
         return cut
@@ -318,7 +318,7 @@ def _welded(cut: Slices, node: Rows, other: Rows) -> Slices:
 
 
 def least_of_connected(count: int, first: Rows, second: Rows) -> Rows:
-    """(count,) the least number among all numbers that pairs first, second (p,) connect with each."""
+    """Return, for each number below `count`, the least number that the pairs first, second (p,) connect it to."""
     same = np.arange(count)
     while True:
         least = np.minimum(same[first], same[second])

@@ -1,9 +1,9 @@
-"""Stitch: clear slices joined to loops, at their nodes and in the contour's order.
+"""Stitch: join clear slices to loops, at their nodes and in the contour's order.
 
-At a node where several slices begin and end, a slice goes on along its own piece or over the joint to the next one;
-otherwise it turns as far to the cutter's side as it can, which keeps loops apart that only touch.  Where rounding has
-parted an end from the beginning it belongs to, a straight line bridges the gap: between two clear places as near as
-`bridge_limit` it is clear by itself (BEST_PATH.md, "Bridges").
+At a node where several slices begin and end, a slice continues along its own piece or across the joint to the next
+one; otherwise it turns as far to the cutter's side as it can, which keeps loops apart that only touch.  If rounding
+has separated an end from its continuation, a straight line bridges the gap: between two clear places no farther apart
+than `bridge_limit` the line is clear too (BEST_PATH.md, "Bridges").
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from core.geometry.path import Flags, Floats, Path, Pieces, Rows, coordinates, l
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _CUT_BACKS = 4
-"""How often the ends of a bridge move away from each other, each time by its length."""
+"""How often the ends of a bridge may move apart, each time by its length."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StitchedSlices:
-    """Slices `cut`, for each the one that follows it or -1, and which lead nowhere or come from nowhere.
+    """Slices `cut`, for each the slice `following` it or -1, and flags for loose ends and loose beginnings.
 
-    `gaps` (s,) is the length of the bridge after each slice, 0 where there is none.
+    `gaps` (s,) is the length of the bridge after each slice, 0 without one.
     """
 
     cut: Slices
@@ -39,18 +39,18 @@ class StitchedSlices:
 
     @property
     def gaps(self) -> Floats:
-        """(s,) how far each slice's end is from where the following one begins."""
+        """(s,) distance from each slice's end to the start of the following one, 0 if there is none."""
         gaps = np.abs(self.cut.points[self.cut.last] - self.cut.points[self.cut.first[self.following]])
         return np.where(self.following >= 0, gaps, 0.0)
 
 
 def bridge_limit(radius: float) -> float:
-    """The longest straight line between two clear places of the cutter that comes no nearer to a wall than CLEAR."""
+    """Return the longest line between two clear places that enters the clearance to a wall by no more than CLEAR."""
     return min(WHISKER, sqrt(8.0 * radius * CLEAR))
 
 
 def stitch(raw: RawOffset, cut: Slices, sign: int, walls: Walls, radius: float) -> StitchedSlices:
-    """Each clear slice with the one that follows it, without the slices that lead nowhere."""
+    """Link each clear slice to the one that follows it, and drop the slices that lead nowhere."""
     cut = _without_dead_ends(_without_doubles(raw, cut))
     while True:
         following = _straight_on(cut)
@@ -72,7 +72,7 @@ def _not_followed_onto(following: Rows) -> Flags:
 
 
 def _without_doubles(raw: RawOffset, cut: Slices) -> Slices:
-    """Of slices that run along each other the same way, the earliest: contours that touch themselves have them."""
+    """Keep only the earliest of slices that run along each other the same way, as contours that touch themselves do."""
     crowded = (np.bincount(cut.first, minlength=1)[cut.first] > 1).nonzero()[0]
     order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
     early, late = order[:-1], order[1:]
@@ -84,7 +84,7 @@ def _without_doubles(raw: RawOffset, cut: Slices) -> Slices:
 
 
 def _without_dead_ends(cut: Slices) -> Slices:
-    """Slices taken away that lead nowhere, are shorter than WHISKER, and branch off where another slice goes on."""
+    """Drop slices that lead nowhere, are shorter than WHISKER, and branch off where another slice goes on."""
     size = len(cut.points)
     while True:
         begins, ends = np.bincount(cut.first, minlength=size), np.bincount(cut.last, minlength=size)
@@ -97,14 +97,14 @@ def _without_dead_ends(cut: Slices) -> Slices:
 
 
 def _straight_on(cut: Slices) -> Rows:
-    """For each slice the next one, where that is on the same piece or joined to it and begins where the slice ends."""
+    """Return for each slice the next row if that slice begins at the node where this one ends, else -1."""
     following = next_in_ring(np.arange(len(cut)))
     following[cut.last != cut.first[following]] = -1
     return following
 
 
 def _turn_at_nodes(raw: RawOffset, cut: Slices, following: Rows, sign: int) -> None:
-    """Fill in what follows the slices that end at a node where another piece takes over."""
+    """Fill in `following` for the slices that end at a node where another piece takes over."""
     ends, begins = (following < 0).nonzero()[0], _not_followed_onto(following).nonzero()[0]
     begins = begins[np.argsort(cut.first[begins], kind="stable")]
     low = np.searchsorted(cut.first[begins], cut.last[ends], side="left")
@@ -116,14 +116,14 @@ def _turn_at_nodes(raw: RawOffset, cut: Slices, following: Rows, sign: int) -> N
     counts = (high - low)[several]
     end = np.repeat(ends[several], counts)
     begin = begins[np.repeat(low[several] - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())]
-    # the slice that turns most to the cutter's side first
+    # the pair that turns most to the cutter's side goes first
     nodes = cut.points[cut.last[end]]
     turned = raw.directions(cut.until[end], nodes).conj() * raw.directions(cut.piece[begin], nodes)
     _pair_up(following, end, begin, -sign * np.angle(turned))
 
 
 def _bridge(cut: Slices, following: Rows, limit: float) -> None:
-    """Fill in what follows the slices that end a little off the beginning they belong to, the nearest first."""
+    """Fill in `following` for the slices that end a little off their continuation, the nearest pairs first."""
     ends = ((following < 0) & ~cut.outer[cut.last]).nonzero()[0]
     begins = (_not_followed_onto(following) & ~cut.outer[cut.first]).nonzero()[0]
     end, begin = cut.points[cut.last[ends]], cut.points[cut.first[begins]]
@@ -132,9 +132,9 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
 
 
 def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, walls: Walls, radius: float) -> Slices:
-    """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other.
+    """Cut slices that a bridge joins off abreast of each other, if they run past each other.
 
-    What is still inside a wall at its very end is cut back until it is clear.
+    An end that is still inside a wall is cut back until it is clear.
     """
     rows = (following >= 0).nonzero()[0]
     rows = rows[np.abs(cut.points[cut.last[rows]] - cut.points[cut.first[following[rows]]]) > JOINED]
@@ -170,7 +170,7 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, walls: Walls
 
 
 def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
-    """Let each of the slices `ends` be followed by one of `begins` (p,), pairs of least rank first."""
+    """Let each of the slices `ends` be followed by one of `begins` (p,); pairs with the least rank go first."""
     free, taken = set(ends.tolist()), set[int]()
     for row in np.argsort(rank, kind="stable").tolist():
         end, begin = int(ends[row]), int(begins[row])
@@ -181,9 +181,9 @@ def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
 
 
 def chains(made: StitchedSlices) -> list[tuple[Rows, bool]]:
-    """The slices in loops and open chains, each from the contour's earliest slice of it on, and whether it is closed.
+    """Return the loops and open chains of slices, and whether each is closed; a loop begins at its earliest slice.
 
-    Slices that follow each other in number are walked as one run; only runs are looked at singly.
+    Slices that follow each other in number form one run, and only the runs are visited one by one.
     """
     following = made.following
     count = len(following)
@@ -197,7 +197,7 @@ def chains(made: StitchedSlices) -> list[tuple[Rows, bool]]:
 
 
 def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]:
-    """Runs heads[k] ... tails[k], run entry[k] after run k, put together; open chains from their beginning."""
+    """Chain the runs heads[k] ... tails[k], with run entry[k] after run k; open chains start at their beginning."""
     entered = set(entry)
     unwalked = dict.fromkeys(range(len(entry)))
     walked = []
@@ -213,9 +213,9 @@ def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]
 
 
 def path_of_slices(raw: RawOffset, made: StitchedSlices, rows: Rows, origin: Floats) -> Path:
-    """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again.
+    """Return the path along slices `rows` in this order, moved by `origin`; slices of one piece become one piece again.
 
-    An arc shorter than CROWDED whose ends rounding has turned past each other is a straight line, as a bridge is.
+    An arc shorter than CROWDED whose ends rounding has turned past each other becomes a straight line, like a bridge.
     """
     cut = made.cut
     first, until, bridged = cut.piece[rows], cut.until[rows], made.gaps[rows] > JOINED

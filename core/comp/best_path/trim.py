@@ -1,8 +1,8 @@
-"""Trim: what of the raw offset is certainly inside a wall is cut off before anything else is looked at.
+"""Trim: first cut off the parts of the raw offset that are certainly inside a wall.
 
-Two cuts cost little and leave few pieces that cross: at inside corners of two lines both end where they meet, for
-beyond that each is nearer to the other's segment than the radius; and what the cutter, standing there, would have of
-a vertex of the surface inside its circle goes, with the vertices 1, 2, 4, 8 ... segments ahead and behind.
+Two cheap cuts leave few pieces that cross.  At an inside corner of two lines both end where they meet, since past that
+point each is nearer to the other's segment than the radius.  And the parts from which the cutter would cover a vertex
+of the surface are dropped, for the vertices 1, 2, 4, 8 ... segments ahead and back.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ from core.geometry.path import Flags, Floats, Points, Rows
 from core.tolerance import CROWDED, JOINED
 
 _INSIDE: Final = 1e-6
-"""By this share of the radius, and by CROWDED, must a vertex be nearer than it to be certainly inside.
+"""A vertex is certainly inside if it is nearer than the radius by more than this share of it, and than 2 CROWDED.
 
-What is cut off ends so far from every place where the path may turn that it is never taken for such a place.
+The cuts thus end well away from every place where the path may turn, and are never mistaken for one.
 """
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Left:
-    """What is left of the m pieces, `low` to `high` (m,) mm along them; nothing where high is not above low."""
+    """The rest of the m pieces, from `low` to `high` (m,) mm along them; nothing is left if high is not above low."""
 
     low: Floats
     high: Floats
 
 
 def trimmed(chain: Untrimmed, sign: int, radius: float) -> RawOffset:
-    """The raw offset without what is certainly nearer to the surface than `radius`; `sign` +1 is LEFT."""
+    """Return the raw offset without the parts certainly nearer to the surface than `radius`; `sign` +1 is LEFT."""
     raw = chain.raw
     left = _Left(np.zeros(len(raw)), raw.lengths.copy())
     corners, meets = _mitered(chain, left, sign, radius)
@@ -45,9 +45,9 @@ def trimmed(chain: Untrimmed, sign: int, radius: float) -> RawOffset:
 
 
 def _mitered(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[Rows, Points]:
-    """Inside corners of two lines that meet: the first line's row and the point; `left` is cut there.
+    """Cut `left` at inside corners of two lines that meet; return the rows of the first lines and the points.
 
-    Where three offset lines meet in one place, or nearly, all is left to the general rule.
+    If three offset lines meet in nearly one place, the corner is left to the general rule.
     """
     raw, order = chain.raw, chain.order
     rows = (chain.inside & (raw.turns == 0)).nonzero()[0]
@@ -71,7 +71,7 @@ def _mitered(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[R
 
 
 def _cut_inside(chain: Untrimmed, left: _Left, radius: float) -> None:
-    """Cut from `left` what vertices ahead and behind, ever farther off until none is near, have in their circles."""
+    """Cut from `left` what lies in circles about vertices ahead and back, at growing distance until none is near."""
     limit = radius - max(_INSIDE * radius, 2.0 * CROWDED)
     step, near = 1, limit > 0.0
     while near and step < len(chain.vertices):
@@ -86,7 +86,7 @@ def _cut_inside(chain: Untrimmed, left: _Left, radius: float) -> None:
 
 
 def _cut(raw: RawOffset, left: _Left, spots: Points, limit: float) -> None:
-    """Cut from all pieces what at either end of them is within `limit` of their spots."""
+    """Cut off both ends of all pieces where they are within `limit` of their spots."""
     near = (np.abs(spots - raw.start) < limit + raw.lengths) & (left.low < left.high)
     for kind, within in ((raw.turns == 0, _within_lines), (raw.turns != 0, _within_arcs)):
         rows = (near & kind).nonzero()[0]
@@ -100,7 +100,7 @@ def _cut(raw: RawOffset, left: _Left, spots: Points, limit: float) -> None:
 
 
 def _within_lines(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
-    """From where to where along lines points are within `limit` of spots; NaN where none is."""
+    """Return the interval along lines in which points are within `limit` of spots; NaN if there is none."""
     unit = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
     foot = unit.conj() * (spots - raw.start[rows])
     square = limit * limit - foot.imag * foot.imag
@@ -109,11 +109,11 @@ def _within_lines(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tu
 
 
 def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
-    """The same of arcs, of two stretches the one nearer to an arc's middle; NaN for an arc's own center."""
+    """Return the same for arcs, modulo full turns the one nearest to the arc's middle; NaN for an arc's own center."""
     arm, spokes = raw.start[rows] - raw.center[rows], spots - raw.center[rows]
     radius, apart = np.abs(arm), np.abs(spokes)
     off_center, off = apart > JOINED, apart - radius
-    # the sine of half the angle: of a large arc its cosine differs from 1 by less than rounding
+    # use the sine of half the angle: the cosine for a large arc differs from 1 by less than rounding
     square = (limit - off) * (limit + off) / (4.0 * radius * np.where(off_center, apart, 1.0))
     half = 2.0 * np.arcsin(np.sqrt(np.where(off_center & (square > 0.0), np.minimum(square, 1.0), np.nan)))
     middle = raw.lengths[rows] / radius / 2.0
@@ -123,7 +123,7 @@ def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tup
 
 
 def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags) -> RawOffset:
-    """The raw offset of what is left: pieces shortened, dead ones gone, and what was joined to those blunt."""
+    """Rebuild the raw offset: shorten pieces, drop those with nothing left, and mark their neighbors' ends blunt."""
     raw, (rows, meets) = chain.raw, corners
     following, smooth = raw.following.copy(), raw.smooth.copy()
     following[rows], smooth[rows] = chain.order[rows], True
