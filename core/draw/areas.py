@@ -1,7 +1,7 @@
-"""Areas: what the cutter takes from the part and what it leaves on the wall, as regions to shade.
+"""Areas: the material that the cutter gouges from the part and leaves on the wall, as regions to shade.
 
-They are drawn, never judged by: arcs are chords here, no farther off than half a dot, and shapely cuts the regions.
-`core.verify` says what is gouged and uncut.
+They are only drawn: arcs are chords here, off by no more than half a dot, and shapely cuts the regions.
+`core.verify` decides what is gouged and uncut.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from core.geometry.piece import Side
 NOTHING: Final = MultiPolygon()
 """The region without points."""
 SEGMENTS_A_QUARTER: Final = 16
-"""Chords of a quarter circle at the ends of a swept region."""
+"""Chords per quarter circle at the ends of a swept region."""
 MARGIN: Final = 4.0
-"""Radii of material that are drawn beyond a closed contour whose outside is the part."""
+"""Thickness of the material drawn outside a closed contour whose outside is the part, in tool radii."""
 ACROSS: Final = 2.0
-"""Radii of material that are drawn behind an open contour: no gouge is told deeper."""
+"""Thickness of the material drawn behind an open contour, in tool radii: no gouge is reported deeper."""
 MAX_STRETCHES: Final = 200
 """Uncut stretches that are shaded, the thickest first."""
 
 
 def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: float) -> BaseGeometry:
-    """The part behind a surface, as far as a cutter of this radius can reach into it."""
+    """Return the part behind a surface, as far as a cutter of this radius can reach into it."""
     points = chords_of(surface, sag)
     if len(points) < 2 or (closed and len(points) < 4):
         return NOTHING
@@ -48,10 +48,10 @@ def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: flo
 
 
 def _strip_along(points: Floats, distance: float) -> BaseGeometry:
-    """What lies beside a line up to a distance (mm), left of it where that is positive.
+    """Return the strip along a line up to a distance (mm), on its left if that is positive.
 
-    Of some lines that cross themselves shapely makes no region at once: then it is that of the chords, each by itself,
-    without the wedges at corners.
+    Shapely fails on some lines that cross themselves: the strip is then the union of each chord's own strip, without
+    the wedges at corners.
     """
     try:
         return LineString(points).buffer(distance, single_sided=True)
@@ -65,13 +65,13 @@ def _counter_clockwise(points: Floats) -> bool:
 
 
 def swept(paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
-    """What a cutter of this radius passes over on its paths."""
+    """Return the region that a cutter of this radius sweeps on its paths."""
     lines = [LineString(points).simplify(sag / 2.0) for path in paths if len(points := chords_of(path, sag)) > 1]
     return shapely.union_all([line.buffer(max(radius, 0.0), quad_segs=SEGMENTS_A_QUARTER) for line in lines])
 
 
 def gouged(part: BaseGeometry, paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
-    """What of the part the cutter takes; a depth below `sag` (mm) is not shaded."""
+    """Return the region of the part that the cutter gouges; a depth below `sag` (mm) is not shaded."""
     return swept(paths, radius - sag, sag).intersection(part)
 
 
@@ -83,8 +83,8 @@ def uncut(
     radius: float,
     sag: float,
 ) -> BaseGeometry:
-    """What the cutter leaves on stretches of the surface, each as thick as it was judged; thinner than `sag` is not
-    shaded."""
+    """Return the region that the cutter leaves on stretches of the surface, each as thick as it was judged; stretches
+    thinner than `sag` are not shaded."""
     pairs = [
         (depth, path) for path, depth in zip(stretches, thicknesses, strict=True) if isfinite(depth) and depth > sag
     ]
@@ -100,7 +100,7 @@ def _near(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeome
 
 
 def inside(region: BaseGeometry, x: Floats, y: Floats) -> NDArray[np.bool_]:
-    """(n,) which of the points lie in the region."""
+    """Return (n,) True for points in the region."""
     shapely.prepare(region)
     within: NDArray[np.bool_] = shapely.contains_xy(region, x, y)
     return within

@@ -1,4 +1,4 @@
-"""Characters of a drawing: for each mode the table from a cell's lit dots to a character; marks, labels, scale bar."""
+"""Characters of a drawing: each mode's table from a cell's lit dots to a character; marks, labels and the scale bar."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from core.geometry.piece import Point
 from core.units import Unit, from_mm
 
 BAR: Final = 0.3
-"""The scale bar's largest part of the window's width."""
+"""Largest share of the window's width that the scale bar takes."""
 LABEL_DISTANCE: Final = 2.5
-"""How far a label stands from its point, in cells' widths."""
+"""Distance of a label from its point, in cell widths."""
 LEAST_COLUMNS: Final = 16
 LEAST_ROWS: Final = 3
-"""Smaller windows have no scale bar and no names of axes."""
+"""Smaller windows have no scale bar and no axis names."""
 
 
 @dataclass(eq=False, slots=True)
 class CellSheet:
-    """A picture's cells row by row: `characters` and the Style of each in `styles`, both (rows * columns,)."""
+    """A picture's cells row by row: the `characters` and the `styles`, both (rows * columns,)."""
 
     columns: int
     rows: int
@@ -37,7 +37,7 @@ class CellSheet:
 
 
 def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
-    """Write the signs of a scene over a picture's cells."""
+    """Write a scene's axis names, scale bar, labels and marks over a picture's cells."""
     columns, rows, look = sheet.columns, sheet.rows, cells(mode)
     if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
         if scene.axes:
@@ -47,7 +47,7 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     _write_labels(sheet, scene, view)
     positions = view.cells([mark.at for mark in scene.marks], columns, rows)
     for (column, row), mark in zip(positions, scene.marks, strict=True):
-        # what is not a number is in no cell
+        # a NaN is in no cell
         if 0 <= column < columns and 0 <= row < rows:
             here = int(row) * columns + int(column)
             sheet.characters[here] = _sign(mark, look)
@@ -61,7 +61,7 @@ def _sign(mark: Mark, look: Cells) -> str:
 
 
 def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:
-    """Labels whose cells hold nothing else."""
+    """Write the labels whose cells are empty or hold only an axis."""
     for (x, y), text, (right, up), style in scene.labels:
         reach = view.scale * LABEL_DISTANCE
         column, row = view.cell((x + right * reach, y + up * reach), sheet.columns, sheet.rows)
@@ -74,9 +74,9 @@ def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
-    """A bar of a round length (1, 2 or 5 times a power of ten, in program units) and its name.
+    """Return a bar of a round length (1, 2 or 5 times a power of ten, in program units) with that length as text.
 
-    `scale` is millimeters to a cell's width; the bar runs from the middle of its first to that of its last cell.
+    `scale` is millimeters per cell width; the bar runs from the middle of its first cell to that of its last.
     """
     length, decimals = round_length(from_mm(scale * max(columns * BAR, 1.0), unit))
     width = max(round(length / from_mm(scale, unit)), 1)
@@ -84,14 +84,14 @@ def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
 
 
 def round_length(most: float) -> tuple[float, int]:
-    """The largest of 1, 2, 5 times a power of ten that is not above `most`, and the decimals it takes to write it."""
+    """Return the largest of 1, 2, 5 times a power of ten that is not above `most`, and the decimals to write it."""
     power = floor(log10(most))
     length = next(step * 10.0**power for step in (5, 2, 1) if step * 10.0**power <= most * (1 + 1e-9))
     return length, max(-power, 0)
 
 
 def arrow(direction: Point, heads: str) -> str:
-    """The head among eight, for 0, 45, 90 ... degrees, that points most nearly along `direction`."""
+    """Return the arrowhead of eight, for 0, 45, 90 ... degrees, that is closest to `direction`."""
     return heads[round(atan2(direction[1], direction[0]) / (tau / 8)) % 8]
 
 
@@ -115,7 +115,7 @@ Characters = NDArray[np.str_]
 
 
 class Mode(Enum):
-    """BRAILLE 2 x 4 dots a cell, BLOCK half blocks 1 x 2, ASCII one line character a cell."""
+    """BRAILLE has 2 x 4 dots per cell, BLOCK 1 x 2 half blocks, ASCII one line character."""
 
     BRAILLE = "braille"
     BLOCK = "block"
@@ -124,13 +124,13 @@ class Mode(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cells:
-    """How one mode fills a cell.
+    """The way one mode fills a cell.
 
-    `across`, `down`: dots a cell.  `bit` (down * across,): the bit a dot lights, line by line.  In ASCII a cell has one
-    dot and the bit is chosen by direction: level, rising, upright, falling.  `table` (256,): the character of every
-    combination.
-    `faint` (256,): that of a cell in which only center paths are, so that they differ from the surface without colors;
-    None where the dots are fine enough to keep the two apart.
+    `across`, `down`: dots per cell.  `bit` (down * across,): the bit of each dot, row by row.  In ASCII a cell has one
+    dot, and the bit follows the direction: level, rising, upright, falling.  `table` (256,): the character of every
+    combination of bits.
+    `faint` (256,): the characters of cells with only center paths, which thus differ from the surface without color;
+    None if the dots are fine enough to keep the two apart.
     `symbols`: a mark's character; `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
     """
 
@@ -145,22 +145,22 @@ class Cells:
 
     @property
     def dot(self) -> tuple[float, float]:
-        """A dot's width and height in cells' widths."""
+        """A dot's width and height in cell widths."""
         return 1.0 / self.across, TALL / self.down
 
     @property
     def fine(self) -> bool:
-        """Dots are fine enough for dotted and for thick lines."""
+        """True if dots are fine enough for dotted and thick lines."""
         return self.faint is None
 
     @property
     def by_dot(self) -> bool:
-        """The bits are dots, and not directions."""
+        """True if the bits are dots, not directions."""
         return self.across * self.down > 1
 
 
 def cells(mode: Mode) -> Cells:
-    """The table of a mode."""
+    """Return the cells of a mode."""
     return _CELLS[mode]
 
 

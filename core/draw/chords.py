@@ -1,7 +1,7 @@
 """Chords: the pieces of a scene as short straight chords inside a window, for all layers at once.
 
 Window coordinates: the window's center is 0, a cell is 1 wide and `TALL` high, the second axis points up; a point is
-one complex number.  Arcs are cut down to the part near the window before they are divided, so that no zoom makes them
+one complex number.  Arcs are trimmed to the part near the window before they are divided, so that no zoom makes them
 expensive.
 """
 
@@ -19,20 +19,20 @@ from core.draw.view import TALL, View
 from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
 
 SAG: Final = 0.1
-"""How far a chord may be from its arc, in cells' widths: less than half a dot of the finest mode."""
+"""Largest distance of a chord from its arc, in cell widths: less than half a dot of the finest mode."""
 MAX_TURN: Final = tau / 8
-"""The most a chord turns, in radians."""
+"""Largest angle of one chord, in radians."""
 SHORT: Final = 0.25
-"""An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
+"""An arc shorter than this, in cell widths, becomes one chord: half a dot of the finest mode."""
 CONCENTRIC: Final = 1e-9
-"""An arc about the window's center is all in sight or all out of it; this keeps the division finite."""
+"""Least divisor for an arc about the window's center, which is either all visible or not at all."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chords:
     """m chords in window coordinates, ordered by `layers` (m,): each from `starts` by `runs` (m,).
 
-    `along` (m,) is the length traveled on the layer's path up to the chord's start, in cells' widths.
+    `along` (m,) is the length traveled on the layer's path up to the chord's start, in cell widths.
     """
 
     starts: Points
@@ -41,7 +41,7 @@ class Chords:
     along: Floats
 
     def only(self, keep: Rows) -> Chords:
-        """These chords, by their numbers."""
+        """Return the chords of these rows."""
         return Chords(self.starts[keep], self.runs[keep], self.layers[keep], self.along[keep])
 
 
@@ -58,20 +58,20 @@ class _Pieces:
     along: Floats
 
     def only(self, keep: Rows | Flags) -> _Pieces:
-        """These pieces."""
+        """Return the pieces of these rows."""
         return _Pieces(*(getattr(self, field.name)[keep] for field in fields(self)))
 
     @property
     def radii(self) -> Floats:
-        """(n,) radii of arcs, in cells' widths."""
+        """(n,) radii of arcs, in cell widths."""
         radii: Floats = np.abs(self.starts - self.centers)
         return radii
 
 
 def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chords:
-    """The chords of all layers' pieces that may touch the window of columns x rows cells.
+    """Return the chords of all layers' pieces that may touch the window of columns x rows cells.
 
-    What is not finite, or beyond every machine, is left out.  A layer is known by its place among `layers`.
+    Coordinates that are not finite, or too large for any machine, are left out.  A layer's number is its index.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         pieces = _pieces(layers, view)
@@ -87,7 +87,7 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
 
 
 def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
-    """The pieces of all layers that are drawn at all."""
+    """Return the pieces of all layers that are drawn at all."""
     paths = [layer.path for layer in layers]
 
     def together(name: str) -> Points:
@@ -110,13 +110,13 @@ def _wanted(layer: Layer) -> Flags:
 
 
 def _within(points: Points) -> Flags:
-    """(n,) which points are drawn at all; what is not a number is not."""
+    """Return (n,) True for points that are drawn at all; a NaN is not."""
     within: Flags = (np.abs(points.real) <= BEYOND) & (np.abs(points.imag) <= BEYOND)
     return within
 
 
 def _traveled(layer: Layer) -> Floats:
-    """(n,) millimeters to each piece of a dashed layer from where its path, or the part of it that is drawn, begins."""
+    """Return (n,) the millimeters to each piece of a dashed layer from the start of its path, or of its drawn part."""
     if not layer.dashed:
         return np.zeros(len(layer.path))
     lengths = layer.path.lengths
@@ -129,7 +129,7 @@ def _traveled(layer: Layer) -> Floats:
 
 
 def _divided(arcs: _Pieces, reach: float) -> Chords:
-    """Chords of arcs within `reach` of the window's center."""
+    """Divide arcs into chords, within `reach` of the window's center."""
     arcs, low, span = _visible(arcs, reach)
     counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), MAX_TURN)).astype(np.intp)
     pace = span / np.maximum(counts, 1)
@@ -142,15 +142,15 @@ def _divided(arcs: _Pieces, reach: float) -> Chords:
 
 
 def _begin(arcs: _Pieces) -> Floats:
-    """(k,) the directions in which arcs start from their centers."""
+    """Return (k,) the directions from the arcs' centers to their starts."""
     begin: Floats = np.angle(arcs.starts - arcs.centers)
     return begin
 
 
 def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:
-    """m parts of arcs that run within `reach` of the window's center: (m,) the angle traveled to each, and its own.
+    """Return m parts of arcs within `reach` of the window's center, the angle (m,) traveled to each, and its own angle.
 
-    The circle meets the disc of that reach symmetrically about the direction to the window's center, over a half
+    The circle is within that reach symmetrically about the direction to the window's center, over a half
     angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centers.
     """
     distance, radii, sweeps = np.abs(arcs.centers), arcs.radii, arcs.sweeps

@@ -20,22 +20,22 @@ from core.draw.view import TALL, View
 from core.geometry.path import Floats, Points, Rows
 
 DASH: Final = (3.0, 1.8)
-"""A dash's period and the lit part of it, in cells' widths."""
+"""A dash's period and its lit part, in cell widths."""
 AXIS_DASH: Final = (4.0, 1.0)
 NUDGE: Final = 1e-6
-"""Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
+"""Share of a dot by which all dots shift: rounding must not move a line that lies exactly between two rows of dots."""
 FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
-"""Roles that do not make a cell one of the surface."""
+"""Roles that do not give a cell the surface's character."""
 STRUCK: Final = "#"
-"""The character of cells with deleted surface where dots are too coarse for a dotted line."""
+"""The character of cells with deleted surface if dots are too coarse for a dotted line."""
 DOTS: Final = (1.0, 0.4)
-"""The period and the lit part of a dotted line, in cells' widths."""
+"""The period and the lit part of a dotted line, in cell widths."""
 THICK: Final = (Style.UNCUT, Style.CURRENT)
 """Roles drawn two dots thick."""
 SHADES: Final = {Style.GOUGE_AREA: ":", Style.UNCUT_AREA: "."}
-"""The character of a shaded cell where a cell has one dot."""
+"""The character of a shaded cell if a cell has only one dot."""
 PHASE: Final = 0.25
-"""Where in its period an axis begins at the window's edge: away from where rounding could decide."""
+"""Phase of an axis's dashes at the window's edge, where rounding cannot decide whether a dot is lit."""
 
 Bits = NDArray[np.bool_]
 Styles = NDArray[np.uint8]
@@ -45,17 +45,17 @@ NO_AXES: Final = np.empty(0, np.intp)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
-    """`rows` of equally many characters, and the Style of each cell: `styles` (rows, columns)."""
+    """`rows` of equal length, and the Style of each cell: `styles` (rows, columns)."""
 
     rows: tuple[str, ...]
     styles: Styles
 
 
 def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Picture:
-    """The part of the scene that `view` shows, in columns x rows cells; either may be 0.
+    """Draw the part of the scene that `view` shows, in columns x rows cells; either may be 0.
 
-    Dots of all layers stay lit.  A cell takes the style of the last layer in it, then of the last circle, of the last
-    mark.  What is not finite, or beyond every machine, is left out.
+    Dots of all layers stay lit.  A cell takes the style of the last layer in it; a circle in it overrides that, and a
+    mark overrides both.  Coordinates that are not finite, or too large for any machine, are left out.
     """
     if columns < 1 or rows < 1:
         return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
@@ -83,7 +83,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
 
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
-    """The bits that the X and the Y axis light inside the window."""
+    """Return the bits that the X and the Y axis light inside the window."""
     (x, y), limit, (wide, high) = view.center, BEYOND / view.scale, look.dot
     across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * TALL / 2
     level = upright = None
@@ -95,7 +95,7 @@ def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
 
 
 def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: int | None) -> Rows:
-    """The bits of dashed lines along one row of dots, from left to right, and one column, from top to bottom."""
+    """Return the bits of dashed lines along one row of dots, left to right, and along one column, top to bottom."""
     (wide, high), half_width, half_height = look.dot, columns / 2, rows * TALL / 2
     axes: list[tuple[complex, complex]] = []
     if level is not None:
@@ -109,11 +109,11 @@ def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: 
 
 
 def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
-    """What of the chords lies inside the window (Liang and Barsky's parameters)."""
+    """Clip the chords to the window (Liang and Barsky's parameters)."""
     starts, run = lines.starts, lines.runs
     ends = starts + run
     if _inside(np.concatenate((starts, ends)), half_width, half_height):
-        # as below, to the last digit
+        # equal to the result below, to the last digit
         return Chords(starts, ends - starts, lines.layers, lines.along)
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
@@ -131,13 +131,13 @@ def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
 
 
 def _inside(points: Points, half_width: float, half_height: float) -> bool:
-    # what is not a number is neither more nor less
+    # comparisons with NaN are false
     across, up = np.abs(points.real).max(initial=0.0), np.abs(points.imag).max(initial=0.0)
     return bool(across <= half_width and up <= half_height)
 
 
 def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
-    """The parameters between which start + t * step lies in -limit ... limit; from infinity on where it never does."""
+    """Return the interval of t in which start + t * step is in -limit ... limit; from infinity on if never."""
     with np.errstate(divide="ignore", invalid="ignore"):
         first, second = (-limit - start) / step, (limit - start) / step
     low, high = np.minimum(first, second), np.maximum(first, second)
@@ -150,7 +150,7 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 
 
 def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
-    """The chords, those of thick roles once more a dot to the right and a dot down."""
+    """Return the chords, with copies of those in thick roles one dot to the right and one dot down."""
     if not look.fine:
         return lines
     thick = np.array([layer.style in THICK for layer in layers], np.bool_)
@@ -165,7 +165,7 @@ def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
 
 
 def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Rows:
-    """The bits of the dots in an area: every other one of a gouge, every fourth of what is left uncut."""
+    """Return the bits of dots to light in an area: every other dot of a gouge, every fourth of an uncut area."""
     (wide, high), dense = look.dot, area.style is Style.GOUGE_AREA
     down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
     spread = (down + across) % (2 if look.by_dot else 1) == 0
@@ -187,10 +187,10 @@ def _light(
     columns: int,
     rows: int,
 ) -> tuple[Bits, Styles, Bits | None, Rows]:
-    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than center paths are in where that is
-    asked for, and cells that have deleted surface.  The bits of the `axes` and shades lie under all layers."""
+    """Return the bits lit (rows x columns x 8,), the styles (rows x columns,), which cells hold more than center paths
+    if the mode needs it, and the cells with deleted surface.  Layers win over the bits of `axes` and `shades`."""
     chord, part, bits = _dots(lines, look, columns, rows)
-    # the last style is no layer's: there may be no layers
+    # the last style belongs to no layer: there may be no layers
     roles = np.frombuffer(bytes((*(layer.style for layer in layers), Style.AXIS)), np.uint8)
     role = roles[lines.layers][chord]
     dashed = [layer.dashed and (look.fine or layer.style is not Style.DELETED) for layer in layers]
@@ -211,7 +211,7 @@ def _light(
 
 
 def _bits(look: Cells, columns: int, rows: int) -> Rows:
-    """(dots,) the bit that each dot of a window lights, row by row: eight to a cell."""
+    """Return (dots,) the bit that each dot of a window lights, row by row; each cell has eight bits."""
     down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
     cell = down // look.down * columns + across // look.across
     bits: Rows = cell * 8 + look.bit[down % look.down * look.across + across % look.across]
@@ -219,7 +219,7 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
 
 
 def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
-    """Chord, part of it that lies before the dot, and bit (m,) that it lights, of every dot in order of chords."""
+    """Return each dot's chord, the fraction of the chord before the dot and the bit to light (m,), by chord."""
     (wide, high), start, run = look.dot, lines.starts, lines.runs
     x, y = (start.real + columns / 2) / wide + NUDGE, (rows * TALL / 2 - start.imag) / high + NUDGE
     over, under = run.real / wide, run.imag / -high
@@ -237,7 +237,7 @@ def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Fl
 
 
 def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) -> Bits:
-    """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one, which has the dots `rows`."""
+    """Return which dots (m,) are lit: part of each period in the dots `rows` of dashed lines, and all other dots."""
     lit_dots = np.ones(len(chord), np.bool_)
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
@@ -248,7 +248,7 @@ def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) 
 
 
 def _slants(lines: Chords) -> Rows:
-    """The line character's bit of each chord: 0 level, 1 rising, 2 upright, 3 falling, as it looks in tall cells."""
+    """Return the bit of each chord's line character: 0 level, 1 rising, 2 upright, 3 falling, as seen in tall cells."""
     across, up = lines.runs.real, lines.runs.imag
     steep = np.abs(up) / TALL
     slants = np.where(across * up > 0.0, 1, 3)

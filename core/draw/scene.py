@@ -1,7 +1,7 @@
-"""Scene: what is to be drawn, as paths, circles and marks with the role each plays, in millimeters, before any screen.
+"""Scene: everything to draw, as paths, circles and marks in millimeters, each with its role, independent of the screen.
 
-Later layers win a cell's style over areas and over layers before them, circles win over layers, marks over circles;
-labels stand only where nothing else is; dots once lit stay lit.
+A cell takes the style of the last layer in it; layers win over areas, circles over layers, marks over circles.
+Labels appear only where nothing else is; dots once lit stay lit.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from core.units import Unit
 Box = tuple[float, float, float, float]
 
 BEYOND: Final = 10 * LARGEST
-"""A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
+"""A coordinate that is larger than this, or NaN, is neither drawn nor fitted into a view."""
 
 
 class Style(IntEnum):
-    """The role of what is drawn; a screen gives each role its looks."""
+    """The role of something drawn; each screen decides how a role looks."""
 
     BACKGROUND = 0
     AXIS = 1
@@ -48,7 +48,7 @@ class Style(IntEnum):
     GOUGE_AREA = 15
     UNCUT_AREA = 16
     UNTAKEN = 17
-    """Solutions of a segment or a run that are not taken."""
+    """Alternative solutions of a segment or a run that are not chosen."""
 
 
 DOTTED: Final = frozenset({Style.DELETED, Style.UNTAKEN})
@@ -56,7 +56,7 @@ DOTTED: Final = frozenset({Style.DELETED, Style.UNTAKEN})
 
 
 class Symbol(Enum):
-    """What a mark says; the raster picks a character for it that the mode's terminals have."""
+    """The meaning of a mark; the raster picks a character for it that the mode's terminals have."""
 
     START = auto()
     ARROW = auto()
@@ -69,7 +69,7 @@ class Symbol(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Layer:
-    """One path and its role; where `drawn` (n,) is given, only those of its pieces are drawn for which it is True."""
+    """One path and its role; if `drawn` (n,) is given, only the pieces for which it is True are drawn."""
 
     path: Path
     style: Style
@@ -86,7 +86,7 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """The outline of a disc, such as the cutter: `center` and `radius` in millimeters."""
+    """The outline of a disk, such as the cutter: `center` and `radius` in millimeters."""
 
     center: Point
     radius: float
@@ -104,14 +104,14 @@ class Mark(NamedTuple):
 
 
 class Area(NamedTuple):
-    """A region in millimeters to shade with dots: densely where it is gouged, sparsely where it is left uncut."""
+    """A region in millimeters to shade with dots: densely if it is gouged, sparsely if it is left uncut."""
 
     region: BaseGeometry
     style: Style
 
 
 class Label(NamedTuple):
-    """A short text at a little distance from a point, in the direction `away`."""
+    """A short text a little away from a point, in the direction `away`."""
 
     at: Point
     text: str
@@ -121,7 +121,7 @@ class Label(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Scene:
-    """Everything to draw.  `unit` is that of the scale bar, None for none; `axes` shows the program's X and Y axis."""
+    """Everything to draw.  `unit` is the scale bar's, None for no bar; `axes` shows the program's X and Y axis."""
 
     layers: tuple[Layer, ...] = ()
     circles: tuple[Circle, ...] = ()
@@ -138,12 +138,12 @@ class Scene:
 
     @property
     def bounds(self) -> Box | None:
-        """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
+        """Least x, least y, largest x, largest y of everything that can be drawn; None for an empty scene."""
         marks = [(x, y, x, y) for (x, y), *_ in self.marks]
         return _around([*self._boxes(()), np.array(marks, float).reshape(-1, 4)])
 
     def extent(self, without: Container[Style] = ()) -> Box | None:
-        """The same of circles and layers alone, but for layers of the styles `without`."""
+        """Return the bounds of circles and layers only, except layers in the styles `without`."""
         return _around(self._boxes(without))
 
     def _boxes(self, without: Container[Style]) -> list[Floats]:
@@ -153,16 +153,16 @@ class Scene:
 
 
 def _outline(circle: Circle) -> Layer:
-    """The whole circle as a layer."""
+    """Return the whole circle as a layer."""
     (x, y), radius = circle.center, circle.radius
     rim = np.array([[x + radius, y], [x + radius, y]], float)
     return Layer(Path(rim, np.array([[x, y]], float), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
 def _around(boxes: Sequence[Floats]) -> Box | None:
-    """The box around those of the boxes (n, 4) that can be drawn."""
+    """Return the box around all boxes (n, 4) that can be drawn."""
     rows = np.concatenate([np.empty((0, 4)), *boxes])
-    # a comparison with what is not a number is false
+    # comparisons with NaN are false
     drawn = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
     if not len(drawn):
         return None
@@ -171,7 +171,7 @@ def _around(boxes: Sequence[Floats]) -> Box | None:
 
 
 def joined_scenes(scenes: Sequence[Scene]) -> Scene:
-    """Several blocks in one drawing; unit and axes are the first one's."""
+    """Join several blocks in one drawing; unit and axes are the first one's."""
     return Scene(
         tuple(layer for scene in scenes for layer in scene.layers),
         tuple(circle for scene in scenes for circle in scene.circles),
@@ -202,12 +202,12 @@ def contour_scene(
     current: Path | None = None,
     start: Point | None = None,
 ) -> Scene:
-    """Everything one contour shows, lengths in millimeters.
+    """Return the drawing of one contour, lengths in millimeters.
 
-    `sketches` are segments not determined yet, `untaken` solutions that are not taken; `further` the center path's
+    `sketches` are segments not determined yet, `untaken` solutions not chosen; `further` the center path's
     other loops; `leads` the blend moves, the blend-in first; `over_run` the ends of the surface that are leads;
-    `rough` further center paths; `deleted` pieces of the contour that the look-ahead deletes, `meetings` where the
-    deleting pieces meet; `gouges` the spots cut into; `cutter` (center, radius); `current` the segment under the
+    `rough` dashed center paths; `deleted` pieces of the contour that the look-ahead deletes, `meetings` the points where
+    the deleting pieces meet; `gouges` the points cut into; `cutter` (center, radius); `current` the segment under the
     cursor; `start` the contour's START.
     """
     stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
@@ -229,13 +229,13 @@ def contour_scene(
 
 
 def _without(parts: PathParts, deleted: PathParts) -> PathParts:
-    """The parts but for deleted segments: these have a line of their own."""
+    """Return the parts without deleted segments, which have a line of their own."""
     gone = np.isin(parts.path.numbers, deleted.path.numbers[deleted.in_part])
     return PathParts(parts.path, parts.in_part & ~gone)
 
 
 def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> list[Mark]:
-    """START, and over it what is wrong."""
+    """Return the marks of START and, over it, of deletions and gouges."""
     return [
         *_spots(() if start is None else (start,), Style.START, Symbol.START),
         *_spots(meetings, Style.DELETED, Symbol.DELETED),
@@ -257,14 +257,14 @@ def _spots(points: Sequence[Point], style: Style, symbol: Symbol) -> list[Mark]:
 
 
 def _travel(path: Path) -> Iterator[Mark]:
-    """An arrow in the middle of the path's first piece with a length."""
+    """Yield an arrow in the middle of the path's first piece with a length."""
     first = next((piece for piece in path if piece.length > 0.0), None)
     if first is not None:
         yield Mark(first.point_at(0.5), Style.START, Symbol.ARROW, direction_at_middle(first))
 
 
 def direction_at_middle(piece: Piece) -> Point:
-    """The direction of travel in the middle of a piece, of any length."""
+    """Return the direction of travel in the middle of a piece, as a vector of any length."""
     if isinstance(piece, Line):
         return piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]
     x, y = piece.point_at(0.5)
@@ -272,7 +272,7 @@ def direction_at_middle(piece: Piece) -> Point:
 
 
 def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
-    """Where the cutter goes down: the first lead's beginning, or the path's."""
+    """Yield the mark where the cutter plunges: the start of the first lead, or of the path."""
     first = next((lead for lead in leads if len(lead)), path)
     if len(first):
         yield Mark(_point(first.points[0]), Style.LEAD, Symbol.PLUNGE)

@@ -1,7 +1,7 @@
-"""View: which part of the plane a window of character cells shows.
+"""View: the part of the plane that a window of character cells shows.
 
-A terminal's cell is taken as twice as high as it is wide.  The scale is millimeters to a cell's width, so that a
-view stays the same when the mode of drawing changes.
+A terminal's cell counts as twice as high as it is wide.  The scale is millimeters per cell width, so that a
+view stays the same when the drawing mode changes.
 """
 
 from __future__ import annotations
@@ -18,28 +18,28 @@ TALL: Final = 2.0
 FINEST: Final = 1e-7
 COARSEST: Final = 1e8
 BEYOND_PART: Final = 1 / 7
-"""Part of a window that may lie beyond the part at each side."""
+"""Share of the window that may lie beyond the workpiece on each side."""
 MARGIN: Final = 0.04
-"""Part of the window left free on each side by `fit`."""
+"""Share of the window that `fit` leaves free on each side."""
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """`center` (x, y) in millimeters is in the middle of the window; `scale` is millimeters to a cell's width."""
+    """`center` (x, y) in millimeters is in the middle of the window; `scale` is millimeters per cell width."""
 
     center: Point = (0.0, 0.0)
     scale: float = 1.0
 
     @staticmethod
     def fit(bounds: Box | None, columns: int, rows: int) -> View:
-        """The largest view of `bounds` in columns x rows cells, with a margin; None gives one around zero."""
+        """Return the largest view of `bounds` in columns x rows cells, with a margin; None gives a view around zero."""
         x0, y0, x1, y1 = bounds or (-1.0, -1.0, 1.0, 1.0)
         wide, high = max(columns, 1) * (1 - 2 * MARGIN), max(rows, 1) * TALL * (1 - 2 * MARGIN)
         scale = max((x1 - x0) / wide, (y1 - y0) / high)
         return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
 
     def zoom(self, factor: float, about: Point | None = None) -> View:
-        """Enlarged by `factor` about a point (mm), else the window's center, between limits that still make sense."""
+        """Return the view enlarged by `factor` about a point (mm), else the window's center, within sensible limits."""
         scale = _held(self.scale / factor)
         if about is None:
             return View(self.center, scale)
@@ -47,12 +47,12 @@ class View:
         return View((x + part * (about[0] - x), y + part * (about[1] - y)), scale)
 
     def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
-        """Moved over the part by fractions of the window: dx to the right, dy up."""
+        """Return the view moved over the part by fractions of the window: dx to the right, dy up."""
         x, y = self.center
         return View((x + dx * columns * self.scale, y + dy * rows * TALL * self.scale), self.scale)
 
     def over(self, point: Point, bounds: Box, columns: int, rows: int) -> View:
-        """The view moved over a point (mm), but no farther beyond `bounds` than a seventh of the window."""
+        """Return the view centered on a point (mm), but no farther beyond `bounds` than a seventh of the window."""
         half = columns * self.scale / 2, rows * TALL * self.scale / 2
         x, y = (
             _slid(value, low, high, room)
@@ -61,28 +61,28 @@ class View:
         return View((x, y), self.scale)
 
     def touches(self, bounds: Box, times: float) -> bool:
-        """Whether the middle of the window is no farther from the middle of `bounds` than so many times its sizes."""
+        """True if the window's center is within `times` the larger side of `bounds` from its center, in X and in Y."""
         (x, y), (x0, y0, x1, y1) = self.center, bounds
         far = times * max(x1 - x0, y1 - y0, FINEST)
         return abs(x - (x0 + x1) / 2) <= far and abs(y - (y0 + y1) / 2) <= far
 
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
-        """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
+        """Return the point (mm) at a position in the window: (0, 0) is top left, (0.5, 0.5) the first cell's middle."""
         x, y = self.center
         return x + (column - columns / 2) * self.scale, y - (row - rows / 2) * TALL * self.scale
 
     def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
-        """(column, row) of a point (mm), fractions included: the inverse of `at`."""
+        """Return (column, row) of a point (mm), fractions included: the inverse of `at`."""
         return self.cells([point], columns, rows)[0]
 
     def cells(self, points: Iterable[Point], columns: int, rows: int) -> list[tuple[float, float]]:
-        """The same of several points."""
+        """Return the same for several points."""
         (x, y), wide, high, half_width, half_height = self.center, self.scale, TALL * self.scale, columns / 2, rows / 2
         return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
 
 
 def _slid(value: float, low: float, high: float, room: float) -> float:
-    """A window's middle, `room` from its edges, so that it shows little of what is beyond low and high."""
+    """Return a window's middle, `room` from its edges, moved so that little beyond low and high is visible."""
     first, last = low + room * (1.0 - 2.0 * BEYOND_PART), high - room * (1.0 - 2.0 * BEYOND_PART)
     return min(max(value, min(first, last)), max(first, last))
 
