@@ -1,1 +1,1 @@
-"""The part of cutcomp that knows geometry, programs and controls, and nothing of screens."""
+"""The part of cutcomp that knows geometry, programs and controls; it does not depend on screens."""

@@ -1,8 +1,8 @@
-"""Arithmetic an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
+"""Arithmetic that an operator types into a field, read as exact fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
 
-A suffix belongs to the product it is in; in a sum either every term has one or none has.  A comma (one alone is a
-decimal point before it comes here), a dash that shop people read as "and" (`1-1/2`), and a division by a number with a
-fraction (`1/2 1/2`) may mean two things and are refused with the reason.
+A suffix belongs to the product it is in; in a sum either every term has one or none has.  Three inputs are ambiguous
+and refused with the reason: a comma (a single one has become a decimal point before the text gets here), a dash that
+shop people read as "and" (`1-1/2`), and a division by a number with a fraction (`1/2 1/2`).
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from fractions import Fraction
 from typing import Final
 
 MAX_CHARACTERS: Final = 60
-"""Characters a field reads; more is a typing mistake."""
+"""Most characters that a field accepts; more is a typing mistake."""
 
 
 class CannotReadError(Exception):
-    """Why a text cannot be read: a sentence for the operator."""
+    """A text cannot be read; the message is a sentence for the operator."""
 
 
 _TOKEN: Final = re.compile(r"\s*(?:(?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)|(?P<sign>[-+*/()])|(?P<word>[^\W\d_]+|\S))")
@@ -29,9 +29,9 @@ _DASHED: Final = re.compile(r"\s*([-+]?[0-9]+)-([0-9]+)/(2|4|8|16|32|64)\s*[^-+*
 
 
 def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
-    """The value of a sum; raises CannotReadError.
+    """Return the value of a sum; raise CannotReadError if there is none.
 
-    `scales` holds what each suffix multiplies by, `expected` what the field takes, as "type a whole number".
+    `scales` holds the factor of each suffix, `expected` says what the field takes, such as "type a whole number".
     """
     text = text.translate(_ALIKE)
     if not text.strip():
@@ -57,7 +57,7 @@ def _refuse_dashed(text: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Amount:
-    """A number with the scale of its unit, None while it has none; `bracket` marks a finished sum."""
+    """A number with the scale of its unit, None without a unit; `bracket` marks a sum in brackets."""
 
     value: Fraction
     scale: Fraction | None = None
@@ -69,7 +69,7 @@ class _Amount:
 
 @dataclass(slots=True)
 class _Reader:
-    """Reads sums of products of signed numbers, fractions and brackets, each by the rule of its name."""
+    """Parser of sums of products of signed numbers, fractions and brackets; each grammar rule is a method."""
 
     tokens: list[tuple[str, str]]
     scales: Mapping[str, Fraction]
@@ -82,7 +82,7 @@ class _Reader:
         return self.tokens[index] if index < len(self.tokens) else ("end", "")
 
     def take(self, signs: str) -> str:
-        """The next token if it is one of these signs, taken; otherwise nothing."""
+        """Take and return the next token if it is one of these signs; else return an empty string."""
         sort, text = self.peek()
         if sort != "sign" or text not in signs:
             return ""
@@ -150,7 +150,7 @@ class _Reader:
         return Fraction(text) + self.fraction(text)
 
     def fraction(self, whole: str) -> Fraction:
-        """The 1/2 after the whole number of 1 1/2, or 0."""
+        """Return the fraction after the whole number, as the 1/2 of 1 1/2, or 0."""
         (first, above), (_, slash), (last, below) = (self.peek(ahead) for ahead in range(3))
         if (first, slash, last) != ("number", "/", "number") or "." in whole + above + below:
             return Fraction(0)

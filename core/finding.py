@@ -1,10 +1,10 @@
-"""Findings: what the operator is told about a program, as values.
+"""Findings: messages to the operator about a program, as values.
 
-Readers of files and runs of controls raise errors of their own.
+File readers and simulated controls raise errors of their own.
 
-A finding's text is a sentence for the operator.  Lengths in it stand as `{value}`, `{x}`, `{y}` or
-`{0}`, `{1}` ... (the rest of `lengths`), an area as `{area}`, filled in program units by `core.units.sentence`.
-`{0~1}` is length 0 with as many decimals as tell it from length 1.
+A finding's text is a sentence for the operator.  It has placeholders for lengths, `{value}`, `{x}`, `{y}` or
+`{0}`, `{1}` ... (of `lengths`), and for an area, `{area}`; `core.units.sentence` fills them in program units.
+`{0~1}` is length 0 with enough decimals to tell it from length 1.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from enum import StrEnum
 
 
 class Severity(StrEnum):
-    """How much a finding weighs: an error blocks posting, a warning is shown, info explains."""
+    """The severity of a finding: an error blocks posting, a warning is displayed, info explains."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -23,13 +23,13 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One piece of trouble and the place it belongs to.
+    """One message and the place it belongs to.
 
     `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
     or k + 1/2 for the corner arc after it; `field` a field's name in `core.program.fields`.
-    `at` (x, y) and `value` are millimeters, `lengths` further millimeters named in the text.
-    `line` and `column` count from 1 in a program somebody else wrote.  `area` is in square millimeters.
-    `block` counts from 1 where the findings of several blocks are told together.
+    `at` (x, y) and `value` are millimeters, `lengths` further millimeters that the text uses.
+    `line` and `column` count from 1 in an imported program.  `area` is in square millimeters.
+    `block` counts from 1 if the findings of several blocks are listed together.
     """
 
     code: str

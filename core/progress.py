@@ -1,21 +1,21 @@
-"""Progress: how long work tells how far it is, and how it is stopped."""
+"""Progress: long calculations report how far they are, and can be stopped."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 Progress = Callable[[float], None]
-"""Told the part of the work that is done, from 0 to 1; raises Stopped where nobody waits for the rest."""
+"""Takes the share of the work that is done, from 0 to 1; raises Stopped if the rest is no longer needed."""
 
 
 class Stopped(Exception):
-    """The work was canceled: nobody waits for it any more."""
+    """The work was canceled because its result is no longer needed."""
 
 
 def silent(_: float) -> None:
-    """The default: progress is told to nobody."""
+    """Ignore progress: the default."""
 
 
 def part(progress: Progress, first: float, last: float) -> Progress:
-    """The progress of a part of the work, which goes from `first` to `last` of the whole."""
+    """Return the progress function of a part of the work that goes from `first` to `last` of the whole."""
     return lambda done: progress(first + (last - first) * done)

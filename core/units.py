@@ -1,6 +1,6 @@
-"""Units: the text of a form's field to millimeters or radians and back, and how the screens print it.
+"""Units: convert the text of a form's field to millimeters or radians and back, and format values for the screens.
 
-A field takes the sums of `core.arithmetic`; a suffix (`12.7mm`, `.5in`, `.5"`, `22.5deg`) converts into program units.
+A field takes the sums of `core.arithmetic`; a suffix (`12.7mm`, `.5in`, `.5"`, `22.5deg`) converts to program units.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from core.finding import Finding
 from core.tolerance import LARGEST, ROUNDING
 
 MAX_QUOTED: Final = 24
-"""Characters of somebody's text that a message repeats."""
+"""Most characters of a user's text that a message quotes."""
 
 MAX_SHOWN: Final = 10
-"""Characters `show` takes at most: larger numbers lose decimals."""
+"""Most characters in the output of `show`: larger numbers lose decimals."""
 
 
 class Unit(StrEnum):
@@ -34,7 +34,7 @@ class Unit(StrEnum):
 
 
 class Kind(Enum):
-    """What sort of value a field takes; it decides how it is read, shown and converted."""
+    """The kind of value that a field takes; it decides how the value is read, displayed and converted."""
 
     LENGTH = auto()
     FEED = auto()
@@ -47,7 +47,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Unreadable:
-    """Text that is no value; `reason` is a sentence for the operator."""
+    """Text that is not a value; `reason` is a sentence for the operator."""
 
     reason: str
 
@@ -60,37 +60,37 @@ KEPT_DECIMALS: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.M
 """Decimals that a conversion keeps: more than a drawing has."""
 
 MOST_DECIMALS: Final = 20
-"""A conversion that needs more decimals keeps all that there are."""
+"""A conversion that needs this many decimals or more keeps them all."""
 
 EXTRA_DECIMALS: Final = 6
-"""More decimals than a form's that a sentence shows at most of two lengths that are nearly equal."""
+"""Most decimals that a sentence adds to a form's decimals to tell two nearly equal lengths apart."""
 
 
 def to_mm(value: float, unit: Unit) -> float:
-    """Millimeters (per minute) of a length (a feed) in program units."""
+    """Convert a length (or a feed) in program units to millimeters (per minute)."""
     return value * 25.4 if unit is Unit.IN else value
 
 
 def from_mm(value: float, unit: Unit) -> float:
-    """Program units (per minute) of a length (a feed) in millimeters."""
+    """Convert a length (or a feed) in millimeters (per minute) to program units."""
     return value / 25.4 if unit is Unit.IN else value
 
 
 def to_radians(value: float) -> float:
-    """Radians of an angle as the form shows it, in degrees."""
+    """Convert an angle in degrees, as the form displays it, to radians."""
     return radians(value)
 
 
 def from_radians(value: float) -> float:
-    """Degrees, as the form shows them, of an angle in radians."""
+    """Convert an angle in radians to degrees, as the form displays them."""
     return degrees(value)
 
 
 def convert(value: float, old: Unit, new: Unit) -> float:
-    """A typed length or feed in another unit, such that there and back gives any number of 14 digits again.
+    """Convert a typed length or feed to another unit, so that converting back restores any number of 14 digits.
 
-    Inches keep ten decimals and millimeters eight: 3 mm is 0.1181102362 in, and that is 3 mm again.  Where these do not
-    lead back, as those of 1/3 in, there are as many more as do.
+    Inches keep ten decimals and millimeters eight: 3 mm is 0.1181102362 in, and that is 3 mm again.  If these do not
+    lead back, as for 1/3 in, there are as many more as it takes.
     """
     if old is new:
         return value
@@ -100,7 +100,7 @@ def convert(value: float, old: Unit, new: Unit) -> float:
 
 
 def _leads_back(converted: float, value: float, old: Unit, new: Unit) -> bool:
-    """Whether converting `converted` back gives `value`: with the decimals that are kept if these will do."""
+    """True if converting `converted` back gives `value`, with the kept decimals if these are enough."""
     factor = MM_PER[new] / MM_PER[old]
     kept = float(round(Fraction(converted) * factor, KEPT_DECIMALS[old]))
     will_do = float(round(Fraction(kept) / factor, KEPT_DECIMALS[new])) == converted
@@ -108,7 +108,7 @@ def _leads_back(converted: float, value: float, old: Unit, new: Unit) -> bool:
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:
-    """A value in program units as the screens print it, at most `MAX_SHOWN` characters, never a negative zero."""
+    """Format a value in program units for the screens, in at most `MAX_SHOWN` characters, never as a negative zero."""
     if not isfinite(value):
         return str(value)
     decimals = decimals_shown(kind, unit)
@@ -120,7 +120,7 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
 
 
 def decimals_shown(kind: Kind, unit: Unit) -> int:
-    """Decimals with which the screens print a value."""
+    """Return the number of decimals with which the screens print a value."""
     match kind:
         case Kind.LENGTH:
             return 4 if unit is Unit.IN else 3
@@ -133,25 +133,25 @@ def decimals_shown(kind: Kind, unit: Unit) -> int:
 
 
 def plain(text: str) -> str:
-    """A text with a question mark in place of each character that does not print."""
+    """Return a text with a question mark in place of each character that does not print."""
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def printable(text: str) -> str:
-    """Somebody's text as it may stand in a message: on one line, short, and nothing that moves a terminal's cursor."""
+    """Return a user's text fit for a message: on one line, short, and without characters that move the cursor."""
     whole = plain(text.strip())
     return whole if len(whole) <= MAX_QUOTED else f"{whole[:MAX_QUOTED]}..."
 
 
 def sentence(finding: Finding, unit: Unit) -> str:
-    """A finding's text with its lengths filled in, in program units."""
+    """Return a finding's text with its lengths filled in, in program units."""
     known: dict[str, float] = {str(index): length for index, length in enumerate(finding.lengths)}
     if finding.value is not None:
         known["value"] = finding.value
     if finding.at is not None:
         known["x"], known["y"] = finding.at
     if finding.area is not None:
-        # a length as well once it is divided by an inch
+        # dividing by one inch here and another in `fill` gives square inches
         known["area"] = from_mm(finding.area, unit)
 
     def fill(place: re.Match[str]) -> str:
@@ -167,12 +167,12 @@ def sentence(finding: Finding, unit: Unit) -> str:
 
 
 def segment_name(number: float) -> str:
-    """`segment 3`, or `corner 3-4` for the corner arc after segment 3, which has the number 3.5."""
+    """Return `segment 3`, or `corner 3-4` for the corner arc after segment 3, which has the number 3.5."""
     return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
 
 
 def located_sentence(finding: Finding, unit: Unit) -> str:
-    """A finding's sentence after its block and its segment: `Block 1, segment 2: ...`."""
+    """Return a finding's sentence with its block and segment in front: `Block 1, segment 2: ...`."""
     parts = [] if finding.block is None else [f"block {finding.block}"]
     if finding.segment is not None:
         parts.append(segment_name(finding.segment) if finding.segment else "START")
@@ -181,7 +181,7 @@ def located_sentence(finding: Finding, unit: Unit) -> str:
 
 
 def _telling_digits(value: float, other: float, unit: Unit) -> str:
-    """A length with a form's decimals, or as many more as tell how far it is from another."""
+    """Format a length with a form's decimals, or with as many more as it takes to show its distance from another."""
     if not (isfinite(value) and isfinite(other)):
         return show(value, Kind.LENGTH, unit)
     apart, fewest = abs(value - other), decimals_shown(Kind.LENGTH, unit)
@@ -194,7 +194,7 @@ def _telling_digits(value: float, other: float, unit: Unit) -> str:
 
 
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
-    """The value of an operator's text in program units (degrees for an angle), or why there is none."""
+    """Return the value of an operator's text in program units (degrees for an angle), or why it is unreadable."""
     try:
         exact = evaluate(with_decimal_point(text, unit), _scales(kind, unit), _EXPECTED.get(kind, ""))
     except CannotReadError as fault:
@@ -207,9 +207,9 @@ def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
 
 
 def with_decimal_point(text: str, unit: Unit) -> str:
-    """A text whose one comma stands for the decimal point; CannotReadError where it may be a thousands comma.
+    """Replace a text's single comma with a decimal point; raise CannotReadError if it may be a thousands comma.
 
-    In inch programs that is a comma with exactly three digits behind it.
+    In inch programs that is a comma followed by exactly three digits.
     """
     if text.count(",") != 1 or "." in text:
         return text
@@ -225,7 +225,7 @@ _THOUSANDS: Final = re.compile(r"([0-9]*),([0-9]{3})(?![0-9])")
 
 @lru_cache
 def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
-    """What each suffix that a kind takes multiplies by to give program units."""
+    """Return the factor of each suffix that a kind takes, to program units."""
     match kind:
         case Kind.LENGTH | Kind.FEED:
             inch, mm = (MM_PER[source] / MM_PER[unit] for source in (Unit.IN, Unit.MM))

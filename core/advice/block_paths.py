@@ -1,4 +1,4 @@
-"""Result of cutting one block: its surface, rough and finish paths in millimeters, and the verdict.  Needs no numpy."""
+"""Result of cutting a block: its surface, rough and finish paths in millimeters, and the verdict.  No numpy needed."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Loop:
 class RoughPass:
     """One pass before the finish path: its `loops` leave `stock` millimeters on the surface.
 
-    `compensated` is the control's path, whether posted or not.  `verdict` is that of a cutter larger by the stock: what
-    it gouges deeper than the stock is cut into the part, the rest is stock that is not left.
+    `compensated` is the control's path, whether posted or not.  `verdict` judges a cutter that is larger by the stock:
+    a gouge deeper than the stock cuts into the part, a shallower one leaves too little stock.
     """
 
     stock: float
@@ -44,12 +44,12 @@ class RoughPass:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BlockPaths:
-    """Every path of a block and what it does to the surface.
+    """Every path of a block and its effect on the surface.
 
-    `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
-    one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
+    `surface` is the determined part of the contour; `loops` the finish path that is posted, a single loop or, for PATH
+    BEST, all of its loops, and `verdict` the judgment on it.  `compensated` is the control's path, posted or not.
     `compensated` and `verdict` are None for CUTTER COMP. ON, where the center runs on the contour itself.
-    `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.
+    `rough` comes before, outermost first.  `best` is the best path if PATH is BEST.
     """
 
     surface: Path
@@ -61,7 +61,7 @@ class BlockPaths:
 
     @property
     def center(self) -> Path:
-        """The first loop with its blends; the empty path if there is none."""
+        """The first loop with its blends; the empty path without loops."""
         from core.geometry.path import EMPTY
 
         return self.loops[0].whole if self.loops else EMPTY

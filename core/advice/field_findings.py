@@ -1,4 +1,4 @@
-"""Field findings: fields left blank, without effect, or at heights where the tool meets the part.  Needs no numpy."""
+"""Field findings: fields left blank, without effect, or at heights where the tool hits the part.  No numpy needed."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
 VISIBLE: Final = 0.01
-"""A field shows a length above this, in millimeters, as something else than 0 in any unit."""
+"""Millimeters: a longer length is displayed as something other than 0 in any unit."""
 
 
 def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """What the operator may not expect of the fields of a block and of the program's parameters and setup."""
+    """Yield what may surprise the operator about a block's fields and the program's parameters and setup."""
     yield from _z_ends(solved)
     yield from _safe_z(solved, program)
     yield from _blank_feeds(block, solved, program)
@@ -29,13 +29,13 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
 
 
 def typed_lookahead_warning(value: int, calculated: int) -> Finding:
-    """Says that a typed look-ahead is in force instead of the calculated one."""
+    """Say that a typed look-ahead is in force instead of the calculated one."""
     text = f"USR {value} in force, CAL is {calculated}. F3 goes back to CAL."
     return Finding("USR_LOOKAHEAD", Severity.WARNING, text, field="lookahead")
 
 
 def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
-    """Typed Z ENDs that are not between Z START and Z BOTTOM: no pass goes deeper, and rapid moves run above."""
+    """Report typed Z ENDs outside Z START to Z BOTTOM: no pass goes deeper, and rapid moves would hit higher ones."""
     if solved.z_start is None or solved.z_bottom is None:
         return
     top, bottom = solved.z_start, solved.z_bottom
@@ -54,7 +54,7 @@ def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
 
 
 def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """SAFE Z below the clearance over Z START, which posting raises: a warning if typed, else information."""
+    """Report a SAFE Z below the clearance over Z START, which posting raises: a warning if typed, else information."""
     typed = program.setup.safe_z
     safe = _length(typed, Form.SETUP, "safe_z", program)
     clearance = _parameter("retract_clearance", program)
@@ -70,7 +70,7 @@ def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
 
 
 def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """The segments from the first on whose FEED neither the form nor the tool table gives; once the first is known."""
+    """Warn about leading segments without FEED from the form or the tool table, once the first segment is known."""
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
@@ -87,7 +87,7 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
 
 
 def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[Finding]:
-    """FINISH XY and FINISH Z while there is no finish tool."""
+    """Warn about FINISH XY and FINISH Z without a finish tool."""
     tool = block.finish_tool
     if isinstance(tool, Unread) or (tool is not None and tool.value != 0.0):
         return
@@ -102,7 +102,7 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
 
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """Clearances that a field shows as 0: a rapid then ends on material."""
+    """Warn about clearances that are displayed as 0: a rapid then ends on material."""
     consequences = {"retract_clearance": "the tool rapids right to the top of the stock"}
     if _pecks(solved):
         consequences["peck_clearance"] = "between pecks it rapids right to the last floor"
@@ -120,14 +120,14 @@ def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
 
 
 def _pecks(solved: SolvedBlock) -> bool:
-    """Whether the depth is reached in more than one pass."""
+    """True if the depth takes more than one pass."""
     if solved.z_start is None or solved.z_bottom is None or solved.peck_depth <= 0.0:
         return False
     return solved.z_start - solved.z_bottom > solved.peck_depth + LAST_PASS
 
 
 def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """A PROFILE whose MAX OFFSET is 0, with a finish tool no more than FINISH XY: it makes one pass."""
+    """Warn about a PROFILE with MAX OFFSET 0, or not above FINISH XY with a finish tool: it makes one pass."""
     if block.cutter_comp not in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT):
         return
     finishing = solved.finish_diameter is not None
@@ -147,7 +147,7 @@ def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[F
 
 
 def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
-    """A contour that is known and has one segment, but for those without length; a full circle alone is closed."""
+    """Report a determined contour with only one segment that has a length; a full circle alone is closed."""
     if solved.closed or solved.determined < len(solved.segments) or len(solved.pieces) != 1:
         return
     number, piece = solved.pieces[0]
@@ -156,7 +156,7 @@ def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
 
 
 def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
-    """A contour that is known and has no segment with a length: a point, which has no path."""
+    """Report a determined contour with no segment that has a length: a point, which has no path."""
     if not solved.segments or solved.determined < len(solved.segments) or solved.pieces:
         return
     text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
@@ -164,12 +164,12 @@ def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
 
 
 def _parameter(name: str, program: Program) -> float | None:
-    """A length of PROGRAM PARAMETERS or its default in millimeters; None for one that is refused."""
+    """Return a length of PROGRAM PARAMETERS or its default in millimeters; None if it is refused."""
     return _length(getattr(program.parameters, name), Form.PARAMETERS, name, program)
 
 
 def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
-    """A length or its default in millimeters; None for one that is refused."""
+    """Return a length or its default in millimeters; None if it is refused."""
     if typed is None:
         usual = default_value(name, program.unit)
         return None if usual is None else to_mm(usual, program.unit)

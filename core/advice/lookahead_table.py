@@ -1,4 +1,4 @@
-"""Look-ahead table: a contour cut at every look-ahead value from 1 to 20, each path judged."""
+"""Look-ahead table: a contour is cut at every look-ahead value from 1 to 20, and each path is judged."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from core.verify.judge import judge
 from core.verify.verdict import Verdict
 
 VALUES = range(LOWEST, HIGHEST + 1)
-"""The look-ahead values an operator may type."""
+"""The look-ahead values that an operator may type."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CuttingSetup:
-    """A contour, and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
+    """A contour and the settings for cutting it; lengths in millimeters, `blend` and `overlap` 0 for none.
 
-    `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
-    Another tool is looked for in steps of `diameter_step`, the last digit that a screen shows.
+    `stocks` are the allowances that the roughing passes leave; their tool has radius `rougher`, or `radius` if that is
+    None.  The search for another tool uses steps of `diameter_step`, the last digit on a screen.
     """
 
     surface: Path
@@ -37,7 +37,7 @@ class CuttingSetup:
     diameter_step: float = 0.001
 
     def paths(self, radius: float, lookaheads: tuple[int, ...] | range = VALUES) -> tuple[Compensated, ...]:
-        """The control's path at a radius for each look-ahead; those that are the same test as many crossings."""
+        """Return the control's path at a radius for each look-ahead; paths with equal `tested` are the same."""
         return compensate_all(
             self.surface, self.side, radius, lookaheads, closed=self.closed, blend=self.blend, overlap=self.overlap
         )
@@ -45,7 +45,7 @@ class CuttingSetup:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Row:
-    """One look-ahead value: the path it makes and what that path does; lengths in millimeters."""
+    """One look-ahead value: its path and the verdicts on it; lengths in millimeters."""
 
     value: int
     compensated: Compensated
@@ -54,7 +54,7 @@ class Row:
 
     @property
     def clean(self) -> bool:
-        """There is a path, and neither it nor a roughing pass gouges anything."""
+        """True if there is a path, and both it and the roughing passes are clean."""
         return len(self.compensated.path) > 0 and all(verdict.clean for verdict in (self.verdict, *self.rough))
 
     @property
@@ -64,21 +64,21 @@ class Row:
 
     @property
     def uncut(self) -> float:
-        """Length of surface it leaves."""
+        """Length of surface that it leaves uncut."""
         return self.verdict.uncut_length
 
     @property
     def deleted(self) -> tuple[float, ...]:
-        """Numbers of the segments it deletes, each once."""
+        """Numbers of the segments that it deletes, each once."""
         return tuple(dict.fromkeys(self.compensated.deleted.segments.tolist()))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Table:
-    """All rows, the value the operator is advised to use if any is clean, and what else is to be said.
+    """All rows, the recommended value if any is clean, and further `notes`.
 
-    `notes` are left to whoever shows the table: what a better path would cut and what would mend the contour take
-    longer than all rows.  Until `complete` there may be more of them.
+    The code that displays the table adds the notes: what a better path would cut, and what would mend the contour, take
+    longer to find than all rows.  Until `complete` there may be more of them.
     """
 
     rows: tuple[Row, ...]
@@ -87,12 +87,12 @@ class Table:
     complete: bool = False
 
     def row(self, value: int) -> Row:
-        """The row of a look-ahead value."""
+        """Return the row of a look-ahead value."""
         return self.rows[value - LOWEST]
 
 
 def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:
-    """The table of a contour: a value is judged by its finish path and by the roughing passes before it."""
+    """Make the table of a contour: a value is judged by its finish path and by the roughing passes before it."""
     count = 1 + len(setup.stocks)
     shares = [part(progress, at / count, (at + 1) / count) for at in range(count)]
     finish = setup.paths(setup.radius)
@@ -108,7 +108,7 @@ def judge_lookaheads(setup: CuttingSetup, progress: Progress = silent) -> Table:
 
 
 def _verdicts(setup: CuttingSetup, cutter: float, paths: tuple[Compensated, ...], progress: Progress) -> list[Verdict]:
-    """What a cutter of this radius does on each path; one that several values share is judged once."""
+    """Return the verdict on a cutter of this radius for each path; a path that several values share is judged once."""
     distinct = {path.tested: path for path in paths}
     verdicts = {}
     for done, (key, path) in enumerate(distinct.items()):

@@ -1,4 +1,4 @@
-"""Path findings: what is wrong with a block's surface and paths, and what a better path would cut."""
+"""Path findings: problems of a block's surface and paths, and what a better path would cut."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from core.verify.verdict import Approach, Gouge, Verdict
 _ORDER: Final = {severity: place for place, severity in enumerate(Severity)}
 
 STRAIGHT_BACK: Final = cos(radians(1.0))
-"""Cosine of the angle between two segments below which they lie on each other: an end typed to the last digit of a
-drawing misses the tangent of a small arc by less."""
+"""Cosine of the angle up to which a segment counts as going straight back over the one before it: an end typed with
+all digits of a drawing misses the tangent of a small arc by less."""
 
 MAX_TIGHT_ARCS: Final = 100
-"""Arcs, the smallest first, that are looked at for one that stays uncut."""
+"""Arcs, the smallest first, that are searched for one that stays uncut."""
 
 
 def by_severity(findings: Sequence[Finding]) -> tuple[Finding, ...]:
-    """Errors, then warnings, then the rest."""
+    """Sort findings: errors, then warnings, then the rest."""
     return tuple(sorted(findings, key=lambda finding: _ORDER[finding.severity]))
 
 
 def path_findings(work: BlockPaths) -> tuple[Finding, ...]:
-    """Everything found about the posted path, its blends and the roughing passes."""
+    """Return all findings on the posted path, its blends and the roughing passes."""
     assert work.verdict is not None
     assert work.compensated is not None
     return (
@@ -51,7 +51,7 @@ def path_findings(work: BlockPaths) -> tuple[Finding, ...]:
 
 
 class _Rows(NamedTuple):
-    """Where the parts of one loop begin and end among the rows of the verdict, which counts all loops in order."""
+    """The rows where one loop's parts begin and end in the verdict, which counts the pieces of all loops in order."""
 
     lead_in: int
     path: int
@@ -69,14 +69,14 @@ def _rows(loops: Sequence[Loop]) -> Iterator[tuple[Loop, _Rows]]:
 
 
 def _air_cuts(work: BlockPaths, verdict: Verdict) -> Iterator[AirCut]:
-    """Where the paths without their blends leave the surface by more than the radius."""
+    """Yield the air cuts of the paths without their blends."""
     for loop, rows in _rows(work.loops):
         if any(rows.path <= row < rows.lead_out for row in verdict.loose):
             yield from air_cuts(work.surface, verdict.radius, loop.path)
 
 
 def move_names(work: BlockPaths) -> Names:
-    """What the moves of all loops are, counted as the verdict counts them."""
+    """Return a function that names the moves of all loops, by their rows in the verdict."""
 
     def name(row: int, _number: float) -> str:
         for loop, rows in _rows(work.loops):
@@ -93,7 +93,7 @@ def move_names(work: BlockPaths) -> Names:
 
 def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
     lead = loop.lead_out
-    # the overlap's arcs are the path's own, the blend's is not
+    # the overlap's arcs share centers with the path's own, the blend arc does not
     again = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
     if row == len(lead) - 1 and lead.turns[row] and not again:
         return "the blend-out arc"
@@ -101,9 +101,9 @@ def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
 
 
 def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: Sequence[int]) -> Iterator[Finding]:
-    """A blend arc that gouges or crosses a wall: the remedy is another start or a smaller BLEND OFFSET.
+    """Report blend arcs that gouge or cross a wall; another start or a smaller BLEND OFFSET is the remedy.
 
-    `wrong_side` are moves that run on the part's side, counted as the verdict counts them.
+    `wrong_side` are the moves that run on the part's side, by their rows in the verdict.
     """
     for loop, rows in _rows(loops):
         blends = (("in", rows.lead_in, rows.path), ("out", rows.lead_out, rows.end))
@@ -117,7 +117,7 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: S
 
 
 def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
-    """The blend arc that runs beyond a wall somewhere, with its free end."""
+    """Return the warning about a blend arc that crosses a wall, at the arc's free end."""
     lead, row, way = (loop.lead_in, 0, "from") if name == "in" else (loop.lead_out, -1, "to")
     x, y = lead.points[row].tolist()
     text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET."
@@ -125,7 +125,7 @@ def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
 
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
-    """What is wrong with each roughing pass: gouges, stock that is not left, no room, segments it skips."""
+    """Report the problems of each roughing pass: gouges, stock that is not left, no room, segments that it skips."""
     for rough_pass in rough:
         yield from _rough_errors(rough_pass)
         skipped = _deleted(rough_pass.compensated) - (set() if finish is None else _deleted(finish))
@@ -160,7 +160,7 @@ def _deleted(compensated: Compensated) -> set[float]:
 
 
 class ZStep(NamedTuple):
-    """Where the path goes straight up or down: how far, up if positive, the segment after it, and the place."""
+    """A place where the path goes straight up or down: the `rise` (negative if down), the next segment, the point."""
 
     rise: float
     number: float
@@ -168,9 +168,9 @@ class ZStep(NamedTuple):
 
 
 def z_step_findings(steps: Sequence[ZStep]) -> tuple[Finding, ...]:
-    """The deepest and the highest step, each a warning that says how many there are.
+    """Warn about the deepest and the highest step, and say how many there are of each.
 
-    The tool plunges there with its whole width, which an end mill that does not cut at its center cannot.
+    The tool plunges there with its whole width, which a non-center-cutting end mill cannot do.
     """
     falls = sorted(step for step in steps if step.rise < 0.0)
     rises = sorted((step for step in steps if step.rise > 0.0), reverse=True)
@@ -187,12 +187,12 @@ def _largest_step(steps: Sequence[ZStep], way: str) -> tuple[Finding, ...]:
 
 
 def nearest_place(work: BlockPaths | None) -> Approach | None:
-    """Where the posted path comes nearest to the surface."""
+    """Return where the posted path comes nearest to the surface."""
     return None if work is None or work.verdict is None else work.verdict.closest
 
 
 def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
-    """What the best path would cut that the control's does not, or that there is none."""
+    """Report what the best path would cut that the control's does not, or that there is no best path."""
     if not best.loops:
         return (Finding("NO_BEST", Severity.INFO, "The tool does not fit. Use a smaller one."),)
     if apart.length <= SHOWN or not apart.stretches:
@@ -204,7 +204,7 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
 
 
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
-    """A tool that is larger than the whole contour is usually the wrong tool."""
+    """Warn about a tool larger than the whole contour, which is usually the wrong one."""
     boxes = surface.boxes
     extent = max((boxes[2:].max(axis=1) - boxes[:2].min(axis=1)).tolist(), default=inf)
     if 2 * radius <= extent:
@@ -214,7 +214,7 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
 
 
 def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tuple[Finding, ...]:
-    """Says that a tool stays out of inside arcs smaller than it is; names the smallest that it leaves uncut."""
+    """Say that the tool does not fit into inside arcs smaller than it is; name the smallest that it leaves uncut."""
     first, last = verdict.uncut.columns[:2]
     inside = np.flatnonzero((surface.turns * side.sign > 0) & (surface.radii < radius - JOINED))
     for row in inside[surface.radii[inside].argsort()][:MAX_TIGHT_ARCS].tolist():
@@ -228,16 +228,16 @@ def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tu
 
 
 def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Finding, ...]:
-    """Says that a contour is open: a warning where START and the end are no farther apart than the tool is wide.
+    """Say that a contour is open; warn if START and the end are no farther apart than the tool is wide.
 
-    Such a gap is seldom meant, and no look at the path shows it; nor one so small that the contour counts as closed,
-    where the path gouges as deep.  Fewer than three segments enclose nothing.
+    Such a gap is seldom intended and invisible in the path.  So is one so small that the contour counts as closed,
+    in which the path gouges as deep as the gap.  Fewer than three segments enclose nothing.
     """
     apart = dist(surface.points[0].tolist(), surface.points[-1].tolist()) if len(surface) else 0.0
     if apart <= GOUGE or (not closed and len(surface) < FEWEST_CLOSED):
         return ()
     number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())
-    # with the digits that tell the end from START, however small the gap
+    # show enough digits to tell the end from START, however small the gap
     lengths = (0.0, *surface.points[0].tolist())
     if not closed and apart > diameter:
         text = "The contour is open: it ends {value~0} from START."
@@ -249,13 +249,13 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
 
 
 def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
-    """A segment that leaves the end of the one before in the direction it came from, one of the two a line: mostly an
-    arc of the wrong DIRECTION between two lines that it should be tangent to.
+    """Warn about segments that go straight back over the one before them, if one of the two is a line: mostly arcs with
+    the wrong DIRECTION between two lines to which they should be tangent.
 
-    Two arcs do so where scallops meet, and are left alone.
+    Two arcs do this where scallops meet, which is fine.
     """
     points, centers, turns = as_complex(surface.points), as_complex(surface.centers), surface.turns
-    # a line has its own start for a center: from there to its end it runs as it is
+    # a line's center is its own start, so `leave` is already its direction
     leave, arcs = points[1:] - centers, turns.nonzero()[0]
     into, quarter = leave.copy(), 1j * turns[arcs]
     leave[arcs] *= quarter

@@ -1,6 +1,6 @@
 """Remedies for a contour that no look-ahead value cuts clean: each is cut and judged before it is offered.
 
-The number of trials is bounded, so that a remedy that exists may not be found; one that is given is true.
+The number of trials is bounded, so a remedy that exists may not be found; but every remedy offered does work.
 """
 
 from __future__ import annotations
@@ -18,27 +18,27 @@ from core.tolerance import CLOSED
 from core.verify.judge import judge
 
 MAX_STARTS: Final = 6
-"""The number of the longest sides that are tried as the start."""
+"""How many of the longest sides are tried as the start."""
 
 MAX_STARTS_WITHOUT_BLENDS: Final = 2
-"""The number of them without blend moves: where the path begins then matters little."""
+"""The same without blend moves, when the start point matters little."""
 
 LARGER_BY: Final = 1.02
-"""A tool that fits without blend moves is offered next to one that fits with them if it is this much larger."""
+"""A tool that fits only without blend moves must be this much larger to be offered beside one that fits with them."""
 
 FEWEST_CLOSED: Final = 3
-"""Segments with which a contour can come back to where it began, but for two arcs."""
+"""Segments with which a contour can come back to its start, except two arcs."""
 
 USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
-"""Look-aheads tried while a tool is looked for; the one it is then offered with is chosen from all."""
+"""Look-aheads tried in the search for a tool; the one offered with the tool is then chosen from all."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToolFits:
-    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one that is a step larger is not.
+    """A cutter of `diameter` millimeters that is clean at look-ahead `value`; one that is a step larger is not clean.
 
-    `lengths` (mm) are the smallest inside radius of the contour, where the cutter leaves it uncut, and the largest
-    diameter that does not.
+    `lengths` (mm) are the contour's smallest inside radius, if the cutter leaves it uncut, and the largest
+    diameter that cuts it.
     """
 
     diameter: float
@@ -47,13 +47,13 @@ class ToolFits:
 
     @property
     def left_uncut(self) -> str:
-        """The sentence on what the cutter leaves uncut, with a blank before it; empty where it leaves no radius."""
+        """The sentence on the radius that the cutter leaves uncut, with a leading blank; empty if there is none."""
         return " It leaves the inside radius {0} uncut; {1} or smaller cuts it." if self.lengths else ""
 
 
 @dataclass(frozen=True, slots=True)
 class StartMoved:
-    """Started at `at`, the middle of `segment` or its new start, the contour is clean at `value`."""
+    """A new START: from `at`, the middle of `segment` or its new start, the contour is clean at look-ahead `value`."""
 
     segment: float
     at: Point
@@ -61,37 +61,37 @@ class StartMoved:
 
 
 class SearchCanceled(Exception):
-    """The search was canceled: nobody waits for the remedies any more."""
+    """The search was canceled: the remedies are no longer needed."""
 
 
 def never_canceled() -> bool:
-    """The default of `wanted`: the search is never canceled."""
+    """Return True: the default of `wanted`, with which the search is never canceled."""
     return True
 
 
 def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> int | None:
-    """The look-ahead that the table recommends; asks before whether the answer is still wanted."""
+    """Return the look-ahead that the table recommends; first check that the answer is still wanted."""
     if not wanted():
         raise SearchCanceled
     return judge_lookaheads(setup).recommended
 
 
 def without_blends(setup: CuttingSetup) -> CuttingSetup:
-    """The same with BLEND OFFSET 0; what runs past the start stays."""
+    """Return the setup with BLEND OFFSET 0; the overlap past the start stays."""
     return replace(setup, blend=0.0)
 
 
 def lookahead_without_blends(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> int | None:
-    """The value that is clean when the blend moves are left out."""
+    """Return the recommended look-ahead without blend moves; None if none is clean or there is no blend."""
     return _recommended(without_blends(setup), wanted) if setup.blend > 0.0 else None
 
 
 def larger_tool_without_blends(
     setup: CuttingSetup, than: ToolFits | None, wanted: Callable[[], bool] = never_canceled
 ) -> ToolFits | None:
-    """The largest clean tool with BLEND OFFSET 0, or None.
+    """Return the largest clean tool with BLEND OFFSET 0, or None.
 
-    `than` is the tool that fits with blends: one that is less than `LARGER_BY` times as large is not offered.
+    `than` is the tool that fits with blends: a tool less than `LARGER_BY` times as large is not offered.
     """
     if setup.blend <= 0.0:
         return None
@@ -103,10 +103,10 @@ def larger_tool_without_blends(
 def largest_tool(
     setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
 ) -> ToolFits | None:
-    """The largest clean diameter below the cutter's, in whole steps, rounded down; by halving what is left.
+    """Find the largest clean diameter below the cutter's, in whole steps, by bisection.
 
-    The smallest inside radius, often the limit, is tried first: where it is one, a larger tool that is clean only since
-    it deletes such arcs is not looked for.  There is none where one of `least` steps is not clean.
+    The smallest inside radius, often the limit, is tried first: if it is the limit, a larger tool that is clean only
+    because it deletes such arcs is not searched.  If a tool of `least` steps is not clean, the result is None.
     """
     clean, fails = least, _steps(setup, 2.0 * setup.radius)
     if clean >= fails or (clean and not _clean(setup, clean, wanted)):
@@ -136,7 +136,7 @@ def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
 
 
 def _clean(setup: CuttingSetup, size: int, wanted: Callable[[], bool]) -> bool:
-    """Whether the finish path of one of the usual look-aheads is clean with a diameter of `size` steps."""
+    """True if one of the usual look-aheads gives a clean finish path with a diameter of `size` steps."""
     if not wanted():
         raise SearchCanceled
     setup = _with_tool(setup, size)
@@ -151,14 +151,14 @@ def _with_tool(setup: CuttingSetup, size: int) -> CuttingSetup:
 
 
 def _steps(setup: CuttingSetup, diameter: float) -> int:
-    """Whole steps in a diameter, rounding forgiven."""
+    """Return the whole steps in a diameter, tolerant of rounding."""
     return int(diameter / setup.diameter_step + 1e-6)
 
 
 def start_mid_side(
     setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, max_starts: int = MAX_STARTS
 ) -> StartMoved | None:
-    """The longest side of a closed contour whose middle is a clean start; `max_starts` of them are tried."""
+    """Find the longest side of a closed contour whose middle is a clean start, among the `max_starts` longest."""
     if not setup.closed:
         return None
     for row in longest_segments(setup.surface)[:max_starts]:
@@ -171,18 +171,17 @@ def start_mid_side(
 def start_mid_side_without_blends(
     setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled
 ) -> StartMoved | None:
-    """The same without blend moves, if there are any to leave out."""
+    """Do the same without blend moves; None if there are none to leave out."""
     if setup.blend <= 0.0:
         return None
     return start_mid_side(without_blends(setup), wanted, MAX_STARTS_WITHOUT_BLENDS)
 
 
 def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
-    """The end of an open contour, if the contour is clean and closed when START is typed there.
+    """Return the end of an open contour, if the contour is clean and closed when START is moved there.
 
-    Only where one number of START is that of the end and the first segment is a line, which is then another one: both
-    may be meant as they are, but one mistyped number is what it takes.
-    """
+    Only if START and the end share one coordinate, so that a single mistyped number explains the gap, and the first
+    segment is a line, which the move may change."""
     surface = setup.surface
     gap = np.abs(surface.points[0] - surface.points[-1])
     if setup.closed or len(surface) < FEWEST_CLOSED or surface.turns[0] or float(gap.min()) > CLOSED:
@@ -196,13 +195,13 @@ def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_cancele
 
 
 def longest_segments(contour: Path) -> list[int]:
-    """The rows of a contour's segments, the longest first."""
+    """Return the rows of a contour's segments, the longest first."""
     rows: list[int] = np.argsort(-contour.lengths, kind="stable").tolist()
     return rows
 
 
 def restarted(contour: Path, row: int) -> Path:
-    """A closed contour of n segments started in the middle of segment `row`, from 0: n + 1 segments, numbered anew."""
+    """Return a closed contour of n segments, started in the middle of segment `row` (from 0): n + 1 new segments."""
     at = np.array([contour[row].point_at(0.5)])
     points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
     turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))

@@ -1,4 +1,4 @@
-"""Why the calculated look-ahead is not clean, and what would help where no value is."""
+"""Advice: why the calculated look-ahead is not clean, and what would help if no value is clean."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from core.advice.remedies import (
 from core.finding import Finding, Severity
 
 MAX_NAMED_PLACES: Final = 4
-"""The number of places that are too small and named in sentences."""
+"""How many of the places that are too small are named in sentences."""
 
 _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Advice:
-    """Sentences for the operator, and what they say.
+    """Sentences for the operator, and the data behind them.
 
-    `why` says why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
-    `too_small` names inside radii and corners the tool does not enter; the others are remedies that have been cut and
-    judged clean, None where none was found.  Where neither another start nor leaving out the blend moves helps,
-    `start_without_blends` is both at once.  A tool is looked for when no other remedy helps, from the middle of a side
-    where the start is an inside corner; another START of an open contour when no tool is found either.
+    `why` says why CAL's value is not clean; it is empty if CAL is clean.  The rest is filled only if no value is clean:
+    `too_small` names inside radii and corners that the tool does not enter; the others are remedies that have been cut
+    and judged clean, None if none was found.  If neither another start nor leaving out the blend moves helps alone,
+    `start_without_blends` is both at once.  If that does not help, a tool is searched, from the middle of a side
+    if the start is an inside corner; if no tool is found either, `start_at_end` is tried for an open contour.
     """
 
     why: tuple[Finding, ...]
@@ -54,9 +54,9 @@ class Advice:
 def advice_for(
     setup: CuttingSetup, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
 ) -> Advice | None:
-    """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
+    """Return the advice for a contour from its look-ahead table; empty if the contour cannot be offset at all.
 
-    `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
+    `wanted` is called before each trial: once it returns False, the search stops and the answer is None.
     """
     if not len(table.rows[0].compensated.raw):
         return Advice(())
@@ -90,7 +90,7 @@ def _with_remedies(why: tuple[Finding, ...], setup: CuttingSetup, table: Table, 
 
 
 class _Tools(NamedTuple):
-    """The largest tool, a larger one that fits without blend moves, and where the contour is started for them."""
+    """The largest tool, a larger one that fits without blend moves, and the words for the start that they need."""
 
     tool: ToolFits | None
     without_blends: ToolFits | None
@@ -98,7 +98,7 @@ class _Tools(NamedTuple):
 
 
 def _tools(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool]) -> _Tools:
-    """The largest tools, with another start where the contour's own is an inside corner."""
+    """Return the largest tools, with another start if the contour's own is an inside corner."""
     where = ""
     if _starts_at_inside_corner(nearest):
         row = longest_segments(setup.surface)[0]
@@ -113,7 +113,7 @@ def _starts_at_inside_corner(row: Row) -> bool:
 
 
 def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """The first of many places that are too small, and how many there are."""
+    """Return the first places that are too small, with their total if there are more."""
     if len(too_small) <= MAX_NAMED_PLACES:
         return too_small
     count = replace(too_small[0], text=f"There are {len(too_small)} such places.", segment=None)
@@ -121,7 +121,7 @@ def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
-    """Says that CAL's value is not clean, with its deepest gouge, and the value that is."""
+    """Say that CAL's value is not clean, with its deepest gouge, and name the value that is."""
     row = table.row(calculated)
     if row.clean:
         return ()
@@ -139,7 +139,7 @@ def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
 
 
 def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
-    """The inside radii and corners the tool does not enter, where the path gouges least."""
+    """Return the inside radii and corners that the tool does not enter in the path that gouges least."""
     small = []
     for finding in row.compensated.findings:
         if finding.code == "VANISHED" and finding.segment is not None:
@@ -167,7 +167,7 @@ def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -
 
 
 def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
-    """The larger one, which needs more to be changed, after the other."""
+    """Yield the tool that fits, then the larger one, which needs more changes."""
     fitting = ((tools.tool, "TOOL_FITS", ""), (tools.without_blends, "TOOL_BLENDLESS", f" {_NO_BLENDS}"))
     for tool, code, blends in fitting:
         if tool is not None:
@@ -185,7 +185,7 @@ def _start_at_end_sentence(start: StartMoved) -> Finding:
 
 
 def _nothing_helps(*, closed: bool) -> Finding:
-    """What has been tried without success, and no more: the tries are bounded, and a number may be mistyped."""
+    """Return only what has been tried without success: the trials are bounded, and a number may be mistyped."""
     tried = "No look-ahead, start or tool" if closed else "No look-ahead or tool"
     text = f"{tried} was found that works. Check the contour's numbers."
     return Finding("NOTHING_HELPS", Severity.WARNING, text)

@@ -206,7 +206,7 @@ def contour_scene(
 
     `sketches` are segments not determined yet, `untaken` solutions not chosen; `further` the center path's
     other loops; `leads` the blend moves, the blend-in first; `over_run` the ends of the surface that are leads;
-    `rough` dashed center paths; `deleted` pieces of the contour that the look-ahead deletes, `meetings` the points where
+    `rough` dashed center paths; `deleted` pieces of the contour the look-ahead deletes, `meetings` the points where
     the deleting pieces meet; `gouges` the points cut into; `cutter` (center, radius); `current` the segment under the
     cursor; `start` the contour's START.
     """
