@@ -16,7 +16,7 @@ CLOSED: Final = 0.00254 + ROUNDING
 """Is a programmed contour closed?  It is if its last end is within this distance of START (0.0001 in)."""
 
 ARC_RADII: Final = 0.00254 + ROUNDING
-"""May an arc's radii at its start and its end differ by this much (0.0001 in)?  If they differ by more, it is refused."""
+"""May an arc's radii at its start and its end differ by this much (0.0001 in)?  An arc beyond it is refused."""
 
 GRAZE: Final = 1e-7
 """Do a line and a circle that cross in two points touch in one?  They do if they overlap by no more than this."""

@@ -91,21 +91,21 @@ class _Walk:
         columns = others.b, others.a, others.along_a, others.along_b, others.a_ends, others.b_ends
         rows = zip(*(column.tolist() for column in columns), strict=True)
         piece, taken = -1, True
-        for row, (b, a, at, on, a_ends, b_ends) in enumerate(rows):
+        for row, (b, a, along_a, along_b, a_ends, b_ends) in enumerate(rows):
             if b != piece:
                 self._settle(b)
                 piece, taken = b, False
             start, first, last = low[b], low[a], high[a]
-            if taken or gone[a] or on < start - ON_PATH:
+            if taken or gone[a] or along_b < start - ON_PATH:
                 continue
-            if at < first - ON_PATH or at > last + ON_PATH or (b_ends and at <= first + ON_PATH):
+            if along_a < first - ON_PATH or along_a > last + ON_PATH or (b_ends and along_a <= first + ON_PATH):
                 continue
-            if on <= start + ON_PATH and (a_ends or at >= last - ON_PATH):
+            if along_b <= start + ON_PATH and (a_ends or along_a >= last - ON_PATH):
                 continue
-            high[a], low[b], taken = at, on, True
+            high[a], low[b], taken = along_a, along_b, True
             gone[a + 1 : b] = b"\1" * (b - a - 1)
             self.met.append(row)
-            if high[b] < on - ON_PATH:
+            if high[b] < along_b - ON_PATH:
                 agenda.append(b + 2)
         self._settle(len(low))
 

@@ -110,7 +110,7 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
 def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """Return (8, n) fractions of n pieces that include every local least distance from the n partners in `other`."""
     fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
-    return _inside(fractions)
+    return _clamped(fractions)
 
 
 def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
@@ -120,7 +120,7 @@ def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """
     even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
     opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
-    return _inside(np.concatenate((feet(pieces, other), opposite, even)))
+    return _clamped(np.concatenate((feet(pieces, other), opposite, even)))
 
 
 def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
@@ -130,7 +130,7 @@ def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Float
     offset to both sides, and the circles about its ends.
     """
     fractions = np.empty((10, len(pieces)))
-    fractions[0], fractions[1], fractions[2:] = 0.0, 1.0, _inside(_outline(pieces, other, reach))
+    fractions[0], fractions[1], fractions[2:] = 0.0, 1.0, _clamped(_outline(pieces, other, reach))
     fractions.sort(axis=0)
     return fractions
 
@@ -161,7 +161,7 @@ def _ends(pieces: PieceArrays) -> Floats:
     return ends
 
 
-def _inside(fractions: Floats) -> Floats:
+def _clamped(fractions: Floats) -> Floats:
     return np.minimum(np.fmax(fractions, 0.0), 1.0)
 
 

@@ -220,11 +220,11 @@ def _grouped(members: CoarseChords) -> CoarseChords:
     gaps = np.append(0.0, np.abs(starts[1:] - ends[:-1]))
     gaps[begins] = 0.0
     slack = np.maximum.reduceat(off, begins) + np.maximum.reduceat(gaps, begins)
-    box = _each_way(np.minimum.reduceat, members.low, begins), _each_way(np.maximum.reduceat, members.high, begins)
+    box = _per_axis(np.minimum.reduceat, members.low, begins), _per_axis(np.maximum.reduceat, members.high, begins)
     return CoarseChords.between(starts[begins], ends[lasts], slack, box)
 
 
-def _each_way(reduce: Callable[..., Floats], points: Points, begins: Rows) -> Points:
+def _per_axis(reduce: Callable[..., Floats], points: Points, begins: Rows) -> Points:
     """Apply `reduce` to the x and the y coordinates of points separately."""
     reduced: Points = reduce(points.view(np.float64).reshape(-1, 2), begins, axis=0).view(np.complex128).ravel()
     return reduced

@@ -170,14 +170,14 @@ def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, 
     at_ends = stations[:, 0] <= walls.stations[begin + 1] + JOINED
     at_ends &= stations[:, 1] >= walls.stations[end] - JOINED
     if leads is Leads.MOVES:
-        at_ends &= stations[:, 0] >= walls.stations[int(_blends(walls, 0, 1))] - JOINED
-        at_ends &= stations[:, 1] <= walls.stations[len(walls) - int(_blends(walls, -1, -2))] + JOINED
+        at_ends &= stations[:, 0] >= walls.stations[int(_is_tangent_arc(walls, 0, 1))] - JOINED
+        at_ends &= stations[:, 1] <= walls.stations[len(walls) - int(_is_tangent_arc(walls, -1, -2))] + JOINED
     if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
         return None
     return (points[0].real.item(), points[0].imag.item()), float(stations[:, 0].min()), float(stations[:, 1].max())
 
 
-def _blends(walls: PieceArrays, end: int, neighbor: int) -> bool:
+def _is_tangent_arc(walls: PieceArrays, end: int, neighbor: int) -> bool:
     """True if the piece at an end is an arc that is tangent to its neighbor."""
     if not walls.arcs[end]:
         return False

@@ -157,9 +157,9 @@ def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floa
     near = np.concatenate((pairs.from_piece[::2, rows], pairs.from_other[:, rows])) <= limit
     fractions = np.zeros((4, len(rows)))
     fractions[1] = 1.0
-    asked = (near[2:].any(axis=0) & ~(near[0] & near[1])).nonzero()[0]
-    piece, other = pairs.pieces.take(pairs.i[rows[asked]]), pairs.others.take(pairs.j[rows[asked]])
-    fractions[2:, asked] = foot(piece, np.array((other.start, other.end)))
+    doubtful = (near[2:].any(axis=0) & ~(near[0] & near[1])).nonzero()[0]
+    piece, other = pairs.pieces.take(pairs.i[rows[doubtful]]), pairs.others.take(pairs.j[rows[doubtful]])
+    fractions[2:, doubtful] = foot(piece, np.array((other.start, other.end)))
     near[2:] &= ~(near[0] & near[1])
     return np.where(near, fractions, 2.0).min(axis=0), np.where(near, fractions, -2.0).max(axis=0)
 

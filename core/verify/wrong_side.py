@@ -78,9 +78,9 @@ def wrong_side(pairs: Pairs, hits: Gouging, surface: Sided, radius: float) -> tu
         return np.zeros(0, np.bool_), hits
     parts = _parts(pairs, hits, surface, radius)
     index, t = np.arange(len(pairs.pieces)), np.full(len(pairs.pieces), 0.5)
-    asked = (~(_near(pairs, radius) if surface.endless else _kept(pairs, hits, radius))).nonzero()[0]
-    index, t = np.concatenate((index, asked, asked)), np.concatenate((t, np.zeros(len(asked)), np.ones(len(asked))))
-    spots = np.concatenate((_gouged(hits, surface), parts.middle))
+    tested = (~(_near(pairs, radius) if surface.endless else _on_one_wall(pairs, hits, radius))).nonzero()[0]
+    index, t = np.concatenate((index, tested, tested)), np.concatenate((t, np.zeros(len(tested)), np.ones(len(tested))))
+    spots = np.concatenate((_gouge_places(hits, surface), parts.middle))
     owners, shares = place(pairs.pieces, pairs.stations, spots)
     count, index, t = len(index), np.concatenate((index, owners)), np.concatenate((t, shares))
     on_part = _on_part_side(pairs, index, t, surface)
@@ -138,7 +138,7 @@ def _near(pairs: Pairs, radius: float) -> Flags:
     return near
 
 
-def _kept(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
+def _on_one_wall(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
     """True for pieces that do not gouge and keep to one inner wall from end to end: they stay on one side of it.
 
     A piece could only change sides around the wall's end, where it would meet the next wall; the first and the last
@@ -153,7 +153,7 @@ def _kept(pairs: Pairs, hits: Gouging, radius: float) -> Flags:
     return kept
 
 
-def _gouged(hits: Gouging, surface: Sided) -> Floats:
+def _gouge_places(hits: Gouging, surface: Sided) -> Floats:
     """Return the places along the center path that represent the gouges; none for a closed, uncrossed contour."""
     if not len(hits) or (surface.endless and not surface.crossed):
         return np.zeros(0)
@@ -218,7 +218,7 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
 def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
     """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
     the part's side of one arm to the cutter's side of the other."""
-    parts = parts.keep(_about_ends(pairs, parts))
+    parts = parts.keep(_near_ends(pairs, parts))
     if not len(parts):
         return np.zeros(0)
     s = parts.first + SHARES * (parts.last - parts.first)
@@ -238,7 +238,7 @@ def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
     return _on_part_side(pairs, *place(pairs.pieces, pairs.stations, s), surface)
 
 
-def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
+def _near_ends(pairs: Pairs, parts: Stretches) -> Flags:
     """True for parts near an end of the surface: only these can change sides without meeting a wall.
 
     Suppose a part goes from a place on the left, nearest to wall point `a`, to one on the right, nearest to `b`.  From
@@ -275,13 +275,13 @@ def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sid
         return np.zeros(0, np.bool_)
     wall, spots = walls.take(near.j), points[near.k]
     t, off = foot(wall, spots), spots - wall.start
-    left = _left(wall, off) * (near.apart >= ON_PATH)
+    left = _left_of_walls(wall, off) * (near.apart >= ON_PATH)
     joints = ((t == 0.0) | (t == 1.0)).nonzero()[0]
     if len(joints):
         share = t[joints]
         away = off[joints] - share * wall.vector[joints]
         before = near.j[joints] - (share == 0.0)
-        left[joints] = _off_joints(walls, before, away, near.apart[joints])
+        left[joints] = _left_of_joints(walls, before, away, near.apart[joints])
     wrong: Flags = np.logical_and.reduceat(left * surface.side.sign < -CLEARLY, near.first)
     if not surface.endless:
         foot_at = surface.stations[near.j] + t * wall.length
@@ -290,7 +290,7 @@ def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sid
     return wrong
 
 
-def _left(walls: PieceArrays, off: Points) -> Floats:
+def _left_of_walls(walls: PieceArrays, off: Points) -> Floats:
     """Return 1 for points on the left of their walls and -1 on the right; `off` is the vector from the wall's start.
 
     The left of an arc is the inside of its circle if the arc turns left, the outside if it turns right.
@@ -300,7 +300,7 @@ def _left(walls: PieceArrays, off: Points) -> Floats:
     return np.sign(np.where(walls.turn == 0.0, across, bent))
 
 
-def _off_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) -> Floats:
+def _left_of_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) -> Floats:
     """Return a positive number for points on the left; each point's nearest place is the joint after wall `before`, at
     the vector `off` and the distance `apart`.
 

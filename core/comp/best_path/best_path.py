@@ -75,8 +75,8 @@ def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findin
     if not loops:
         return BestPath((), (), (*findings, _no_path()))
     rows = np.concatenate([rows for rows, _ in walked])
-    said = (*_joined(raw, made, rows, surface), *_broken(raw, made, rows, surface))
-    return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *said))
+    notes = (*_joined(raw, made, rows, surface), *_broken(raw, made, rows, surface))
+    return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *notes))
 
 
 def _is_rounding(made: StitchedSlices, rows: Rows) -> bool:

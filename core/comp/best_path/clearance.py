@@ -43,11 +43,11 @@ def clear_slices(raw: RawOffset, cut: Slices, walls: Walls, radius: float) -> Sl
     return cut.take(good.nonzero()[0])
 
 
-def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, walls: Walls, radius: float) -> Flags:
-    """Return which of the `asked` slices are clear, each measured in its middle."""
-    good = asked.copy()
-    points, piece = cut.middles(raw, asked.nonzero()[0])
-    good[asked] = clear(points, raw.segment[piece], walls, radius)
+def _clear_in_middle(raw: RawOffset, cut: Slices, chosen: Flags, walls: Walls, radius: float) -> Flags:
+    """Return which of the `chosen` slices are clear, each measured in its middle."""
+    good = chosen.copy()
+    points, piece = cut.middles(raw, chosen.nonzero()[0])
+    good[chosen] = clear(points, raw.segment[piece], walls, radius)
     return good
 
 
