@@ -106,7 +106,7 @@ def largest_tool(
     """Find the largest clean diameter below the cutter's, in whole steps, by bisection.
 
     The smallest inside radius, often the limit, is tried first: if it is the limit, a larger tool that is clean only
-    because it deletes such arcs is not searched.  If a tool of `least` steps is not clean, the result is None.
+    because it deletes such arcs is not searched for.  If a tool of `least` steps is not clean, the result is None.
     """
     clean, fails = least, _steps(setup, 2.0 * setup.radius)
     if clean >= fails or (clean and not _clean(setup, clean, wanted)):

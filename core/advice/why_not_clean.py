@@ -36,7 +36,7 @@ class Advice:
     `why` says why CAL's value is not clean; it is empty if CAL is clean.  The rest is filled only if no value is clean:
     `too_small` names inside radii and corners that the tool does not enter; the others are remedies that have been cut
     and judged clean, None if none was found.  If neither another start nor leaving out the blend moves helps alone,
-    `start_without_blends` is both at once.  If that does not help, a tool is searched, from the middle of a side
+    `start_without_blends` is both at once.  If that does not help, a tool is searched for, from the middle of a side
     if the start is an inside corner; if no tool is found either, `start_at_end` is tried for an open contour.
     """
 

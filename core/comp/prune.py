@@ -176,7 +176,7 @@ def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> De
     deleted = gone.nonzero()[0]
     deleted = deleted[chain.half_steps[deleted] % 2 == 0]
     a, b = others.a[met], others.b[met]
-    # events come in the order of b: the first that ends after a piece spans it unless it begins after it too
+    # events come in the order of b: the first that ends after a piece spans it, unless it also begins after it
     event = b.searchsorted(deleted, side="right")
     while (late := a[event] >= deleted).any():
         event[late] += 1

@@ -165,7 +165,7 @@ def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
 
 
 def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Rows:
-    """Return the bits of dots to light in an area: every other dot of a gouge, every fourth of an uncut area."""
+    """Return the bits of dots to light in an area: with fine dots every other one of a gouge, every fourth if uncut."""
     (wide, high), dense = look.dot, area.style is Style.GOUGE_AREA
     down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
     spread = (down + across) % (2 if look.by_dot else 1) == 0

@@ -22,7 +22,7 @@ from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at
 
 FAN: Final = 4
-"""Consecutive chords, or runs of them, in one run."""
+"""Number of consecutive chords, or of consecutive runs, that make up a run."""
 
 RUN: Final = 8
 """Consecutive boxes that one query of the tree covers together."""

@@ -149,7 +149,7 @@ def headings_at_distances(first: Point, r: float, second: Point, s: float) -> tu
 
 
 def touch_point(first: Point, rho: float, second: Point, sigma: float) -> tuple[Point, float] | None:
-    """Find where a circle touches another with the same direction of travel, and the heading there; None if equal.
+    """Find where two circles traveled alike touch, and the heading there; None for one center or equal radii.
 
     c - rho n = c' - sigma n, so that n = (c - c') / (rho - sigma).
     """

@@ -64,7 +64,7 @@ class Path:
         """Make the path of pieces that join end to start; each piece starts at the end of the piece before it."""
         if not pieces:
             return EMPTY
-        # plain numbers one after the other become an array in half the time of pairs
+        # a flat list of numbers becomes an array in half the time of a list of pairs
         points, centers, turns = [*pieces[0].start], list[float](), list[int]()
         for piece in pieces:
             points += piece.end

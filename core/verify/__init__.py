@@ -1,1 +1,1 @@
-"""The judge: what a center path does to a surface, found without any code of comp."""
+"""The judge: what a center path does to a surface, calculated without any code of comp."""

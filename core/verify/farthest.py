@@ -125,7 +125,7 @@ def _better(
     """Return `best`, updated with the places `t` on pieces `index` of stretches `owner` that are farther."""
     points, apart, near = seen
     s = pairs.stations[index] + t * pairs.pieces.length[index]
-    # of each stretch the largest comes first, and of equal ones the earliest
+    # in each stretch the largest comes first, among equal ones the earliest
     order = np.lexsort((s, -np.round(apart / ON_PATH), owner))
     first = order[changes(owner[order])]
     first = first[apart[first] > best.apart[owner[first]]]

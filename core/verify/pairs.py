@@ -108,7 +108,7 @@ def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> 
 
 
 def rounding_of(*paths: PieceArrays) -> float:
-    """Return the error that counts as rounding: UNCUT plus 4 units in the last place of the largest coordinate."""
+    """Return what counts as rounding: UNCUT plus 4 units in the last place of the largest coordinate or radius."""
     largest = max(float(max(np.abs(path.start.view(np.float64)).max(), path.radius.max())) for path in paths)
     return UNCUT + 4.0 * ulp(largest)
 

@@ -131,7 +131,7 @@ def _wrong_side(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
     count = f"{moves} {'move' if moves == 1 else 'moves'}"
     text = f"The cutter is on the wrong side for {count}. Check CUTTER COMP."
     if not mostly:
-        # the rest of the path would be wrong on the other side
+        # changing CUTTER COMP would put the rest of the path on the wrong side
         text = f"The path crosses the contour: {count} on the wrong side."
     return (Finding("WRONG_SIDE", Severity.ERROR, text),)
 

@@ -157,7 +157,7 @@ def _crossing_of_ends(surface: Surface, *, leads: Leads) -> tuple[Point, float, 
     """
     walls, crossings = surface.walls, surface.crossings
     if surface.closed:
-        # ends that are one point within CLOSED may run past each other all the same
+        # ends that count as one point within CLOSED may still run past each other
         apart = abs(walls.end[-1] - walls.start[0]) > JOINED
         crossings = self_crossings(walls, closed=False) if apart else NO_CROSSINGS
     stations, points = crossings.places, crossings.points
