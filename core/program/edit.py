@@ -194,7 +194,7 @@ def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edit
             return Refused(f"A {form_of(segment)} cannot be the first segment: it stands between two others.")
         if other := next((each for each in (*before[-1:], *after[:1]) if isinstance(each, CornerSegment)), None):
             return Refused(f"A {form_of(segment)} cannot be next to {_another(form_of(segment), form_of(other))}.")
-    after = tuple(_renumbered(following, where.segment, 1) for following in after)
+    after = tuple(renumbered(following, where.segment, 1) for following in after)
     whole = with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
     return _run_picked_anew(whole, whole, where)
 
@@ -210,14 +210,14 @@ def delete_segment(program: Program, where: FormPlace) -> Edited:
     if refusal := _absent(program, where):
         return refusal
     block = program.blocks[where.block - 1]
-    after = (_renumbered(segment, where.segment, -1) for segment in block.segments[where.segment :])
+    after = (renumbered(segment, where.segment, -1) for segment in block.segments[where.segment :])
     left = _run_picked_anew(program, program, where).blocks[where.block - 1].segments[: where.segment - 1]
     whole = with_part(program, FormPlace(where.block), replace(block, segments=(*left, *after)))
     return _run_picked_anew(whole, whole, where)
 
 
-def _renumbered(segment: Segment, at: int, step: int) -> Segment:
-    """A segment whose PARALLEL TO follows where segment `at` is put in (step 1) or taken out (step -1)."""
+def renumbered(segment: Segment, at: int, step: int) -> Segment:
+    """A segment whose PARALLEL TO follows where segments are put in from `at` on (step > 0), or `at` is deleted (-1)."""
     held = segment.parallel if isinstance(segment, LineSegment) else None
     if not isinstance(held, Number) or held.value < at:
         return segment

@@ -13,7 +13,7 @@ from math import dist, pi, radians
 from typing import Final, assert_never
 
 from core.geometry.piece import Arc, Piece, Point, Turn
-from core.program.edit import Edited, FormPlace, Refused, with_part
+from core.program.edit import Edited, FormPlace, Refused, renumbered, with_part
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -143,12 +143,29 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     for count in range(1, copies + 1):
         step = motion.times(count)
         begin = step.point(_begin(shapes[0]))
+        copy = list(_transformed(kept, shapes, step, program.unit, explicit=True))
         if dist(begin, end) > SAME_PLACE:
-            made.append(LineSegment(_typed(begin[0], program.unit), _typed(begin[1], program.unit)))
-        made += _transformed(kept, shapes, step, program.unit, explicit=True)
+            copy.insert(0, LineSegment(_typed(begin[0], program.unit), _typed(begin[1], program.unit)))
+        made += _with_own_values(copy, shapes, program.unit)
         end = step.point(_end(shapes[-1]))
-    segments = (*block.segments[:last], *made, *block.segments[last:])
+    after = (renumbered(segment, last + 1, len(made)) for segment in block.segments[last:])
+    segments = (*block.segments[:last], *made, *after)
     return with_part(program, FormPlace(number), replace(block, segments=segments))
+
+
+def _with_own_values(copy: list[Segment], shapes: Sequence[SolvedSegment], unit: Unit) -> list[Segment]:
+    """Return a copy whose FEED and Z END are typed where a blank would take other values from the copy before it.
+
+    A LINE that leads to the copy also leads to the height at which the copied segments begin.
+    """
+    first, last = shapes[0], shapes[-1]
+    at = len(copy) - len(shapes)
+    if copy[at].feed is None and first.feed is not None and first.feed != last.feed:
+        copy[at] = replace(copy[at], feed=_typed(first.feed, unit))
+    lead = copy[0]
+    if isinstance(lead, LineSegment | ArcSegment) and lead.z_end is None and first.z_start != last.z_end:
+        copy[0] = replace(lead, z_end=_typed(first.z_start if at else first.z_end, unit))
+    return copy
 
 
 def _undetermined(block: Block, solved: SolvedBlock) -> Refused | None:

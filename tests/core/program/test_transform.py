@@ -25,6 +25,14 @@ def example(name: str) -> Program:
 NAMES = ("pocket", "notch", "flange", "plate-mm", "overrun-square")
 
 
+def in_block(*segments: LineSegment) -> Program:
+    """A program in millimeters with one contour of these segments from X 0 Y 0, on the line at Z -5."""
+    program = example("plate-mm")
+    block = replace(program.blocks[0], cutter_comp=CutterComp.ON, finish_tool=None, segments=segments)
+    at_zero = replace(block, x_start=Number(0.0), y_start=Number(0.0), z_bottom=Number(-5.0))
+    return replace(program, blocks=(at_zero,))
+
+
 def shapes(program: Program) -> list[Piece | None]:
     return [segment.sharp for segment in solve_block(program.blocks[0], program).segments]
 
@@ -120,3 +128,33 @@ def test_a_line_leads_to_a_copy_that_begins_elsewhere():
 @settings(max_examples=200, derandomize=True, deadline=None)
 def test_one_motion_after_another_is_one_motion(first, second, at):
     assert first.then(second).point(at) == pytest.approx(second.point(first.point(at)), abs=1e-9)
+
+
+def test_repeated_segments_keep_parallel_to_on_its_line() -> None:
+    ends = ((10.0, 0.0), (20.0, 10.0), (30.0, 10.0), (40.0, 30.0))
+    lines = [LineSegment(Number(x), Number(y)) for x, y in ends]
+    before = in_block(*lines, LineSegment(Number(60.0), parallel=Number(4.0)))
+    after = repeat_segments(before, 1, 1, 2, moved(20.0, 10.0), 1)
+    assert not isinstance(after, Refused)
+    assert after.blocks[0].segments[-1] == LineSegment(Number(60.0), parallel=Number(6.0))
+    assert shapes(after)[-1].end == pytest.approx((60.0, 70.0))
+
+
+def test_a_copy_has_the_feed_and_the_heights_of_what_is_copied() -> None:
+    first = LineSegment(Number(10.0), Number(0.0), feed=Number(300.0))
+    ramp = LineSegment(Number(20.0), Number(5.0), Number(-2.0), feed=Number(50.0))
+    before = in_block(first, LineSegment(Number(10.0), Number(5.0)), ramp)
+    after = repeat_segments(before, 1, 2, 3, moved(10.0, 5.0), 2)
+    assert not isinstance(after, Refused)
+    solved = solve_block(after.blocks[0], after).segments
+    assert [segment.feed for segment in solved] == [300.0, *(300.0, 50.0) * 3]
+    assert [segment.z_end for segment in solved] == [-5.0, *(-5.0, -2.0) * 3]
+
+
+def test_a_line_that_leads_to_a_copy_also_leads_to_its_height() -> None:
+    ramp = LineSegment(Number(20.0), Number(5.0), Number(-2.0), feed=Number(50.0))
+    before = in_block(LineSegment(Number(10.0), Number(0.0)), ramp)
+    after = repeat_segments(before, 1, 2, 2, moved(0.0, 50.0), 1)
+    assert not isinstance(after, Refused)
+    solved = solve_block(after.blocks[0], after).segments
+    assert [(segment.z_start, segment.z_end) for segment in solved[1:]] == [(-5.0, -2.0), (-2.0, -5.0), (-5.0, -2.0)]
