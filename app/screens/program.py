@@ -15,7 +15,7 @@ from textual.widgets import DataTable, Label
 
 from app.documents.survey import outcome_of
 from app.screens.base import BaseScreen
-from app.session.derivation import program_times
+from app.session.derivation import times_in_words
 from app.session.guide import on_program
 from app.session.messages import Sentence
 from app.session.session import Session
@@ -102,7 +102,7 @@ class ProgramScreen(BaseScreen):
 
     @work(thread=True, exclusive=True, group="times", description="times")
     def _time(self, derived: Derived) -> None:
-        self.post_message(Timed(derived, *program_times(derived)))
+        self.post_message(Timed(derived, *times_in_words(derived)))
 
     @on(Timed)
     def _timed(self, event: Timed) -> None:

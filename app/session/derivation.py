@@ -52,12 +52,12 @@ def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callabl
         yield replace(table, notes=(*advice.sentences, *better_path(block)), complete=True)
 
 
-def program_times(derived: Derived) -> tuple[str, dict[int, str]]:
+def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
     """The time of the whole program, and cut, rapid and total of each block that can be posted, as texts."""
-    from core.output.times import block_times, minutes_text, times_text, together
+    from core.output.times import block_times, minutes_text, program_times, times_text
     from core.pipeline.jobs import jobs
 
     ready = {block.number for block in derived.blocks if block.postable}
-    times = {job.block: block_times(job, job.rapid_rate) for job in jobs(derived) if job.block in ready}
-    total = f"{minutes_text(together(times.values()).total)} total" if times else ""
-    return total, {number: times_text(each) for number, each in times.items()}
+    posted = [job for job in jobs(derived) if job.block in ready]
+    total = f"{minutes_text(program_times(posted, posted[0].rapid_rate).total)} total" if posted else ""
+    return total, {job.block: times_text(block_times(job, job.rapid_rate)) for job in posted}

@@ -21,7 +21,7 @@ from core.finding import Finding
 from core.geometry.piece import Arc, Turn
 from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE, overridable_errors, posting_errors
-from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
+from core.output.passes import Cutter, Job, Motion, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
 
@@ -154,12 +154,11 @@ def center_path_program(
     if against:
         return Refusal(against, unit)
     safe, highest = max(job.safe_z for job in jobs), max(jobs, key=clear_height)
-    level = [replace(job, safe_z=max(safe, clear_height(highest))) for job in jobs]
     waived = overridable_errors(jobs)
     lines = (
         *_header(jobs, unit, program_titles(name, part), waived),
         *_raised_safe_z(safe, highest, unit),
-        *_body(level, grid),
+        *_body(at_one_safe_z(jobs), grid),
     )
     return Posted("\n".join(lines) + "\n", waived)
 

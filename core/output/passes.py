@@ -20,7 +20,7 @@ A corner arc keeps the height of its corner.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, tau
 from typing import Final
 
@@ -302,6 +302,12 @@ def rough_runs(job: Job) -> tuple[CenterPath, ...]:
 def clear_height(job: Job) -> float:
     """The retract clearance's height over Z START."""
     return job.z_start + job.retract_clearance
+
+
+def at_one_safe_z(jobs: Sequence[Job]) -> list[Job]:
+    """Return the jobs with the SAFE Z that they are posted with: the highest, or what clears all blocks."""
+    safe = max((height for job in jobs for height in (job.safe_z, clear_height(job))), default=0.0)
+    return [replace(job, safe_z=safe) for job in jobs]
 
 
 def _stages(job: Job) -> Iterator[_Stage]:

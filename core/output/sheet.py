@@ -18,7 +18,7 @@ from core.finding import Severity
 from core.output.grid import Grid, length_text
 from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Pass, passes, rough_runs
-from core.output.times import block_times, times_text, together
+from core.output.times import block_times, program_times, times_text
 from core.units import Kind, Unit, from_mm, located_sentence, show
 
 PAGE_COLUMNS: Final = 78
@@ -98,7 +98,7 @@ def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
     """The time of the whole program, and the rapid rate that it is based on."""
     ready = [job for job in jobs if not posting_errors([job], Grid(unit), override=OVERRIDE)]
     if ready:
-        yield "TIME", times_text(together(block_times(job, job.rapid_rate) for job in ready))
+        yield "TIME", times_text(program_times(ready, ready[0].rapid_rate))
         rate, assumed = _feed(ready[0].rapid_rate, unit), ready[0].rapid_assumed
         yield "RAPID RATE", f"{rate} a minute{', assumed, not typed' if assumed else ''}"
 

@@ -6,13 +6,13 @@ changes and overrides are not counted.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import hypot, isfinite
+from math import dist, hypot, isfinite
 
 from core.geometry.piece import Arc, Line, Turn
-from core.output.passes import Job, Motion, passes
+from core.output.passes import Job, Motion, at_one_safe_z, passes
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +46,13 @@ def block_times(job: Job, rapid_rate: float) -> Times:
     return Times(sum(cut), sum(rapid) / rapid_rate if rapid_rate > 0.0 else 0.0)
 
 
-def together(times: Iterable[Times]) -> Times:
-    """The times of several blocks."""
-    return sum(times, Times())
+def program_times(jobs: Sequence[Job], rapid_rate: float) -> Times:
+    """The times of jobs that are posted together: of each block, and of the rapids from block to block at SAFE Z."""
+    level = at_one_safe_z(jobs)
+    runs = [[motion for a_pass in passes(job) for motion in a_pass.motions] for job in level]
+    across = (dist((left[-1].x, left[-1].y), (met[0].x, met[0].y)) for left, met in pairwise(filter(None, runs)))
+    rapid = sum(across) / rapid_rate if rapid_rate > 0.0 else 0.0
+    return sum((block_times(job, rapid_rate) for job in level), Times(rapid=rapid))
 
 
 def _travel(before: Motion, motion: Motion) -> float:

@@ -217,7 +217,7 @@ def delete_segment(program: Program, where: FormPlace) -> Edited:
 
 
 def renumbered(segment: Segment, at: int, step: int) -> Segment:
-    """A segment whose PARALLEL TO follows where segments are put in from `at` on (step > 0), or `at` is deleted (-1)."""
+    """A segment whose PARALLEL TO follows where segments are put in from `at` on (step > 0) or `at` is deleted (-1)."""
     held = segment.parallel if isinstance(segment, LineSegment) else None
     if not isinstance(held, Number) or held.value < at:
         return segment

@@ -6,7 +6,7 @@ from math import pi
 import pytest
 
 from core.geometry.piece import Turn
-from core.output.times import Times, block_times, minutes_text, times_text, together
+from core.output.times import Times, block_times, minutes_text, program_times, times_text
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = job(polyline((0, 0), (2, 0)), peck_depth=0.0)
@@ -30,8 +30,20 @@ def test_half_the_feed_takes_twice_as_long():
     assert block_times(slower, 200.0 * INCH).cut == pytest.approx(0.35 / 20.0 + 2.0 / 5.0)
 
 
-def test_the_times_of_blocks_add_up():
-    assert together([Times(1.0, 0.5), Times(2.0, 0.25)]) == Times(3.0, 0.75)
+def test_a_program_also_takes_the_rapids_from_block_to_block():
+    far = job(polyline((50, 0), (52, 0)), peck_depth=0.0)
+    one = block_times(SLOT, 200.0 * INCH)
+    both = program_times([SLOT, far], 200.0 * INCH)
+    assert both.cut == pytest.approx(2.0 * one.cut)
+    # from X 2 to X 50
+    assert both.rapid == pytest.approx(2.0 * one.rapid + 48.0 / 200.0)
+
+
+def test_a_program_moves_at_the_highest_safe_z_of_its_blocks():
+    higher = replace(SLOT, safe_z=2.0 * INCH)
+    both = program_times([SLOT, higher], 200.0 * INCH)
+    # 1.0 more up and 1.0 more down than the first block alone, and back from X 2 to X 0
+    assert both.rapid == pytest.approx(2.0 * block_times(higher, 200.0 * INCH).rapid + 2.0 / 200.0)
 
 
 @pytest.mark.parametrize(
