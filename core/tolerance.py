@@ -27,8 +27,9 @@ ON_PATH: Final = 1e-9
 GOUGE: Final = 1e-6
 """Does the cutter enter the surface?  A path nearer than the radius by more than this gouges."""
 
-UNCUT: Final = 1e-9
-"""Does the cutter reach a point of the surface?  It does if the path is within the radius plus this."""
+UNCUT: Final = 1.5e-7
+"""Does the cutter reach a point of the surface?  It does if the path is within the radius plus this.  A best path may
+lie JOINED away from where its contour is typed."""
 
 AGREES: Final = 2e-5
 """Do two angles agree?  Radians, a little more than the 0.001 degree that the form displays."""

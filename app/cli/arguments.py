@@ -58,7 +58,9 @@ def command_parser(name: str) -> argparse.ArgumentParser:
         what = "an .svg or .dxf file to write" if name == "plot" else "write here"
         parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=f"{what} instead of standard output")
     if name == "post":
-        parser.add_argument("--override", metavar="SENTENCE", help="post in spite of a gouge; refusals name the words")
+        parser.add_argument(
+            "--override", metavar="SENTENCE", help="post although there is a gouge; the refusal names the words"
+        )
         parser.add_argument(
             "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
         )

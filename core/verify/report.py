@@ -194,7 +194,9 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
     with np.errstate(divide="ignore", invalid="ignore"):
         left = (verdict.radius - roundings) * (1.0 / np.sqrt((1.0 + cosines) / 2.0) - 1.0)
     thickness = verdict.uncut.thickness
-    rows = np.flatnonzero(corner & (np.abs(thickness - left) <= STOCK))
+    # between opposite lines, or without a path, there is no number
+    measured = np.flatnonzero(corner & np.isfinite(left) & np.isfinite(thickness))
+    rows = measured[np.abs(thickness[measured] - left[measured]) <= STOCK]
     rows = rows[thickness[rows].argsort(kind="stable")]
     kinds = np.split(rows, np.flatnonzero(np.diff(thickness[rows]) > GOUGE) + 1)
     return [sorted(kind.tolist()) for kind in kinds if len(kind) > 1]

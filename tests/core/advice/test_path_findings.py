@@ -230,7 +230,15 @@ def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> Non
     assert (nowhere.code, nowhere.text) == ("NO_BEST", "The tool does not fit. Use a smaller one.")
 
 
-@pytest.mark.parametrize(("tool", "told"), [(0.5, None), (1.0, "The radius 0.750 is smaller than the tool's 1.000.")])
+@pytest.mark.parametrize(
+    ("tool", "told"),
+    [
+        (0.5, None),
+        (1.0, "The radius 0.750 is smaller than the tool's 1.000."),
+        # digits that tell them apart
+        (0.7501, "The radius 0.7500 is smaller than the tool's 0.7501."),
+    ],
+)
 def test_an_inside_arc_smaller_than_the_tool_is_named(tool: float, told: str | None) -> None:
     """A half-round notch of radius 0.75 in the middle of the top of a plate, the tool outside; the plate's corner is
     round by 0.25, which a tool of any size goes around."""

@@ -52,6 +52,15 @@ def test_the_largest_gap_that_was_joined_is_said_once():
     assert finding.at == pytest.approx(place, abs=2e-6)
 
 
+@pytest.mark.parametrize("miss", [0.0, *(sign * gap for gap in (1e-9, 1e-8, 9.9e-8, 1e-6) for sign in (-1, 1))])
+def test_a_last_end_that_misses_start_by_a_rounding_leaves_no_side_uncut(miss):
+    corners = [(0.0, 0.0), (100.0, 0.0), (100.0, 60.0), (0.0, 60.0), (miss, 0.0)]
+    contour = Path.from_pieces([Line(*ends) for ends in pairwise(corners)])
+    best = best_path(contour, Side.LEFT, 5.0, closed=True)
+    # a radius on both sides of each corner
+    assert judge_together(contour, Side.LEFT, 5.0, best.loops).uncut_length == pytest.approx(40.0, abs=0.01)
+
+
 def test_a_tangent_contour_joins_nothing():
     assert best_path(nearly_tangent(0.0), Side.LEFT, 10.0, closed=True).findings == ()
 

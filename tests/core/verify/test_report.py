@@ -11,7 +11,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
 from core.verify.air_cuts import air_cuts
-from core.verify.judge import judge
+from core.verify.judge import judge, judge_together
 from core.verify.report import contact_findings, move_name, verdict_findings
 from tests.core.verify.shapes import around, lines, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, OVER_RUN, OVER_RUN_PATH, R
@@ -101,6 +101,22 @@ def test_equal_inside_roundings_smaller_than_the_cutter_are_one_finding() -> Non
     (found,) = verdict_findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
     assert found.text.endswith("left in each, segments 1-3, 3-5.")
     assert found.lengths[0] == pytest.approx(radius * (2**0.5 - 1.0))
+
+
+@pytest.mark.filterwarnings("error")
+def test_without_a_path_a_slot_between_opposite_lines_is_one_finding() -> None:
+    turn = Turn.CCW
+    pieces: list[Piece] = [
+        Line((0, 0), (30, 0)),
+        Arc((30, 0), (30, 10), (30, 5), turn),
+        Line((30, 10), (0, 10)),
+        Arc((0, 10), (0, 0), (0, 5), turn),
+    ]
+    surface = Path.from_pieces(pieces, [1.0, 2.0, 3.0, 4.0])
+    verdict = judge_together(surface, Side.LEFT, 5.0005, [])
+    assert [found.text for found in verdict_findings(verdict, surface)] == [
+        "UNCUT: nothing of segments 1-4 is cut. There is no path."
+    ]
 
 
 def test_every_corner_of_another_kind_is_a_finding_with_its_segments() -> None:
