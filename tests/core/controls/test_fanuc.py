@@ -629,6 +629,18 @@ def test_a_rounding_and_a_chamfer_are_moves_of_the_program() -> None:
     assert ends(ran(f"{HEAD}G91 X50.,C10.\nY40.\nM30"))[-1] == (50.0, 40.0)
 
 
+@pytest.mark.parametrize(
+    ("before", "variable", "code"),
+    [
+        *(("", 4001, 1.0), ("", 4002, 17.0), ("", 4003, 90.0), ("", 4005, 94.0), ("", 4006, 21.0), ("", 4007, 40.0)),
+        *(("", 4008, 49.0), ("", 4009, 80.0), ("", 4010, 98.0), ("", 4011, 50.0), ("", 4014, 54.0), ("", 4015, 64.0)),
+        *(("", 4016, 69.0), ("", 4017, 15.0), ("", 4022, 50.1), ("G51.1 Y0\n", 4022, 51.1), ("G55\n", 4014, 55.0)),
+    ],
+)
+def test_a_variable_has_the_code_in_force(before: str, variable: int, code: float) -> None:
+    assert ends(ran(f"{HEAD}{before}G0 X#{variable}\nM30")) == [(code, 0.0)]
+
+
 def test_a_rounding_between_slanted_moves_is_tangent_to_both() -> None:
     # the moves turn by 106.26 degrees: the rounding begins 5 tan(53.13) = 20/3 before the corner (30, 40)
     done = ran(f"{HEAD}X30. Y40.,R5.\nX60. Y0\nM30")

@@ -14,7 +14,7 @@ from core.pipeline.command_output import (
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene, svg_of
-from core.program.model import ArcSegment, CutterComp, Direction, Number, ProgramParameters, Relative
+from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, ProgramParameters, Relative
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
@@ -132,6 +132,15 @@ def test_the_posted_header_tells_what_is_deleted_and_what_stays():
     (noted,) = jobs(derived)
     assert noted.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
     assert noted.notes[1].startswith("UNCUT 0.9")
+
+
+def test_a_typed_value_that_the_piece_misses_is_given_as_it_comes_out():
+    block_of_two = block(((1.0, 0.0), (2.0, 0.0)), CutterComp.LEFT)
+    slanted = LineSegment(x_end=Number(3.0), y_end=Number(1.0), angle=Number(45.0005))
+    whole = program(replace(block_of_two, segments=(*block_of_two.segments, slanted)))
+    values = path_document(derive(whole))["blocks"][0]["segments"][-1]
+    assert values["angle"] == {"value": pytest.approx(45.0, abs=1e-9), "tag": None}
+    assert values["x_end"] == {"value": 3.0, "tag": None}
 
 
 def test_a_relative_center_is_told_as_the_place_it_comes_to():
