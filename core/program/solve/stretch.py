@@ -1,9 +1,9 @@
-"""Stretch: which segments of a block are solved together as a run, what is known of them, and what comes out.
+"""This module picks the stretch of segments that are solved together as a run, solves it and fills its segments.
 
-It begins at the first segment whose end its own fields do not give, and is the shortest one that the run's solver
-determines; where several solutions are left and the next segment is tied to the last one (TANGENT, a relative angle),
-it goes on as far as that leaves fewer.  BLEND ARCs and CHAMFERs in it are passed over: the run is solved with sharp
-corners.
+A stretch begins at the first segment that its own fields do not determine, or that refers to a point or a segment.  It
+is the shortest stretch that the run's solver determines.  If several solutions are left and the next segment is tied to
+the last one (TANGENT, a relative angle), the stretch grows while that leaves fewer.  It skips BLEND ARCs and CHAMFERs:
+the run is solved with sharp corners.
 """
 
 from __future__ import annotations
@@ -32,30 +32,30 @@ from core.tolerance import JOINED
 from core.units import Unit, from_mm
 
 RELATIONS = ("point_x", "point_y", "point_dist", "parallel", "offset", "start_angle", "start_angle_inc", "angle_inc")
-"""Data that say how a segment lies to others; the rules for a segment by itself do not know them."""
+"""Data that relate a segment to a point or another segment; the rules for a segment by itself do not use them."""
 
 SKETCHED = 0.2
-"""The part of a run's size that is drawn of an element of which only the heading is known."""
+"""Length drawn for an element of which only the heading is known, as a fraction of the run's size."""
 
 ENDING = {"x_end", "y_end", "x_end_inc", "y_end_inc", "length", "sweep"}
-"""Data that say where along its line or circle an element ends; the last one of a stretch has one of them."""
+"""Data that fix where an element ends along its line or circle; the last element of a stretch needs one of them."""
 
 KEPT = ("x_end_inc", "y_end_inc")
-"""What a LINE that stays on a coordinate says, by axis."""
+"""The relative coordinate that is 0 for a LINE that keeps a coordinate, by axis."""
 
 SQUARE = 1e-9
-"""Cosine of an angle up to which a line is square to an axis."""
+"""Largest cosine of the angle between a line and an axis at which they count as square."""
 
 TURNS = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
 
 Stretch = tuple[tuple[Draft, ...], SolvedRun | None]
-"""The drafts of a stretch's segments, corners included, and the run as a screen sees it."""
+"""The drafts of a stretch's segments, including corners, and the run as the screens use it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contour:
-    """The segments of a block with what is typed in them, and the drafts of those before the stretch."""
+    """The segments of a block, their typed fields, and the drafts of the segments before the stretch."""
 
     segments: Sequence[Segment]
     readings: Sequence[Reading]
@@ -63,38 +63,38 @@ class Contour:
     unit: Unit
 
 
-def stretch_at(contour: Contour, index: int, own: Draft) -> Stretch | None:
-    """The stretch that begins at a segment of which `own` is what its own fields give; None where they will do."""
+def stretch_at(contour: Contour, index: int, own_draft: Draft) -> Stretch | None:
+    """Return the stretch that begins at a segment; None if `own_draft`, from the segment's own fields, is enough."""
     segment = contour.segments[index]
-    if own.before.point is None or isinstance(segment, CornerSegment):
+    if own_draft.before.point is None or isinstance(segment, CornerSegment):
         return None
-    chosen_by_next = len(own.result.choices) > 1 and _tied(contour, _next(contour, index))
+    chosen_by_next = len(own_draft.result.choices) > 1 and _tied(contour, _next(contour, index))
     tied = _relational(contour, index)
-    undetermined = own.result.end is None and not own.result.choices
-    contradicted = undetermined and any(finding.code != "MISSING" for finding in own.result.findings)
+    undetermined = own_draft.result.end is None and not own_draft.result.choices
+    contradicted = undetermined and any(finding.code != "MISSING" for finding in own_draft.result.findings)
     if not (tied or chosen_by_next or undetermined) or (contradicted and not tied):
         return None
-    if _tied(contour, index) and own.before.heading is None:
-        # nothing can be said before the segment to which it is tied is determined
-        return (drafted(segment, contour.readings[index], own.before, SegmentResult(), contour.unit),), None
-    attempt = _solved(contour, index, own.before, 1 if tied else 2)
-    if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own)):
+    if _tied(contour, index) and own_draft.before.heading is None:
+        # the segment to which it is tied must be determined first
+        return (drafted(segment, contour.readings[index], own_draft.before, SegmentResult(), contour.unit),), None
+    attempt = _solved(contour, index, own_draft.before, 1 if tied else 2)
+    if chosen_by_next and not tied and (attempt is None or not _decides(attempt, own_draft)):
         return None
-    alone = None if tied or chosen_by_next else _attempt(contour, [index], own.before)
+    alone = None if tied or chosen_by_next else _attempt(contour, [index], own_draft.before)
     if alone is not None and alone.search.stuck is None and alone.search.answers:
-        # its own data give it, though the rules for a segment by itself do not
-        attempt = _narrowed(contour, alone, own.before)
+        # its own data determine it, although the rules for a segment by itself do not
+        attempt = _narrowed(contour, alone, own_draft.before)
     if attempt is None:
-        attempt = _natural(contour, index, own.before)
+        attempt = _unsolved(contour, index, own_draft.before)
         if len(attempt.indices) == 1 and not tied:
             return None
-    return _result(contour, attempt, own)
+    return _result(contour, attempt, own_draft)
 
 
-def _decides(attempt: _Attempt, own: Draft) -> bool:
-    """Whether a longer stretch leaves fewer solutions of its first segment than that has by itself."""
+def _decides(attempt: _Attempt, own_draft: Draft) -> bool:
+    """True if the stretch leaves fewer solutions for its first segment than the segment has by itself."""
     left = {_rounded(answer.pieces[:1]) for answer in attempt.search.answers}
-    return 0 < len(left) < len(own.result.choices)
+    return 0 < len(left) < len(own_draft.result.choices)
 
 
 # which segments
@@ -102,7 +102,7 @@ def _decides(attempt: _Attempt, own: Draft) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Attempt:
-    """The segments of a stretch by index, the run that they make, and all its answers."""
+    """A stretch to try: the indices of its segments, their run, and all answers of the run."""
 
     indices: tuple[int, ...]
     run: Run
@@ -110,20 +110,20 @@ class _Attempt:
 
 
 def _next(contour: Contour, index: int) -> int | None:
-    """The next LINE or ARC."""
+    """Return the index of the next LINE or ARC, None if there is none."""
     after = range(index + 1, len(contour.segments))
     return next((at for at in after if not isinstance(contour.segments[at], CornerSegment)), None)
 
 
 def _relational(contour: Contour, index: int) -> bool:
-    """Whether something typed says how a segment lies to others."""
+    """True if a typed field relates the segment to a point or to another segment."""
     segment = contour.segments[index]
     known = contour.readings[index].known
     return getattr(segment, "tangent", False) or any(name in known for name in RELATIONS)
 
 
 def _tied(contour: Contour, index: int | None) -> bool:
-    """Whether a segment's heading is tied to the one before it."""
+    """True if a segment's heading is tied to the segment before it."""
     if index is None:
         return False
     known = contour.readings[index].known
@@ -132,7 +132,7 @@ def _tied(contour: Contour, index: int | None) -> bool:
 
 
 def tangent_fault(contour: Contour, index: int) -> Finding | None:
-    """Why TANGENT cannot be typed there."""
+    """Return why TANGENT is not allowed at a segment, None if it is allowed or not set."""
     if not getattr(contour.segments[index], "tangent", False):
         return None
     if index == 0:
@@ -146,7 +146,7 @@ def tangent_fault(contour: Contour, index: int) -> Finding | None:
 
 
 def _indices(contour: Contour, first: int) -> Iterator[int]:
-    """The LINEs and ARCs from one on, at most as many as are solved together."""
+    """Yield the indices of the LINEs and ARCs from `first` on, up to the most that are solved together."""
     at: int | None = first
     for _ in range(LONGEST):
         if at is None:
@@ -156,7 +156,7 @@ def _indices(contour: Contour, first: int) -> Iterator[int]:
 
 
 def _ends(contour: Contour, indices: Sequence[int]) -> bool:
-    """Whether a stretch ends at a typed point and nothing behind it bears on it."""
+    """True if a stretch ends at a typed point and no later segment refers to it."""
     known, after = contour.readings[indices[-1]].known, _next(contour, indices[-1])
     if not ("x_end" in known and "y_end" in known):
         return False
@@ -168,9 +168,9 @@ def _ends(contour: Contour, indices: Sequence[int]) -> bool:
 
 
 def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attempt | None:
-    """The shortest stretch from a segment on that is determined, or that has no answer; None where there is none.
+    """Return the shortest stretch from a segment on that the solver settles, with or without answers; None if none.
 
-    It has at least as many elements as `least`: a segment that nothing ties to others has its own rules.
+    It has at least `least` elements: a segment that is tied to no other has its own rules.
     """
     indices: list[int] = []
     for index in _indices(contour, first):
@@ -184,7 +184,7 @@ def _solved(contour: Contour, first: int, before: Carried, least: int) -> _Attem
 
 
 def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Attempt | None:
-    """The answers of a stretch, None where too few data are typed."""
+    """Solve a stretch; return None if too few data are typed."""
     if not contour.readings[indices[-1]].known.keys() & ENDING:
         return None
     run = _run(contour, indices, before)
@@ -192,7 +192,7 @@ def _attempt(contour: Contour, indices: Sequence[int], before: Carried) -> _Atte
 
 
 def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:
-    """The stretch with those after it that are tied to it, as far as they leave fewer answers."""
+    """Extend the stretch by the segments tied to its end while they leave fewer answers."""
     best, indices, count = attempt, list(attempt.indices), len(attempt.indices)
     while len(best.search.answers) > 1 and len(indices) < LONGEST:
         after = _next(contour, indices[-1])
@@ -209,12 +209,12 @@ def _narrowed(contour: Contour, attempt: _Attempt, before: Carried) -> _Attempt:
 
 
 def _rounded(pieces: Sequence[Piece]) -> tuple[float, ...]:
-    """What tells two answers apart."""
+    """Return the rounded ends and centers of an answer's pieces, by which answers are compared."""
     return tuple(round(value, 4) for piece in pieces for value in (*piece.end, *getattr(piece, "center", ())))
 
 
-def _natural(contour: Contour, first: int, before: Carried) -> _Attempt:
-    """The stretch of which is said what is missing: up to the first typed end, or all there is."""
+def _unsolved(contour: Contour, first: int, before: Carried) -> _Attempt:
+    """Return the stretch whose missing data are reported: up to the first typed end, else up to the longest."""
     indices: list[int] = []
     for index in _indices(contour, first):
         indices.append(index)
@@ -239,8 +239,8 @@ def _element(contour: Contour, index: int, start: Point | None, indices: Sequenc
     data = {name: value for name, value in known.items() if name not in _NO_SHAPE}
     if known.get("parallel") is None:
         data.pop("offset", None)
-    for name in () if start is None else _said_by_angle(data, start):
-        # the heading says it already: no second value
+    for name in () if start is None else _implied_by_angle(data, start):
+        # the heading implies it already: do not count it twice
         del data[name]
     kept = axis_kept_from(start, segment, contour.readings[index])
     if kept is not None:
@@ -251,13 +251,13 @@ def _element(contour: Contour, index: int, start: Point | None, indices: Sequenc
     return Element(index + 1, turn, tuple(data.items()), link, _parallel(contour, index, indices))
 
 
-def _said_by_angle(data: dict[str, float], start: Point) -> list[str]:
-    """The end coordinates, of a line from a known start, that its typed XY ANGLE holds anyway."""
+def _implied_by_angle(data: dict[str, float], start: Point) -> list[str]:
+    """Name the typed end coordinates of a line from a known start that its typed XY ANGLE already implies."""
     if "angle" not in data:
         return []
-    way = (cos(data["angle"]), sin(data["angle"]))
+    direction = (cos(data["angle"]), sin(data["angle"]))
     ends = (("x_end", 0, start[0]), ("y_end", 1, start[1]), ("x_end_inc", 0, 0.0), ("y_end_inc", 1, 0.0))
-    held = [one for one in ends if abs(way[one[1]]) <= SQUARE]
+    held = [end for end in ends if abs(direction[end[1]]) <= SQUARE]
     return [name for name, _, value in held if name in data and abs(data[name] - value) <= JOINED]
 
 
@@ -265,7 +265,7 @@ _NO_SHAPE = ("z_end", "feed", "pick_x", "pick_y", "parallel", "angle_inc", "star
 
 
 def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel | None:
-    """What PARALLEL TO names: a line of the stretch, or one before it."""
+    """Return the target of PARALLEL TO: the index of a line in the stretch, or a solved line before it."""
     target = contour.readings[index].known.get("parallel")
     if target is None or parallel_fault(contour, index) is not None:
         return None
@@ -277,7 +277,7 @@ def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel 
 
 
 def parallel_fault(contour: Contour, index: int) -> Finding | None:
-    """Why PARALLEL TO cannot be what it is."""
+    """Return why the number in PARALLEL TO is not allowed, None if it is."""
     target = contour.readings[index].known.get("parallel")
     if target is None:
         return None
@@ -292,7 +292,7 @@ def parallel_fault(contour: Contour, index: int) -> Finding | None:
 
 
 def place_faults(contour: Contour, index: int) -> tuple[Finding, ...]:
-    """What is wrong with how a segment names others."""
+    """Return the faults in a segment's references to other segments."""
     faults = (tangent_fault(contour, index), parallel_fault(contour, index), _relative_fault(contour, index))
     return tuple(fault for fault in faults if fault is not None)
 
@@ -309,25 +309,25 @@ def _relative_fault(contour: Contour, index: int) -> Finding | None:
 # what comes out
 
 
-def _result(contour: Contour, attempt: _Attempt, own: Draft) -> Stretch:
-    """The drafts of a stretch: solved, to be picked from, or undetermined with the reason."""
+def _result(contour: Contour, attempt: _Attempt, own_draft: Draft) -> Stretch:
+    """Return the drafts of a stretch, and its run: solved, or waiting for a pick or for data, with the reason."""
     picked = _picked(contour, attempt)
     answers = _answers(attempt, picked)
     taken, finding = _taken(contour, attempt, answers, picked)
     indices = attempt.indices
     code = None if finding is None else finding.code
     missing = max(0, attempt.run.missing)
-    sketch = tuple(piece for piece in (*_sketches(attempt), _across(attempt.run)) if piece is not None)
+    sketch = tuple(piece for piece in (*_sketches(attempt), _chord_to_end(attempt.run)) if piece is not None)
     run = SolvedRun(indices[0] + 1, indices[-1] + 1, answers, taken, code, missing, () if taken is not None else sketch)
     if taken is not None:
         pieces = dict(answers[taken].pieces)
-        return _determined(contour, attempt, pieces, own.before), run
+        return _determined(contour, attempt, pieces, own_draft.before), run
     assert finding is not None
-    return _waiting(contour, attempt, own, finding), run
+    return _waiting(contour, attempt, own_draft, finding), run
 
 
 def _picked(contour: Contour, attempt: _Attempt) -> Picked | None:
-    """What the operator's pick leads to, where the steps do not solve the run."""
+    """Return the answers near the operator's pick if the steps do not solve the run; None without a usable pick."""
     known = contour.readings[attempt.indices[0]].known
     if attempt.search.stuck is None or attempt.run.missing > 0 or not ("pick_x" in known and "pick_y" in known):
         return None
@@ -350,14 +350,14 @@ def _answers(attempt: _Attempt, picked: Picked | None) -> tuple[RunAnswer, ...]:
 def _taken(
     contour: Contour, attempt: _Attempt, answers: tuple[RunAnswer, ...], picked: Picked | None
 ) -> tuple[int | None, Finding | None]:
-    """The index of the answer in force, or why there is none."""
-    run, found = attempt.run, attempt.search
+    """Return the index of the answer in force, or the finding that explains why there is none."""
+    run, result = attempt.run, attempt.search
     if picked is not None and answers:
         return picked.taken, None if picked.taken is not None else reasons.pick_nearer(run, len(answers))
-    if found.stuck is not None:
-        return None, _why_stuck(contour, run, found.stuck, tried=picked is not None)
+    if result.stuck is not None:
+        return None, _why_stuck(contour, run, result.stuck, tried=picked is not None)
     if not answers:
-        return None, with_fitting_number(run, found.findings[0])
+        return None, with_fitting_number(run, result.findings[0])
     choice = getattr(contour.segments[attempt.indices[0]], "choice", None)
     if choice is None and len(answers) == 1:
         return 0, None
@@ -371,15 +371,15 @@ def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Fin
     if run.missing > 0:
         return reasons.missing(run, run.missing, _may_be_tangent(contour, run))
     for index in range(1, len(run.elements)):
-        if stuck.joint(index) is None and _one_line(stuck, index):
+        if stuck.joint(index) is None and _on_same_curve(stuck, index):
             return reasons.coincident(run, index)
     return reasons.not_yet(run, tried=tried)
 
 
 def _may_be_tangent(contour: Contour, run: Run) -> int | None:
-    """The number of the first segment of a run where TANGENT YES would be one more value.
+    """Return the number of the first segment of a run where TANGENT YES would add a value.
 
-    Not with no segment before it, behind a corner, or between two headings that are both known already.
+    It adds none on segment 1, after a BLEND ARC or CHAMFER, or if both headings at the joint are already known.
     """
     heading = run.heading
     for element in run.elements:
@@ -392,8 +392,8 @@ def _may_be_tangent(contour: Contour, run: Run) -> int | None:
     return None
 
 
-def _one_line(branch: Branch, joint: int) -> bool:
-    """Whether both elements at a joint that is not known run on one line or circle."""
+def _on_same_curve(branch: Branch, joint: int) -> bool:
+    """True if both elements at an unknown joint have known lines or known circles, which must then coincide."""
     first, second = branch.line(joint - 1), branch.line(joint)
     if first is not None and second is not None:
         return True
@@ -403,7 +403,7 @@ def _one_line(branch: Branch, joint: int) -> bool:
 
 
 def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], before: Carried) -> tuple[Draft, ...]:
-    """The drafts of a solved stretch, its blanks filled."""
+    """Return the drafts of a solved stretch with their blanks filled."""
     drafts: list[Draft] = []
     for index in range(attempt.indices[0], attempt.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
@@ -422,10 +422,10 @@ def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], b
     return tuple(drafts)
 
 
-def _waiting(contour: Contour, attempt: _Attempt, own: Draft, finding: Finding) -> tuple[Draft, ...]:
-    """The drafts of a stretch that is not determined; the finding stands at its segment."""
+def _waiting(contour: Contour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> tuple[Draft, ...]:
+    """Return the drafts of an undetermined stretch; the finding goes to the segment it names."""
     sketches = dict(zip(attempt.indices, _sketches(attempt), strict=True))
-    before, drafts = own.before, []
+    before, drafts = own_draft.before, []
     for index in range(attempt.indices[0], attempt.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
         if isinstance(segment, CornerSegment):
@@ -437,7 +437,7 @@ def _waiting(contour: Contour, attempt: _Attempt, own: Draft, finding: Finding) 
                 missing = (finding.field,) if finding.code == "MISSING" and finding.field else ()
                 result = replace(result, missing=missing, findings=() if faulty else (finding,))
             if index == attempt.indices[0] and finding.code == "MISSING":
-                result = replace(result, missing=own.result.missing or result.missing)
+                result = replace(result, missing=own_draft.result.missing or result.missing)
             drafts.append(drafted(segment, reading, before, result, contour.unit))
         before = drafts[-1].after
         if not isinstance(segment, CornerSegment) and attempt.indices[-1] != index:
@@ -449,8 +449,8 @@ def _known_joint(attempt: _Attempt, index: int) -> Point | None:
     return attempt.search.known.joint(attempt.indices.index(index) + 1)
 
 
-def _across(run: Run) -> Line | None:
-    """The way from the run's start to its typed end."""
+def _chord_to_end(run: Run) -> Line | None:
+    """Return the chord from the run's start to its typed end, None if that end is not typed or too near."""
     known = run.elements[-1].known
     if "x_end" not in known or "y_end" not in known:
         return None
@@ -459,12 +459,12 @@ def _across(run: Run) -> Line | None:
 
 
 def _sketches(attempt: _Attempt) -> list[Piece | None]:
-    """What can be drawn of each element of a run that is not determined."""
+    """Return what can be drawn of each element of an undetermined run."""
     return [_sketch(attempt.run, attempt.search.known, index) for index in range(len(attempt.indices))]
 
 
 def _sketch(run: Run, known: Branch, index: int) -> Piece | None:
-    """A chord between known ends, a whole circle, or a short line in a known heading."""
+    """Return a chord between known ends, a full circle, or a line in a known heading; None if too little is known."""
     start, end, center, rho = known.joint(index), known.joint(index + 1), known.center(index), known.rho[index]
     if start is not None and end is not None:
         return Line(start, end) if dist(start, end) > JOINED else None

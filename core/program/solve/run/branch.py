@@ -1,12 +1,12 @@
-"""A branch of a run's solution: what is known so far of every element and joint, and what follows without a choice.
+"""A branch of a run's solution holds what is known of each element and joint, and derives what needs no choice.
 
-Joint k lies before element k; joint 0 is the run's start.  Each value is None until it is known and then stays; that
-values which follow in two ways agree is proved at the end, by walking the chain (`proof`).
+Joint k lies before element k; joint 0 is the run's start.  Each value is None until known, and never changes after that.
+If a value can be derived in two ways, `proof` checks at the end that they agree, by walking the chain.
 
-An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, with t and n the direction and left
-normal in which the contour arrives at P (or departs from it).  The joint itself, once known, is an anchor with
-u = v = 0, the center of a known circle one with v = -rho; a LINE of known length, an ARC of known radius and sweep
-carry anchors on to their other end.  What follows from anchors holds for chains of any shape.
+An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, where t and n are the direction and
+left normal of the contour as it arrives at P (or departs from it).  A known joint is an anchor with u = v = 0; the
+center of a known circle is an anchor with v = -rho.  A LINE of known length and an ARC of known radius and sweep carry
+anchors to their other end.  Conclusions from anchors hold for chains of any shape.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from core.tolerance import JOINED
 Numbers = list[float | None]
 
 FULL_TURN_DOUBT: Final = 1e-6
-"""Radians within which the turn between two headings may be nothing as well as a full turn: it says nothing."""
+"""Radians from 0 or a full turn within which two headings do not give a sweep: it could be either."""
 
 
 class Anchor(NamedTuple):
-    """A known point to which a joint is tied, `along` and `left` of it in the frame of the joint's heading."""
+    """A known point to which a joint is tied: the joint lies `along` and `left` of it, in the frame of its heading."""
 
     at: Point
     along: float
@@ -36,17 +36,17 @@ class Anchor(NamedTuple):
 
     @property
     def tied(self) -> float:
-        """The distance between the two."""
+        """The distance between the point and the joint."""
         return hypot(self.along, self.left)
 
     def turned(self, angle: float) -> Anchor:
-        """The same tie in a frame turned by `angle`, counterclockwise positive."""
+        """Return the same tie in a frame rotated by `angle`, counterclockwise positive."""
         c, s = cos(angle), sin(angle)
         return Anchor(self.at, self.along * c + self.left * s, self.left * c - self.along * s)
 
 
 class DeadEnd(Exception):
-    """What is known cannot be; `finding` says why."""
+    """The known values contradict each other; `finding` says why."""
 
     def __init__(self, finding: Finding) -> None:
         super().__init__(finding.code)
@@ -54,7 +54,7 @@ class DeadEnd(Exception):
 
 
 class Branch:
-    """What is known of a run; `choices` are the roots taken so far, 0 or 1 each, `grazes` those that are double."""
+    """What is known of a run; `choices` are the roots taken so far, 0 or 1 each, `grazes` flags the double ones."""
 
     def __init__(self, run: Run) -> None:
         count = len(run.elements)
@@ -76,62 +76,62 @@ class Branch:
         self._take_typed()
 
     def copy(self) -> Branch:
-        """A branch of its own with the same knowledge."""
+        """Return an independent branch with the same known values."""
         twin = Branch.__new__(Branch)
         for name, value in vars(self).items():
             setattr(twin, name, list(value) if isinstance(value, list) else value)
         return twin
 
     def chosen(self, root: int, *, grazing: bool = False) -> Branch:
-        """A copy that takes root 0 or 1 of a step."""
+        """Return a copy that takes root 0 or 1 of a step."""
         twin = self.copy()
         twin.choices = (*self.choices, root)
         twin.grazes = (*self.grazes, grazing)
         return twin
 
     def put(self, values: Numbers, index: int, value: float) -> None:
-        """Let a value be known; one that is known already stays."""
+        """Record a value; a value that is already known stays."""
         if values[index] is None:
             values[index] = value
             self.changed = True
 
     def put_joint(self, index: int, at: Point) -> None:
-        """Let a joint be known, as far as it is not."""
+        """Record the coordinates of a joint that are not known yet."""
         self.put(self.x, index, at[0])
         self.put(self.y, index, at[1])
 
     def put_center(self, index: int, at: Point) -> None:
-        """Let a center be known, as far as it is not."""
+        """Record the coordinates of a center that are not known yet."""
         self.put(self.center_x, index, at[0])
         self.put(self.center_y, index, at[1])
 
     def put_heading(self, index: int, heading: float) -> None:
-        """Let a LINE's heading be known."""
+        """Record a LINE's heading."""
         self.put(self.heading_in, index, heading)
         self.put(self.heading_out, index, heading)
 
     def joint(self, index: int) -> Point | None:
-        """A joint whose two coordinates are known."""
+        """Return a joint, None unless both coordinates are known."""
         x, y = self.x[index], self.y[index]
         return None if x is None or y is None else (x, y)
 
     def center(self, index: int) -> Point | None:
-        """A center whose two coordinates are known."""
+        """Return a center, None unless both coordinates are known."""
         x, y = self.center_x[index], self.center_y[index]
         return None if x is None or y is None else (x, y)
 
     def link(self, index: int) -> float | None:
-        """The angle from the heading before joint `index` to the one after it, if it is typed."""
+        """Return the typed angle from the heading before joint `index` to the heading after it, None if not typed."""
         return self.run.elements[index].link if 0 < index < len(self.run.elements) else None
 
     def line(self, index: int) -> OrientedLine | None:
-        """The line of an element, if it is known."""
+        """Return the line of an element, None unless it is known."""
         heading, offset = self.heading_in[index], self.offset[index]
         return None if heading is None or offset is None else OrientedLine(heading, offset)
 
     @property
     def complete(self) -> bool:
-        """Every joint and every circle is known."""
+        """True if every joint and every center is known."""
         joints = all(self.joint(index) is not None for index in range(len(self.x)))
         arcs = (index for index, element in enumerate(self.run.elements) if element.turn)
         return joints and all(self.center(index) is not None for index in arcs)
@@ -163,12 +163,12 @@ class Branch:
             if not first.turn:
                 self.put(self.heading_out, 0, run.heading + first.link)
 
-    # what follows without a choice
+    # values that need no choice
 
     def settle(self) -> None:
-        """Whatever follows without a choice, until nothing more does.
+        """Derive every value that needs no choice, until no more can be derived.
 
-        Lines and circles come before lengths: where both give a joint, the length is what is compared with it.
+        Lines and circles come before lengths: if both give a joint, the length is the value that `proof` compares.
         """
         while self.changed:
             while self.changed:
@@ -186,7 +186,7 @@ class Branch:
                 self._joint(index, carried=True)
 
     def _linked(self, index: int) -> None:
-        """Headings on both sides of the joint before an element."""
+        """Derive one heading at the joint before an element from the other, and a touch point if they are tangent."""
         link = self.link(index)
         if link is None:
             return
@@ -203,7 +203,7 @@ class Branch:
             self._touching(index)
 
     def _touching(self, index: int) -> None:
-        """The touch point of two known circles."""
+        """Derive a joint as the touch point of two known circles."""
         first, second = self.center(index - 1), self.center(index)
         rho, sigma = self.rho[index - 1], self.rho[index]
         if first is None or second is None or rho is None or sigma is None:
@@ -213,7 +213,7 @@ class Branch:
             self.put_joint(index, touch[0])
 
     def _relative(self, index: int) -> None:
-        """Relative coordinates, from either end, and what both together say."""
+        """Derive points from relative coordinates, from either end; both of a center also give radius and heading."""
         known = self.run.elements[index].known
         for values, other, at, name in (
             (self.x, self.x, index + 1, "x_end_inc"),
@@ -239,10 +239,10 @@ class Branch:
         known = self.run.elements[index].known
         start, end, heading = self.joint(index), self.joint(index + 1), self.heading_in[index]
         if start is not None and end is not None:
-            way = (end[0] - start[0], end[1] - start[1])
-            if hypot(*way) > JOINED:
-                self.put_heading(index, atan2(way[1], way[0]))
-                self.put(self.length, index, hypot(*way))
+            vector = (end[0] - start[0], end[1] - start[1])
+            if hypot(*vector) > JOINED:
+                self.put_heading(index, atan2(vector[1], vector[0]))
+                self.put(self.length, index, hypot(*vector))
         if "x_end_inc" in known and "y_end_inc" in known:
             self.put(self.length, index, hypot(known["x_end_inc"], known["y_end_inc"]))
             self.put_heading(index, atan2(known["y_end_inc"], known["x_end_inc"]))
@@ -276,7 +276,7 @@ class Branch:
                 return
 
     def _turn(self, index: int) -> None:
-        """An arc's two headings and its sweep: two of them give the third."""
+        """Derive the third of an arc's two headings and its sweep from the other two."""
         turn = self.run.elements[index].turn
         first, last, sweep = self.heading_in[index], self.heading_out[index], self.sweep[index]
         if first is not None and last is not None:
@@ -289,9 +289,9 @@ class Branch:
             self.put(self.heading_in, index, last - turn * sweep)
 
     def _joint(self, index: int, *, carried: bool) -> None:
-        """A joint from a heading and an anchor, or a heading from the joint and an anchor; or from two lines.
+        """Derive a joint from a heading and an anchor, or from two lines; or a heading from the joint and an anchor.
 
-        Anchors that lengths have carried along are left out unless `carried`.
+        Anchors carried along by lengths give a joint only if `carried`.
         """
         last = len(self.run.elements)
         both = (self.heading_out[index - 1], 0.0 if index == last else self.heading_in[index])
@@ -315,13 +315,13 @@ class Branch:
             u, v = anchor.along, anchor.left
             self.put_joint(index, (x + u * tx + v * nx, y + u * ty + v * ny))
         elif joint is not None and heading is None and hypot(joint[0] - x, joint[1] - y) > JOINED:
-            found = atan2(joint[1] - y, joint[0] - x) - atan2(anchor.left, anchor.along)
-            self.put(headings, element, found)
+            derived = atan2(joint[1] - y, joint[0] - x) - atan2(anchor.left, anchor.along)
+            self.put(headings, element, derived)
             if not self.run.elements[element].turn:
-                self.put_heading(element, found)
+                self.put_heading(element, derived)
 
     def _between_lines(self, index: int) -> None:
-        """A joint on two lines that are not parallel."""
+        """Derive a joint from two lines that are not parallel."""
         lines = [locus for locus in self.loci(index) if isinstance(locus, OrientedLine)]
         for line in lines[1:]:
             met = meeting(lines[0], line)
@@ -332,60 +332,60 @@ class Branch:
     # anchors, loci and ties
 
     def arriving(self, index: int) -> Iterator[Anchor]:
-        """The anchors of a joint in the frame of the heading in which the contour arrives there."""
+        """Return the anchors of a joint in the frame of the contour's heading as it arrives there."""
         return self._anchors(index, index - 1, 1)
 
     def departing(self, index: int) -> Iterator[Anchor]:
-        """The anchors of a joint in the frame of the heading in which the contour departs from there."""
+        """Return the anchors of a joint in the frame of the contour's heading as it departs from there."""
         return self._anchors(index, index, -1)
 
-    def _anchors(self, index: int, element: int, way: int) -> Iterator[Anchor]:
-        """The anchors of a joint by the element that ends there (`way` 1) or begins there (-1), and the joint."""
+    def _anchors(self, index: int, element: int, sense: int) -> Iterator[Anchor]:
+        """Yield a joint's anchors from the element that ends (`sense` 1) or begins (-1) there, and the joint itself."""
         if 0 <= element < len(self.run.elements):
             center, rho = self.center(element), self.rho[element]
             if center is not None and rho is not None:
                 yield Anchor(center, 0.0, -rho)
             if self._shape(element):
-                yield from self._carried(element, way)
+                yield from self._carried(element, sense)
         joint = self.joint(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
 
     def _shape(self, element: int) -> bool:
-        """Whether an element's shape is known: a LINE's length, an ARC's radius and sweep."""
+        """True if an element's shape is known: a LINE's length, an ARC's radius and sweep."""
         if self.run.elements[element].turn:
             return self.rho[element] is not None and self.sweep[element] is not None
         return self.length[element] is not None
 
     def arriving_linked(self, index: int) -> Iterator[Anchor]:
-        """The anchors of the joint before element `index` in the frame of that element's heading there."""
+        """Return the anchors of the joint before element `index`, in the frame of that element's heading there."""
         return self._across(index, self.arriving(index), 1)
 
     def departing_linked(self, index: int) -> Iterator[Anchor]:
-        """The anchors of joint `index` in the frame of the heading of the element before it, where that ends."""
+        """Return the anchors of joint `index`, in the frame of the final heading of the element before it."""
         return self._across(index, self.departing(index), -1)
 
-    def _across(self, index: int, anchors: Iterator[Anchor], way: int) -> Iterator[Anchor]:
-        """The anchors of a joint in the frame of the heading on its other side, where the angle between is typed."""
+    def _across(self, index: int, anchors: Iterator[Anchor], sense: int) -> Iterator[Anchor]:
+        """Yield a joint's anchors in the frame of the heading on its other side, if the angle between is typed."""
         joint, link = self.joint(index), self.link(index)
         if joint is not None:
             yield Anchor(joint, 0.0, 0.0)
         elif link is not None:
-            yield from (anchor.turned(way * link) for anchor in anchors)
+            yield from (anchor.turned(sense * link) for anchor in anchors)
 
-    def _carried(self, element: int, way: int) -> Iterator[Anchor]:
-        """The anchors of an element's start carried on to its end (`way` 1), or those of its end back (-1)."""
+    def _carried(self, element: int, sense: int) -> Iterator[Anchor]:
+        """Yield the anchors of an element's start carried to its end (`sense` 1), or of its end carried back (-1)."""
         rho, turn = self.rho[element] or 0.0, self.run.elements[element].turn
-        for anchor in self.arriving_linked(element) if way > 0 else self.departing_linked(element + 1):
+        for anchor in self.arriving_linked(element) if sense > 0 else self.departing_linked(element + 1):
             if turn:
-                swept = way * turn * (self.sweep[element] or 0.0)
+                swept = sense * turn * (self.sweep[element] or 0.0)
                 at_center = Anchor(anchor.at, anchor.along, anchor.left + rho).turned(swept)
                 yield Anchor(anchor.at, at_center.along, at_center.left - rho)
             else:
-                yield Anchor(anchor.at, anchor.along + way * (self.length[element] or 0.0), anchor.left)
+                yield Anchor(anchor.at, anchor.along + sense * (self.length[element] or 0.0), anchor.left)
 
     def line_ties(self, index: int) -> Iterator[tuple[Point, float, str]]:
-        """Points A at known distances left of a LINE: (A, n.A - p, which end of the LINE its foot is, or nothing)."""
+        """Yield points A at known distances left of a LINE: (A, n.A - p, the end of the LINE at its foot, or "")."""
         element = self.run.elements[index]
         for anchor in self.arriving_linked(index):
             yield anchor.at, -anchor.left, "" if anchor.along else "start"
@@ -396,7 +396,7 @@ class Branch:
             yield point, distance * (self.point_side[index] or 1.0), ""
 
     def vector(self, element: int) -> Point | None:
-        """The way from an element's start to its end, if it is known before both are."""
+        """Return the vector from an element's start to its end, if known without them; else None."""
         known = self.run.elements[element].known
         if "x_end_inc" in known and "y_end_inc" in known:
             return known["x_end_inc"], known["y_end_inc"]
@@ -412,31 +412,31 @@ class Branch:
         return size * tx, size * ty
 
     def loci(self, index: int) -> list[Locus]:
-        """Where a joint that is not known may lie, no two the same: by what holds at it and at joints tied to it."""
-        found: list[Locus] = []
+        """Return the distinct loci of an unknown joint, from its own conditions and those of joints tied to it."""
+        loci: list[Locus] = []
         for dx, dy, joint in self._tied_joints(index):
             for locus in self._loci_at(joint):
                 moved = locus.shifted(-dx, -dy)
-                if not any(type(other) is type(moved) and meeting(other, moved).coincident for other in found):
-                    found.append(moved)
-        return found
+                if not any(type(other) is type(moved) and meeting(other, moved).coincident for other in loci):
+                    loci.append(moved)
+        return loci
 
     def _tied_joints(self, index: int) -> Iterator[tuple[float, float, int]]:
-        """The joint, and those that lie a known way (dx, dy) from it."""
+        """Yield (dx, dy, joint): the joint itself, and each joint at a known vector from it."""
         yield 0.0, 0.0, index
         dx = dy = 0.0
         for element in range(index, len(self.run.elements)):
-            way = self.vector(element)
-            if way is None:
+            vector = self.vector(element)
+            if vector is None:
                 break
-            dx, dy = dx + way[0], dy + way[1]
+            dx, dy = dx + vector[0], dy + vector[1]
             yield dx, dy, element + 1
         dx = dy = 0.0
         for element in range(index - 1, -1, -1):
-            way = self.vector(element)
-            if way is None:
+            vector = self.vector(element)
+            if vector is None:
                 break
-            dx, dy = dx - way[0], dy - way[1]
+            dx, dy = dx - vector[0], dy - vector[1]
             yield dx, dy, element
 
     def _loci_at(self, index: int) -> Iterator[Locus]:
@@ -450,7 +450,7 @@ class Branch:
             line = self.line(element)
             if line is not None:
                 yield line
-        # the circles of elements come before those about a joint
+        # circles of elements come before circles about a joint
         anchors = [*self.arriving(index), *self.departing(index)] if elements else []
         for anchor in sorted(anchors, key=lambda anchor: anchor.along != 0.0):
             if anchor.tied > JOINED:

@@ -1,6 +1,6 @@
-"""Why a run has no answer: each code with its sentence and its numbers.
+"""This module words why a run has no answer: one function per reason, which returns a finding with its numbers.
 
-The finding belongs to the segment named last in it or, where one number is at fault, to that field.
+A finding names the segment to correct and, if one number is at fault, its field.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def _fault(code: str, text: str, element: Element, field: str | None, *lengths: 
 
 
 def segments(elements: tuple[Element, ...]) -> str:
-    """`Segment 2`, `Segments 2 and 3`, `Segments 2 to 4`."""
+    """Name the segments: `Segment 2`, `Segments 2 and 3` or `Segments 2 to 4`."""
     first, last = elements[0].number, elements[-1].number
     if first == last:
         return f"Segment {first}"
@@ -30,13 +30,13 @@ def segments(elements: tuple[Element, ...]) -> str:
 
 
 def label(element: Element, name: str) -> str:
-    """A field's label on the element's form."""
+    """Return a field's label on the element's form."""
     form = Form.ARC if element.turn else Form.LINE
     return field_of(form, name.removesuffix("_inc")).label
 
 
 def _plain_angle(angle: float) -> str:
-    """An angle in degrees from 0 up to 360, without zeros at its end."""
+    """Format an angle in degrees from 0 up to 360, without trailing zeros."""
     return f"{degrees(angle) % 360.0:.3f}".rstrip("0").rstrip(".")
 
 
@@ -65,7 +65,7 @@ def no_length(run: Run, index: int) -> Finding:
 
 
 def out_of_range(branch: Branch, index: int) -> Finding:
-    """An end or a center lies beyond any machine."""
+    """An end or a center lies beyond any machine's travel."""
     elements = branch.run.elements
     element = elements[index]
     text = "This segment's end or center is beyond any machine's travel. Check its numbers."
@@ -80,7 +80,7 @@ def out_of_range(branch: Branch, index: int) -> Finding:
 
 
 def radii_differ(run: Run, index: int, radius: float, out: float) -> Finding:
-    """An arc's ends lie at two distances from its center."""
+    """An arc's ends lie at different distances from its center."""
     text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end, the center or RADIUS."
     return _fault("CONTRADICTION", text, run.elements[index], "radius", radius, out)
 
@@ -93,7 +93,7 @@ def _rest(run: Run, index: int) -> str:
 
 
 def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
-    """A typed angle is another one than the rest gives."""
+    """A typed angle differs from the one that the other data give."""
     element = run.elements[index]
     given, other = shown_angle(typed), shown_angle(actual if name == "sweep" else actual % tau)
     if given == other:
@@ -103,21 +103,21 @@ def angle_differs(run: Run, index: int, name: str, typed: float, actual: float) 
 
 
 def length_differs(run: Run, index: int, name: str, typed: float, actual: float) -> Finding:
-    """A typed length or coordinate is another one than the rest gives."""
+    """A typed length or coordinate differs from the one that the other data give."""
     element = run.elements[index]
     text = f"{label(element, name)} is {{0~1}}, but {{1~0}} by {_rest(run, index)}: correct or blank one of them."
     return _fault("CONTRADICTION", text, element, name.removesuffix("_inc"), typed, actual)
 
 
 def point_missed(run: Run, index: int, point: Point, typed: float, actual: float) -> Finding:
-    """An element passes its point at another distance than typed."""
+    """An element passes its point at a distance other than the typed one."""
     element = run.elements[index]
     text = f"The point {{2}} {{3}} is {{1~0}} from segment {element.number}, not {{0~1}}: correct or blank it."
     return _fault("CONTRADICTION", text, element, "point_x", typed, actual, *point)
 
 
 def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
-    """An element does not leave at the typed angle to the one before."""
+    """An element does not start at the typed angle to the element before it."""
     element = run.elements[index]
     turned = degrees((actual + pi) % tau - pi)
     if link == 0.0:
@@ -129,7 +129,7 @@ def not_linked(run: Run, index: int, link: float, actual: float) -> Finding:
 
 
 def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
-    """A line is not parallel to its target, which runs at the wanted angle or against it."""
+    """A line is not parallel to its target, which runs at the wanted angle or opposite to it."""
     element = run.elements[index]
     if cos(actual - wanted) < 0.0:
         wanted += pi
@@ -142,7 +142,7 @@ def not_parallel(run: Run, index: int, wanted: float, actual: float) -> Finding:
 
 
 def coincident(run: Run, index: int) -> Finding:
-    """Both lines at a joint are one line."""
+    """Both elements at a joint run on the same line or circle."""
     first, second = run.elements[index - 1], run.elements[index]
     shape = "circle" if first.turn and second.turn else "line"
     text = (
@@ -168,7 +168,7 @@ def no_meeting(branch: Branch, joint: int, first: Locus, second: Locus) -> Findi
 
 
 def _carrier(branch: Branch, joint: int, locus: Locus) -> Element | None:
-    """The arc whose circle a locus is."""
+    """Return the arc whose circle the locus is, None if it is no arc's circle."""
     for index in (joint - 1, joint):
         if isinstance(locus, Circle) and 0 <= index < len(branch.run.elements):
             center = branch.center(index)
@@ -224,7 +224,7 @@ def _size_label(element: Element) -> str:
 def no_tangent(
     branch: Branch, index: int, first: tuple[Point, float, str], second: tuple[Point, float, str]
 ) -> Finding:
-    """No line passes two points at their distances."""
+    """No line passes two points at the given distances."""
     element, elements = branch.run.elements[index], branch.run.elements
     (a, r, _), (b, s, _) = first, second
     if (r == 0.0) is not (s == 0.0):
@@ -251,7 +251,7 @@ def _touched(branch: Branch, index: int, center: Point) -> Element | None:
 
 
 def no_circle(branch: Branch, index: int) -> Finding:
-    """No circle meets the conditions; what RADIUS would is looked for by `fitting_number`."""
+    """No circle meets the conditions; `fitting_number` looks for a RADIUS that does."""
     element = branch.run.elements[index]
     if "radius" in element.known:
         text = f"RADIUS {{0}} fits nowhere between the segments before and after segment {element.number}."
@@ -261,7 +261,7 @@ def no_circle(branch: Branch, index: int) -> Finding:
 
 
 def radius_limit(run: Run, index: int, limit: float, *, least: bool) -> Finding:
-    """RADIUS is too small or too large; `limit` is the first that fits."""
+    """RADIUS is too small or too large; `limit` is the nearest that fits."""
     element = run.elements[index]
     before, after = run.elements[index - 1].number if index else None, None
     if index + 1 < len(run.elements):
@@ -282,7 +282,7 @@ def radius_limit(run: Run, index: int, limit: float, *, least: bool) -> Finding:
 
 
 def wrong_sense(branch: Branch, index: int) -> Finding:
-    """The circle that fits would be traveled the other way."""
+    """The circle that fits turns in the other DIRECTION."""
     element = branch.run.elements[index]
     direction, other = ("CW", "CCW") if element.turn is Turn.CW else ("CCW", "CW")
     text = f"DIRECTION {direction}: a tangent arc to this end turns {other}."
@@ -290,7 +290,7 @@ def wrong_sense(branch: Branch, index: int) -> Finding:
 
 
 def missing(run: Run, count: int, tangent: int | None) -> Finding:
-    """Too few data; `tangent` is the number of a segment where TANGENT would be one more, if there is one."""
+    """Too few data are typed; `tangent` is the number of a segment where TANGENT would add a value, if any."""
     values = f"{count} more value{'' if count == 1 else 's'}"
     subject = segments(run.elements)
     verb = "needs" if len(run.elements) == 1 else "need"
@@ -303,7 +303,7 @@ def missing(run: Run, count: int, tangent: int | None) -> Finding:
 
 
 def suggested(run: Run) -> tuple[Element, str]:
-    """A blank field that would help: an ARC's RADIUS before a LINE's XY ANGLE before its XY LENGTH before an end."""
+    """Return a helpful blank field: an ARC's RADIUS, else a LINE's XY ANGLE or XY LENGTH, an ARC's sweep, or an end."""
     for arcs, name in ((True, "radius"), (False, "angle"), (False, "length"), (True, "sweep"), (False, "x_end")):
         for element in run.elements:
             relative = element.link is not None if name == "angle" else f"{name}_inc" in element.known
@@ -314,14 +314,14 @@ def suggested(run: Run) -> tuple[Element, str]:
 
 
 def _radius_follows(run: Run, element: Element) -> bool:
-    """Whether an arc's center and a point of it give its radius, so that RADIUS would add nothing."""
+    """True if an arc's center and one of its points give its radius, so that RADIUS would add nothing."""
     known = element.known
     point = element is run.elements[0] or {"x_end", "y_end"} <= known.keys()
     return {"x_center_inc", "y_center_inc"} <= known.keys() or ({"x_center", "y_center"} <= known.keys() and point)
 
 
 def not_yet(run: Run, *, tried: bool) -> Finding:
-    """Enough data, and no method; nor does the pick lead anywhere, if there is one."""
+    """The data suffice, but no method solves them; `tried` if the operator's pick leads to no solution either."""
     text = f"{segments(run.elements)} cannot be calculated from these data yet: enter one end, or a center."
     if tried:
         text += " The pick leads to no solution: set it nearer to the joint."
@@ -329,14 +329,14 @@ def not_yet(run: Run, *, tried: bool) -> Finding:
 
 
 def pick_nearer(run: Run, count: int) -> Finding:
-    """A pick that does not tell several answers apart."""
+    """The pick is too far from an answer, or does not tell several answers apart."""
     fit = "One solution fits, but it is far from the pick" if count == 1 else f"{count} solutions fit"
     text = f"{fit}: set the pick nearer to the end of segment {run.elements[0].number}, or pick one on SOLUTION."
     return Finding("PICK_SOLUTION", Severity.ERROR, text, segment=run.elements[0].number, field="choice")
 
 
 def pick_solution(run: Run, count: int, *, picked: bool) -> Finding:
-    """Several answers, and none is picked or the picked one is gone."""
+    """Several answers fit and none is picked, or the picked one is no longer possible."""
     gone = "The solution that was picked is no longer possible. " if picked else ""
     number = {1: "One solution fits", 2: "Two solutions fit"}.get(count, f"{count} solutions fit")
     text = f"{gone}{number}: pick {'it' if count == 1 else 'one'} on SOLUTION."
