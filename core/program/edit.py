@@ -1,7 +1,7 @@
-"""Edits of a program, each a pure function that yields the new program or refuses with a sentence.
+"""This module edits programs: each edit is a pure function that returns the new program or refuses with a sentence.
 
-A refused edit changes nothing.  A number a field does not take is refused, a text that cannot be read is kept as
-`Unread`, but for the look-ahead, whose old value stays.  Blocks and segments count from 1, segment 0 is START.
+A refused edit changes nothing.  A number outside a field's range is refused.  A text that cannot be read is kept as
+`Unread`, except in the look-ahead, which keeps its old value.  Blocks and segments count from 1; segment 0 is START.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ from core.units import Kind, Unit, convert, from_mm, printable
 
 @dataclass(frozen=True, slots=True)
 class FormPlace:
-    """A place on the form: block from 1, segment from 1, 0 for START."""
+    """A place on the form: the block number from 1; the segment number from 1, or 0 for START."""
 
     block: int
     segment: int = 0
@@ -62,7 +62,7 @@ class FormPlace:
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """An edit that is not made, with the sentence that says why."""
+    """A refused edit, with the sentence that says why."""
 
     text: str
 
@@ -71,7 +71,7 @@ Edited = Program | Refused
 
 
 def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> Edited:
-    """Put what was typed, or a blank, into a field of START or of a segment."""
+    """Put a typed value or a blank into a field of START or of a segment."""
     if refusal := _absent(program, where):
         return refusal
     part = _part(program, where)
@@ -87,15 +87,15 @@ def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> E
 
 
 def is_empty(segment: Segment) -> bool:
-    """Whether nothing is typed in a segment but its feed."""
+    """True if a segment equals a new one except for its feed."""
     return replace(segment, feed=None) == type(segment)()
 
 
 def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
     """Set a choice: CUTTER COMP. or COOLANT of START, DIRECTION of an ARC, TANGENT (YES or NO) of a LINE or an ARC.
 
-    `choice` is the picked solution, an int from 0; any other value is one of the field's words.  None blanks COOLANT
-    and takes the picked solution back.  Any other value is Refused; KeyError for a field that there is not.
+    `choice` is the picked solution, an int from 0; the values of the other fields are their words.  None blanks COOLANT
+    or clears the picked solution.  Any other value is Refused; raise KeyError for a field that does not exist.
     """
     if refusal := _absent(program, where):
         return refusal
@@ -120,11 +120,11 @@ _PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
 )
 
 UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
-"""What is typed of a segment and has no bearing on which solutions there are."""
+"""The fields of a segment that do not affect which solutions it has."""
 
 
 def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
-    """Take the solution `index` (from 0) of those that SOLUTION shows at a segment."""
+    """Take solution `index` (from 0) of those that SOLUTION lists at a segment."""
     if refusal := _absent(program, where):
         return refusal
     block = program.blocks[where.block - 1]
@@ -140,13 +140,13 @@ def take_solution(program: Program, where: FormPlace, index: int) -> Edited:
 
 
 def pick_joint(program: Program, where: FormPlace, x: float, y: float) -> Edited:
-    """Point to (x, y), in program units, as a point near the end of the first segment of a run."""
+    """Pick (x, y), in program units, as a point near the end of a run's first segment."""
     with_x = type_field(program, where, "pick_x", Number(x))
     return with_x if isinstance(with_x, Refused) else type_field(with_x, where, "pick_y", Number(y))
 
 
 def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
-    """A segment with TANGENT YES or NO; YES takes the place of an angle to the segment before."""
+    """Return the segment with TANGENT YES or NO; YES replaces an angle relative to the segment before."""
     if not tangent:
         return changed(part, {"tangent": False})
     name = "angle" if isinstance(part, LineSegment) else "start_angle"
@@ -155,12 +155,12 @@ def _tangent(part: Block | Segment, *, tangent: bool) -> Block | Segment:
 
 
 def _picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
-    """The program without the solutions picked at a segment, and of the runs it was or is a part of."""
+    """Clear the solutions picked at a segment and for the runs that contain it before or after an edit."""
     return _run_picked_anew(old, _without_choice(new, where.block, where.segment), where)
 
 
 def _run_picked_anew(old: Program, new: Program, where: FormPlace) -> Program:
-    """The program without the solution that was picked for the run of a segment, before or after an edit."""
+    """Clear the solutions picked for runs that contain a segment or end just before it, before or after an edit."""
     for program in (old, new):
         block = program.blocks[where.block - 1]
         if not any(getattr(segment, "choice", None) is not None for segment in block.segments):
@@ -180,7 +180,7 @@ def _without_choice(program: Program, block: int, number: int) -> Program:
 
 
 def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edited:
-    """Put a segment before `where.segment`; one more than the last appends."""
+    """Insert a segment before `where.segment`; one more than the last number appends it."""
     if where.segment == 0:
         return Refused("START is always first.")
     if refusal := _absent(program, replace(where, segment=0)):
@@ -204,7 +204,7 @@ def _another(form: Form, other: Form) -> str:
 
 
 def delete_segment(program: Program, where: FormPlace) -> Edited:
-    """Take a segment out; the next one then starts where the one before it ends."""
+    """Delete a segment; the next one then starts at the end of the one before."""
     if where.segment == 0:
         return Refused("START cannot be deleted.")
     if refusal := _absent(program, where):
@@ -217,7 +217,7 @@ def delete_segment(program: Program, where: FormPlace) -> Edited:
 
 
 def renumbered(segment: Segment, at: int, step: int) -> Segment:
-    """A segment whose PARALLEL TO follows where segments are put in from `at` on (step > 0) or `at` is deleted (-1)."""
+    """Adjust PARALLEL TO of a segment after segments are inserted from `at` on (step > 0) or `at` is deleted (-1)."""
     held = segment.parallel if isinstance(segment, LineSegment) else None
     if not isinstance(held, Number) or held.value < at:
         return segment
@@ -227,7 +227,7 @@ def renumbered(segment: Segment, at: int, step: int) -> Segment:
 
 
 def recalculate_lookahead(program: Program, block: int) -> Edited:
-    """Bring the calculated look-ahead back: USR becomes CAL."""
+    """Go back to the calculated look-ahead: USR becomes CAL."""
     where = FormPlace(block)
     if refusal := _absent(program, where):
         return refusal
@@ -235,9 +235,9 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
 
 
 def new_block(program: Program) -> Block:
-    """A block as the form offers it, its place still blank: the first has tool 1, and neither speed nor feeds.
+    """Return a new block with X START and Y START blank: the first has tool 1, and neither speed nor feeds.
 
-    Any other has tool, side, speed, feeds and depths of the block before.  What the tool table proposes stays blank.
+    A later block copies the last block without its segments and look-ahead.  Fields that TOOL SETUP fills stay blank.
     """
     if program.blocks:
         return replace(program.blocks[-1], x_start=None, y_start=None, lookahead=None, segments=())
@@ -246,7 +246,7 @@ def new_block(program: Program) -> Block:
 
 
 def insert_block(program: Program, at: int) -> Edited:
-    """Put a new block at number `at`, with the tool of the block before it; one more than the last appends."""
+    """Insert a new block as number `at`, modeled on the block before it; one more than the last number appends it."""
     if not 1 <= at <= len(program.blocks) + 1:
         return _does_not_exist("block", at, len(program.blocks))
     before, after = program.blocks[: at - 1], program.blocks[at - 1 :]
@@ -254,14 +254,14 @@ def insert_block(program: Program, at: int) -> Edited:
 
 
 def copy_block(program: Program, at: int) -> Edited:
-    """Put a copy of a block after it."""
+    """Insert a copy of a block after it."""
     if refusal := _absent(program, FormPlace(at)):
         return refusal
     return replace(program, blocks=(*program.blocks[:at], *program.blocks[at - 1 :]))
 
 
 def move_block(program: Program, at: int, to: int) -> Edited:
-    """Take block `at` out and put it back so that its number is `to`."""
+    """Move block `at` so that its number becomes `to`."""
     if refusal := _absent(program, FormPlace(at)) or _absent(program, FormPlace(to)):
         return refusal
     rest = program.blocks[: at - 1] + program.blocks[at:]
@@ -269,7 +269,7 @@ def move_block(program: Program, at: int, to: int) -> Edited:
 
 
 def delete_block(program: Program, at: int) -> Edited:
-    """Take a block out; the last one left stays."""
+    """Delete a block; the only block cannot be deleted."""
     if refusal := _absent(program, FormPlace(at)):
         return refusal
     if len(program.blocks) == 1:
@@ -278,7 +278,7 @@ def delete_block(program: Program, at: int) -> Edited:
 
 
 def set_tool(program: Program, tool: Tool) -> Edited:
-    """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
+    """Put a tool into the tool table, replacing the one with its number; the table stays sorted by number."""
     if refusal := _misfit(field_of(Form.TOOL, "number"), Number(tool.number), program.unit):
         return refusal
     for name in ("diameter", "speed", "feed", "plunge_feed"):
@@ -289,7 +289,7 @@ def set_tool(program: Program, tool: Tool) -> Edited:
 
 
 def delete_tool(program: Program, number: int) -> Edited:
-    """Take a tool out of the table; blocks that call it then say that it is missing."""
+    """Delete a tool from the table; blocks that call it then report it missing."""
     left = tuple(tool for tool in program.tools if tool.number != number)
     if len(left) == len(program.tools):
         return Refused(f"Tool {number} is not in the tool table.")
@@ -297,7 +297,7 @@ def delete_tool(program: Program, number: int) -> Edited:
 
 
 def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
-    """Put what was typed, or a blank for the default, into a field of PROGRAM PARAMETERS."""
+    """Put a typed value, or a blank for the default, into a field of PROGRAM PARAMETERS."""
     if refusal := _misfit(field_of(Form.PARAMETERS, name), typed, program.unit):
         return refusal
     return replace(program, parameters=changed(program.parameters, {name: typed}))
@@ -309,7 +309,7 @@ def set_path_choice(program: Program, choice: PathChoice) -> Program:
 
 
 def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
-    """Put what was typed into a field of PART SETUP: text for the name, a number or a blank for the others."""
+    """Put a typed value into a field of PART SETUP: text for the name, a number or a blank for the others."""
     field = field_of(Form.SETUP, name)
     if isinstance(value, str):
         if refusal := _not_displayable(field.label, value):
@@ -320,7 +320,7 @@ def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
 
 
 def _not_displayable(label: str, text: str) -> Refused | None:
-    """A text with a character that no screen displays, such as a space that does not break, pasted from elsewhere."""
+    """Refuse a text with a character that no screen displays, such as a pasted non-breaking space."""
     position = next((at for at, character in enumerate(text, 1) if not character.isprintable()), None)
     if position is None:
         return None
@@ -329,10 +329,10 @@ def _not_displayable(label: str, text: str) -> Refused | None:
 
 
 def set_unit(program: Program, unit: Unit) -> Program:
-    """The same part in another unit: every typed length and feed is converted.
+    """Convert a program to another unit: every typed length and feed is converted, the part stays the same.
 
-    A blank parameter stood for the old unit's usual value, which is another one in the new unit: it is written out, so
-    that the same part is cut.  One that comes to the new unit's usual value becomes a blank again.
+    A blank length stands for the old unit's default, which differs in the new unit: it is written out, so that the same
+    part is cut.  A value that equals the new unit's default becomes blank again.
     """
     if program.unit is unit:
         return program
@@ -348,14 +348,14 @@ def set_unit(program: Program, unit: Unit) -> Program:
 
 
 def _converted_defaults(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
-    """A copy converted, its blanks written out first and its usual values blank again."""
+    """Return a converted copy, with blanks written out first and values equal to a default blanked again."""
     there = _converted(_defaults_typed(part, table, old), table, old, new)
     usual = ((field.name, default_value(field.name, new)) for field in table if field.kind is Kind.LENGTH)
     return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Number(value)})
 
 
 def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
-    """A copy whose blank lengths hold the unit's usual values, but for those that are 0 in every unit."""
+    """Return a copy with blank lengths set to the unit's defaults, except those that are 0 in every unit."""
     blank = (field.name for field in table if field.kind is Kind.LENGTH and getattr(part, field.name) is None)
     usual = ((name, default_value(name, unit)) for name in blank)
     return changed(part, {name: Number(value) for name, value in usual if value})
@@ -367,7 +367,7 @@ def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
 
 
 def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
-    """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
+    """Return a copy with lengths and feeds converted; unread text stays, with its reason worded in the new unit."""
     typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
     entries = {
         field.name: type(held)(convert(held.value, old, new))
@@ -395,7 +395,7 @@ def _does_not_exist(thing: str, number: int, count: int) -> Refused:
 
 
 def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
-    """Why a field does not take what was typed."""
+    """Return a refusal if a field does not accept what was typed."""
     if field.kind is Kind.CHOICE:
         return _takes(field)
     if isinstance(typed, Relative) and not field.relative:
@@ -419,7 +419,7 @@ def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
 
 
 def _part(program: Program, where: FormPlace) -> Block | Segment:
-    """START, which is the block, or a segment."""
+    """Return a segment, or the block itself for START."""
     block = program.blocks[where.block - 1]
     return block.segments[where.segment - 1] if where.segment else block
 
@@ -429,7 +429,7 @@ def _field(part: Block | Segment, name: str) -> Field:
 
 
 def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segment:
-    """The part with the field typed; a solution picked among others than now is dropped."""
+    """Put a value into a field; a relative angle clears TANGENT, a new or blanked value clears the picked solution."""
     edited = changed(part, {name: typed})
     if name in ("angle", "start_angle") and isinstance(typed, Relative):
         edited = changed(edited, {"tangent": False})
@@ -440,7 +440,7 @@ def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segme
 
 
 def with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:
-    """The program with this part in its place."""
+    """Return the program with this part replaced."""
     index = where.block - 1
     if not isinstance(part, Block):
         block = program.blocks[index]

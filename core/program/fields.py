@@ -1,7 +1,7 @@
-"""Fields of the screens: label, kind, range, prompt and default of everything that can be typed, and reading it.
+"""This module defines the fields of the screens (label, kind, range, prompt, default) and reads what is typed in them.
 
-One table for the form, the reader of files, and the messages, so that a field has one name everywhere.
-`name` is the attribute of the model and the key of the program file.
+The forms, the file reader and the messages share one table, so that a field has the same name everywhere.
+A field's `name` is its attribute in the model and its key in the program file.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from core.units import Kind, Unit, Unreadable, from_mm, parse, printable
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field: `low` and `high` bound what may be typed (inclusive), None is open.
+    """One field: `low` and `high` are inclusive bounds on what may be typed, None means no bound.
 
-    Lengths and feeds are bounded in millimeters, so that a field takes the same part in both units.
+    Bounds on lengths and feeds are in millimeters, so that a field accepts the same part in both units.
     """
 
     name: str
@@ -46,9 +46,9 @@ class Field:
     high: float | None = None
     choices: tuple[str, ...] = ()
     above: float | None = None
-    """A bound that itself is not allowed, such as 0 for a diameter."""
+    """An exclusive lower bound, such as 0 for a diameter."""
     relative: bool = False
-    """Whether an I before or behind the number makes it relative."""
+    """True if an I before or after the number makes it relative."""
 
 
 class Form(StrEnum):
@@ -65,7 +65,7 @@ class Form(StrEnum):
 
 
 FARTHEST: Final = 254000.0
-"""Largest coordinate and length in millimeters, and feed in millimeters per minute: 10000 in, beyond any machine."""
+"""Largest coordinate or length in millimeters, and feed in millimeters per minute: 10000 in, beyond any machine."""
 
 FASTEST: Final = 100000
 """Largest SPEED in revolutions per minute."""
@@ -248,16 +248,16 @@ SOLUTION: Final = Field(
     Kind.CHOICE,
     "Space shows the next solution; the others are dotted in the drawing.",
 )
-"""Which solution a LINE, an ARC or a run of them takes; a screen shows it only where there is a choice."""
+"""The solution that a LINE, an ARC or a run of them takes; a screen shows this field only if there is a choice."""
 
 MAX_CHOICE: Final = (1 << 24) - 1
-"""The largest number of a solution in a program file."""
+"""The largest solution number in a program file."""
 
 PICK: Final = (
     _place("pick_x", "PICK X", "X of a point near the end of the run's first segment, as on the drawing."),
     _place("pick_y", "PICK Y", "Y of a point near the end of the run's first segment, as on the drawing."),
 )
-"""Where the operator points to on the drawing, on the first segment of a run; no fields of its form."""
+"""The point the operator picks on the drawing, stored on a run's first segment; not fields of its form."""
 
 TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
@@ -275,7 +275,7 @@ TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
 STORED: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {form: (*table, *PICK) if form in (Form.LINE, Form.ARC) else table for form, table in TABLES.items()}
 )
-"""All that is typed of each screen: its fields, and the pick."""
+"""Everything that is stored for each screen: its fields, and the pick of a LINE or an ARC."""
 
 NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     {
@@ -283,7 +283,7 @@ NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
         for form, table in STORED.items()
     }
 )
-"""Whatever takes a number on each screen."""
+"""The fields of each screen that take a number."""
 
 _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
     {(form, field.name): field for form, table in STORED.items() for field in table}
@@ -292,7 +292,7 @@ _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
 
 
 def form_of(segment: Segment) -> Form:
-    """The screen on which a segment is typed."""
+    """Return the screen on which a segment is typed."""
     match segment:
         case LineSegment():
             return Form.LINE
@@ -307,12 +307,12 @@ def form_of(segment: Segment) -> Form:
 
 
 def field_of(form: Form, name: str) -> Field:
-    """The field `name` of a screen; KeyError if there is none of that name."""
+    """Return the field `name` of a screen; raise KeyError if it has no such field."""
     return _BY_NAME[form, name]
 
 
 def value_refusal(field: Field, value: float, unit: Unit) -> str | None:
-    """The sentence that refuses a value, in program units, that a field does not take, None for one it takes."""
+    """Return the sentence that refuses a value (in program units), None if the field accepts it."""
     whole = field.kind is Kind.COUNT
     low, high = bounds(field, unit)
     fits = isfinite(value) and (not whole or value == int(value))
@@ -323,7 +323,7 @@ def value_refusal(field: Field, value: float, unit: Unit) -> str | None:
 
 
 def bounds(field: Field, unit: Unit) -> tuple[float | None, float | None]:
-    """The least and the largest value a field takes, in program units."""
+    """Return the smallest and the largest value a field accepts, in program units."""
     low, high = field.low, field.high
     if unit is Unit.MM or field.kind not in (Kind.LENGTH, Kind.FEED):
         return low, high
@@ -331,7 +331,7 @@ def bounds(field: Field, unit: Unit) -> tuple[float | None, float | None]:
 
 
 def range_of(field: Field, unit: Unit) -> str:
-    """What a field takes, such as `from 1 to 20`; empty where everything goes."""
+    """Describe the range of a field, such as `from 1 to 20`; return an empty string if it is unbounded."""
     low, high = bounds(field, unit)
     if field.above is not None:
         return f"above {field.above:g}" + ("" if high is None else f", at most {_plain(high)}")
@@ -360,17 +360,17 @@ _DEFAULTS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
 
 
 def default_value(name: str, unit: Unit) -> float | None:
-    """What a blank on PROGRAM PARAMETERS or PART SETUP stands for, in program units; None if it stands for nothing."""
+    """Return the default for a blank on PROGRAM PARAMETERS or PART SETUP, in program units; None if it has none."""
     inch, millimeter = _DEFAULTS.get(name, (None, None))
     return inch if unit is Unit.IN else millimeter
 
 
 TYPE_AGAIN: Final = "Type it again."
-"""What is said of a text that was refused once and could be read now."""
+"""The message for a text that was refused before but could be read now."""
 
 
 def read_typed(text: str, field: Field, unit: Unit) -> Typed:
-    """A blank, an entry, or a text that cannot be read or is a number the field does not take, which is kept."""
+    """Return what was typed: None for a blank, a number, or Unread text that is unreadable or out of range."""
     if not text.strip():
         return None
     number, relative = split_relative(text, field)
@@ -384,7 +384,7 @@ def read_typed(text: str, field: Field, unit: Unit) -> Typed:
 
 
 def split_relative(text: str, field: Field) -> tuple[str, bool]:
-    """A text without the I before or behind its number, and whether there is one that makes it relative."""
+    """Strip the I before or after a number; return the text and True if there was an I that makes it relative."""
     bare = text.strip()
     if field.relative and len(bare) > 1:
         if bare[0] in "Ii" and not bare[1].isalpha():
@@ -395,14 +395,14 @@ def split_relative(text: str, field: Field) -> tuple[str, bool]:
 
 
 def text_refusal(text: str, field: Field, unit: Unit) -> str | None:
-    """The sentence about a text that is a number, and none the field takes; None for any other text."""
+    """Return the sentence that refuses a readable number outside the field's range; None for any other text."""
     value = parse(split_relative(text, field)[0], field.kind, unit)
     refusal = None if isinstance(value, Unreadable) else value_refusal(field, value, unit)
     return None if refusal is None else f"{refusal.removesuffix('.')}, not {printable(text)}."
 
 
 def unread_reason(text: str, field: Field, unit: Unit) -> str:
-    """Why a text stays as it was typed; what the field would take by now waits to be typed again."""
+    """Return why a text stays unread; a text that the field would now accept must be typed again."""
     value = parse(split_relative(text, field)[0], field.kind, unit)
     if isinstance(value, Unreadable):
         return value.reason
@@ -410,6 +410,6 @@ def unread_reason(text: str, field: Field, unit: Unit) -> str:
 
 
 def unread_sentence(unread: Unread) -> str:
-    """What is said of a text that cannot be read: the reason, which quotes it."""
+    """Return the sentence about an unread text: its reason, preceded by the text unless the reason quotes it."""
     typed = printable(unread.text)
     return unread.reason if typed in unread.reason else f"{typed} cannot be read. {unread.reason}"

@@ -1,7 +1,7 @@
-"""The text of a program file as a Program, strictly: an unknown key or a wrong type is refused by line and key.
+"""This module reads the text of a program file strictly: it refuses an unknown key or a wrong type by line and key.
 
-Numbers out of a field's range are kept, for the form to show and to refuse posting; a look-ahead out of its
-range is refused, since the form never holds one.
+Numbers outside a field's range are kept: the form shows them and they block posting.  A look-ahead outside its range
+is refused, since the form never holds one.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ from core.tolerance import LARGEST
 from core.units import Kind, Unit, printable, to_mm
 
 _BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
-"""A number that a file can hold without quotes."""
+"""A number that needs no quotes in a file."""
 
 
 class StoreError(Exception):
-    """A program file that cannot be read or written; `text` says which, where, and what to do."""
+    """A program file cannot be read or written; `text` says which file, where, and what to do."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -64,17 +64,17 @@ class StoreError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """One table of the file with the way to it."""
+    """One table of the file, with its path."""
 
     file: str
     lines: Callable[[], Mapping[KeyPath, int]]
-    """Made for the first fault: a file without one needs no lines."""
+    """Called at the first fault: a file without faults needs no line numbers."""
     path: KeyPath
     data: Mapping[str, Any]
     unit: Unit
 
     def fault(self, key: str | None, text: str) -> StoreError:
-        """An error at a key, or at the table itself."""
+        """Return an error at a key, or at the table itself."""
         line = line_of(self.lines(), self.path if key is None else (*self.path, key))
         return StoreError(f"{self.file}, line {line}: {text}")
 
@@ -91,12 +91,12 @@ class _Table:
                 raise self.fault(key, f"{printable(key)} is not a key of {self.title()}: {hint}")
 
     def title(self) -> str:
-        """What this table is, for a message."""
+        """Name this table for a message."""
         names = [part for part in self.path if isinstance(part, str)]
         return f"[{'.'.join(names)}]" if names else "the program"
 
     def text(self, key: str) -> str:
-        """A text; an error if it is absent or something else."""
+        """Return a text; raise an error if it is missing or is not printable text."""
         value = self.data.get(key)
         if isinstance(value, str) and value.isprintable():
             return value
@@ -104,7 +104,7 @@ class _Table:
         raise self.fault(key, f"{key} {what}.")
 
     def chosen(self, key: str, choices: type[Choice]) -> Choice:
-        """One of the words of an Enum."""
+        """Return one of the choices of an Enum; raise an error for any other value."""
         words = [choice.value for choice in choices]
         value = self.data.get(key)
         if not isinstance(value, str) or value not in words:
@@ -113,7 +113,7 @@ class _Table:
         return choices(value)
 
     def number(self, key: str, field: Field) -> float:
-        """A number a field can hold."""
+        """Return a number; raise an error if the field cannot hold it."""
         value = self.data[key]
         if isinstance(value, str):
             mended = ": take the quotes away" if _BARE.fullmatch(value) else ""
@@ -127,14 +127,14 @@ class _Table:
         return float(value)
 
     def table(self, key: str) -> _Table:
-        """A table in this one, empty if it is absent."""
+        """Return a table inside this one, empty if it is absent."""
         value = self.data.get(key, {})
         if not isinstance(value, dict):
             raise self.fault(key, f"{key} must be a table, [{key}].")
         return _Table(self.file, self.lines, (*self.path, key), value, self.unit)
 
     def array(self, key: str) -> Iterator[_Table]:
-        """The tables of an array in this one, none if it is absent."""
+        """Yield the tables of an array inside this one, none if it is absent."""
         value = self.data.get(key, [])
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
             raise self.fault(key, f"{key} must be tables, each headed [[{key}]].")
@@ -143,7 +143,7 @@ class _Table:
 
 
 def _written(value: object) -> str:
-    """A value as a file has it."""
+    """Format a value as it appears in a file."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, list):
@@ -152,7 +152,7 @@ def _written(value: object) -> str:
 
 
 def _beyond(value: float, field: Field, unit: Unit) -> bool:
-    """Whether a number is larger than any machine could have, in either unit."""
+    """True if a number is larger than any machine could have, in program units or in millimeters."""
     if not abs(value) <= LARGEST:
         return True
     return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
@@ -162,7 +162,7 @@ Choice = TypeVar("Choice", bound=StrEnum)
 
 
 def loads(text: str, file: str) -> Program:
-    """The program of a file's text; StoreError names `file`, line and key."""
+    """Return the program in a file's text; StoreError names `file`, line and key."""
     top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
     if "format" not in top.data:
         raise top.fault(
@@ -184,7 +184,7 @@ def loads(text: str, file: str) -> Program:
 
 
 def loads_bytes(data: bytes, file: str) -> Program:
-    """The program of a file's bytes; StoreError names `file`, line and key."""
+    """Return the program in a file's bytes; StoreError names `file`, line and key."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -208,7 +208,7 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
-    """The typed numbers of a form by name: entries out of the table, texts out of its `unread` table."""
+    """Return the typed numbers of a form by name: numbers from the table, texts from its `unread` table."""
     fields = NUMBER_FIELDS[form]
     typed: dict[str, Typed] = {
         field.name: Number(table.number(field.name, field)) for field in fields if field.name in table.data
@@ -218,7 +218,7 @@ def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
 
 
 def _relative_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
-    """The relative numbers of a form by name."""
+    """Return the relative numbers of a form by name."""
     relative: dict[str, Typed] = {}
     for field in fields:
         key = field.name + RELATIVE
@@ -240,7 +240,7 @@ def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed
 
 
 def _unread(table: _Table, field: Field) -> Unread:
-    """Text as it was typed, with the reason found again; text that could be read now waits to be typed again."""
+    """Return unread text with its reason derived again; a text that could be read now must be typed again."""
     text = table.data[field.name]
     if not isinstance(text, str) or not text.strip():
         raise table.fault(field.name, f"{field.name} must be the text that was typed, in quotes.")
@@ -336,7 +336,7 @@ def _choice(table: _Table) -> int | None:
 
 
 def _tangent(table: _Table) -> bool:
-    """TANGENT, which is NO where it is absent; the angle to the segment before is then not typed as well."""
+    """Return TANGENT, which is NO if absent; raise an error if the angle to the segment before is also typed."""
     value = table.data.get("tangent", False)
     if not isinstance(value, bool):
         raise table.fault("tangent", f"tangent cannot be {_written(value)}: write true or false.")

@@ -1,12 +1,12 @@
-"""An ARC from its own fields and its start.
+"""This module solves an ARC from its own fields and its start.
 
-SWEEP ANGLE is the angle turned through in the arc's DIRECTION, always positive.  Order of two solutions: by SWEEP
-ANGLE, the shorter arc first.
+SWEEP ANGLE is the angle the arc turns through in its DIRECTION, always positive.  If two solutions fit, the arc with
+the smaller SWEEP ANGLE comes first; if both have the typed one, the greater coordinate that was not typed.
 
-The full circle is an arc about a typed center whose end is typed as its start (`is_start`).  An end that only comes
-within 0.0001 in (0.00254 mm) of the start may be that of the full circle or of an arc of a few millionths: SWEEP ANGLE
-decides, and without it the arc is not determined.  Where the center has to be found from such an end, the rounding of
-the end would decide where it lies: it must be typed.
+A full circle is an arc about a typed center whose end is typed as its start (`is_start`).  An end that only comes
+within 0.0001 in (0.00254 mm) of the start may belong to a full circle or to an arc a few micrometers long: SWEEP ANGLE
+decides, and without it the arc is not determined.  A center calculated from such an end would depend on how the end
+is rounded, so the center must be typed.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ _END: Final = ("x_end", "y_end")
 _CENTER: Final = ("x_center", "y_center")
 
 DOUBTFUL: Final = 10.0 * CLOSED
-"""An arc whose end is no farther from its start than this may be a full circle that was typed with too few digits."""
+"""An arc whose end is within this distance of its start may be a full circle typed with too few digits."""
 
 ADJUSTED: Final = 5e-6
-"""Millimeters by which an arc's numbers may differ unmentioned: half of the last digit that is posted."""
+"""Millimeters by which an arc's numbers may disagree without a message: half of the last posted digit."""
 
 MAX_ANGLE_DECIMALS: Final = 12
-"""Decimals that a field of an angle takes."""
+"""Decimals that an angle field accepts."""
 
 ArcSolver = Callable[[Turn, Given], Outcome | None]
 
 
 def is_start(value: float, start: float, start_typed: float | None, unit: Unit) -> bool:
-    """Whether a coordinate of an end, typed as `value`, is typed as that of the start.
+    """True if a coordinate of an end, typed as `value`, is typed as the same coordinate of the start.
 
-    Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None, or what was
-    typed is not where the segment before ends), its own value, `start` in millimeters, decides: it must read like the
-    end in every digit that is typed, at least in those that a form shows.  It may do so in either unit, so that a
-    change of units leaves every part as it was.  Points too near to be distinguished are the same in any
-    case.
+    Both are compared as typed, in program units.  If the start is calculated (`start_typed` is None, or the typed value
+    is not where the segment before ends), its calculated value, `start` in millimeters, is compared: rounded to the
+    digits that are typed, and at least to those that a form shows, it must equal the end.  Agreement in either unit
+    is enough, so that a change of units leaves every part as it was.  Points too close to be distinguished are always
+    the same.
     """
     if abs(to_mm(value, unit) - start) <= JOINED or value == start_typed:
         return True
@@ -64,7 +64,7 @@ def _reads_like(value: float, start: float, unit: Unit) -> bool:
 
 
 def _comes_back(start: Point, end: Point) -> bool:
-    """Whether an end is so near to the start, in X and in Y, that it may be the start."""
+    """True if an end is close enough to the start, in X and in Y, that it may be the start."""
     return max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED
 
 
@@ -105,7 +105,7 @@ def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
 
 
 def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
-    """The arcs about a typed center to each of the ends; SWEEP ANGLE decides what one close to the start is."""
+    """Return the arcs about a typed center to each end; SWEEP ANGLE decides what an end close to the start means."""
     start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
     close = [end for end in ends if _comes_back(start, end)]
     arcs = [construct.even_arc(start, end, center, turn) for end in close]
@@ -121,7 +121,7 @@ def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
 
 
 def _swept_back(full: Arc, given: Given) -> Arc:
-    """The arc whose end is typed as its start: as far as SWEEP ANGLE turns if that ends there too, else fully."""
+    """Return the arc whose end is typed as its start: turned by SWEEP ANGLE if that also ends there, else `full`."""
     if "sweep" in given.known:
         turned = _turned(full.turn, full.start, full.center, given.known["sweep"])
         if _comes_back(full.start, turned.end):
@@ -130,7 +130,7 @@ def _swept_back(full: Arc, given: Given) -> Arc:
 
 
 def _question(gap: float, arcs: list[Arc], others: list[Arc], given: Given) -> Outcome:
-    """What is asked where an end may be the start, `gap` from it; the answer is typed on SWEEP ANGLE."""
+    """Ask what an end means that is only `gap` from the start; the operator answers with SWEEP ANGLE."""
     names = {arc: "short arc" if abs(arc.sweep) < tau / 2.0 else "arc to that end" for arc in arcs}
     names = {arc: name for arc, name in names.items() if arc.end != arc.start}
     names |= dict.fromkeys(others, "arc to the other end")
@@ -144,7 +144,7 @@ def _question(gap: float, arcs: list[Arc], others: list[Arc], given: Given) -> O
 
 
 def _angle_to_type(sweep: float) -> str:
-    """An angle in degrees with as many decimals as tell it from nothing and from the full circle."""
+    """Format an angle in degrees with enough decimals to distinguish it from 0 and from 360."""
     angle = degrees(sweep)
     rest = min(angle, 360.0 - angle)
     enough = (count for count in range(3, MAX_ANGLE_DECIMALS) if abs(round(angle, count) - angle) <= rest / 20.0)
@@ -159,7 +159,7 @@ def _center_and_sweep(turn: Turn, given: Given) -> Outcome:
 
 
 def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
-    """The arc that turns by `sweep` about `center`; a full turn, as far as anything shows, ends on the very start."""
+    """Return the arc that turns by `sweep` about `center`; a full turn within tolerance ends exactly at the start."""
     if tau - sweep <= AGREES and (tau - sweep) * dist(start, center) <= CLOSED:
         return Arc(start, start, center, turn)
     return Arc(start, construct.rotated(start, center, turn * sweep), center, turn)
@@ -183,7 +183,7 @@ def _end_and_sweep(turn: Turn, given: Given) -> Outcome | None:
 
 
 def _by_sweep(turn: Turn, given: Given, *ends: Point) -> Outcome | None:
-    """The arcs that turn by SWEEP ANGLE to each of the ends."""
+    """Return the arcs that turn by SWEEP ANGLE to each of the ends."""
     centers = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], turn)) for end in ends]
     arcs = tuple(Arc(given.start, end, center.point, turn) for end, center in centers if isinstance(center, OnePoint))
     return Outcome(arcs) if arcs else None
@@ -200,7 +200,7 @@ def _end_and_center_coordinate(axis: int, turn: Turn, given: Given) -> Outcome |
 
 
 def _radius_sweep_center(axis: int, turn: Turn, given: Given) -> Outcome:
-    """RADIUS, SWEEP ANGLE and one coordinate of the center: its other coordinate greater first."""
+    """Solve RADIUS, SWEEP ANGLE and one center coordinate: the center with the greater other coordinate first."""
     radius, value = given.known["radius"], given.known[_CENTER[axis]]
     centers = construct.on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
@@ -210,7 +210,7 @@ def _radius_sweep_center(axis: int, turn: Turn, given: Given) -> Outcome:
 
 
 def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
-    """RADIUS, SWEEP ANGLE and one coordinate of the end: its other coordinate greater first."""
+    """Solve RADIUS, SWEEP ANGLE and one end coordinate: the end with the greater other coordinate first."""
     chord = given.known["radius"] * construct.chord_factor(given.known["sweep"])
     if chord <= CLOSED:
         return None
@@ -222,7 +222,7 @@ def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
 
 
 def _turns(arc: Arc, sweep: float) -> bool:
-    """Whether SWEEP ANGLE agrees with an arc."""
+    """True if SWEEP ANGLE agrees with an arc."""
     off = abs(abs(arc.sweep) - sweep)
     return off <= AGREES or off * arc.radius <= ARC_RADII
 
@@ -245,7 +245,7 @@ def _labels(names: tuple[str, ...]) -> str:
 
 
 def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:
-    """What is missing of the center of an arc that ends at its start, and the advice; None for another end."""
+    """Return the blank center fields of an arc that ends at its start, with advice; None for any other end."""
     known = given.known
     end = known.get("x_end", given.start[0]), known.get("y_end", given.start[1])
     blank = tuple(name for name in _CENTER if name not in known)
@@ -256,7 +256,7 @@ def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:
 
 
 def circle_finding(arc: Arc, given: Given) -> Finding | None:
-    """What is said of an arc that ends at its start or close to it; None where it is typed as it is."""
+    """Return a finding on an arc that ends at or near its start, None if there is nothing to report."""
     if arc.start == arc.end:
         return _full_circle_finding(given)
     gap = dist(arc.start, arc.end)
@@ -268,7 +268,7 @@ def circle_finding(arc: Arc, given: Given) -> Finding | None:
 
 
 def _full_circle_finding(given: Given) -> Finding | None:
-    """Says that the numbers typed make the full circle though they are not exactly those of one."""
+    """Report that the typed numbers make the full circle although they do not match it exactly."""
     known, (x, y) = given.known, given.start
     sweep, gap = known.get("sweep"), dist(given.start, (known.get("x_end", x), known.get("y_end", y)))
     if sweep is not None and sweep != tau:
@@ -287,7 +287,7 @@ def _full_circle_finding(given: Given) -> Finding | None:
 
 
 def adjustment(arc: Arc, given: Given) -> Finding | None:
-    """Says that an arc is fitted to typed numbers that are not exactly those of one arc; `value` is the difference."""
+    """Report that an arc is fitted to typed numbers that do not match exactly; `value` is the difference."""
     known = given.known
     if not given.back and arc.start != arc.end:
         center = known.get("x_center", arc.center[0]), known.get("y_center", arc.center[1])
@@ -338,6 +338,6 @@ ARC_TASKS: Final = {Direction.CW: _task(Turn.CW), Direction.CCW: _task(Turn.CCW)
 
 
 def arc_sketch(start: Point, known: Known) -> Line | None:
-    """What to draw dashed of an arc that is not determined: the chord to its end, or to what is typed of it."""
+    """Return the chord to draw dashed for an undetermined arc, to as much of its end as is typed."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     return None if end == start else Line(start, end)

@@ -1,6 +1,6 @@
 """A branch of a run's solution holds what is known of each element and joint, and derives what needs no choice.
 
-Joint k lies before element k; joint 0 is the run's start.  Each value is None until known, and never changes after that.
+Joint k lies before element k; joint 0 is the run's start.  Each value is None until known, and never changes later.
 If a value can be derived in two ways, `proof` checks at the end that they agree, by walking the chain.
 
 An anchor is a known point A to which a joint P is tied rigidly: P = A + u t + v n, where t and n are the direction and
