@@ -1,11 +1,11 @@
-"""A block solved: START read, and every blank of its segments calculated that the typed fields determine.
+"""This module solves a block: it reads START and calculates every blank field that the typed fields determine.
 
-A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as `Solved`,
-together with those of the segments after it where they need each other (`stretch`).  Z END and FEED carry over from the
-segment before, on the first from Z BOTTOM and the tool's FEED, else PLUNGE FEED.  A LINE on which X END or Y END is all
-that is typed of its shape keeps the other coordinate; no other blank X END or Y END carries over: the line or arc then
-is not determined, and says what is missing.  Where two solutions fit, `line` and `arc` document their order, and the
-segment's `choice` picks.
+A segment starts where the one before it ends.  Its blank fields are calculated as `Solved`, together with those of
+later segments where they depend on each other (`stretch`).  Z END and FEED carry over from the segment before; those of
+the first segment come from Z BOTTOM and the tool's FEED, else PLUNGE FEED.  A LINE whose only typed shape field is
+X END or Y END keeps the other coordinate.  No other blank X END or Y END carries over: the line or arc is then
+undetermined, and a finding says what is missing.  If two solutions fit, the segment's `choice` picks one, in the order
+that `line` and `arc` document.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ from core.tolerance import CLOSED
 from core.units import Unit
 
 NEEDED: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
-"""The fields of START that must be typed."""
+"""The fields of START that must be typed, or proposed by TOOL SETUP."""
 
 FINISH_VALUES: Final = ("speed", "feed", "plunge_feed", "coolant")
-"""What TOOL SETUP keeps for a tool; a block has one of each for both of its tools."""
+"""The values that TOOL SETUP keeps for a tool; a block uses the same ones for both of its tools."""
 
 ZERO_IF_BLANK: Final = ("finish_tool", "peck_depth")
-"""The fields of START whose blank means 0: no finish tool, full depth in one pass."""
+"""The fields of START in which a blank means 0: no finish tool, full depth in one pass."""
 
 
 def solve_block(block: Block, program: Program) -> SolvedBlock:
-    """The block with its blanks calculated; trouble is in its findings, never raised."""
+    """Return the block with its blanks calculated; problems become findings and are never raised."""
     start = _start(block, program)
     drafts, runs = _drafts(block, program.unit, start)
     segments = _segments(block, drafts)
@@ -68,7 +68,7 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
 
 
 def _closed(segments: Sequence[SolvedSegment]) -> bool:
-    """Whether the last programmed end is START again; a contour without any length is not closed."""
+    """True if the last programmed end is back at START; a contour without length is not closed."""
     if not any(segment.piece for segment in segments):
         return False
     first, last = segments[0].start, segments[-1].end
@@ -76,7 +76,7 @@ def _closed(segments: Sequence[SolvedSegment]) -> bool:
 
 
 def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple[SolvedRun, ...]]:
-    """Every segment solved, by itself or together with others, each from where the one before it ends."""
+    """Solve every segment, by itself or in a run, each from the end of the one before it; return drafts and runs."""
     typed = typed_point(start.values, ("x_start", "y_start"))
     feed, origin = start.feed
     carried = Carried(start.point, typed, start.known.get("z_bottom"), feed, feed_origin=origin)
@@ -97,19 +97,19 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
 
 
 def _with_faults(item: Draft, faults: tuple[Finding, ...]) -> Draft:
-    """A draft with what is wrong with how its segment names others."""
+    """Add the faults in its segment's references to other segments to a draft."""
     return replace(item, result=replace(item.result, findings=(*faults, *item.result.findings))) if faults else item
 
 
 def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
-    """Every segment, blends and chamfers put in."""
+    """Return every segment, with blends and chamfers inserted."""
     corners = _corners(block, drafts)
     adjusted = _adjustment(drafts)
     return tuple(_segment(index, draft, corners, adjusted.get(index)) for index, draft in enumerate(drafts))
 
 
 def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
-    """The surface with its blends and chamfers."""
+    """Insert the blends and chamfers into the surface."""
     corners = [index for index, segment in enumerate(block.segments) if isinstance(segment, CornerSegment)]
     sizes = {
         index: known[name]
@@ -122,7 +122,7 @@ def _corners(block: Block, drafts: Sequence[Draft]) -> Corners:
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
-    """That arcs were fitted to their numbers: once, by index of the segment whose numbers differ most."""
+    """Report once that arcs were fitted to their numbers, at the index of the segment that differs most."""
     adjusted = {index: finding for index, item in enumerate(drafts) if (finding := item.result.adjustment) is not None}
     if not adjusted:
         return {}
@@ -155,7 +155,7 @@ def _segment(index: int, draft: Draft, corners: Corners, adjusted: Finding | Non
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """START in millimeters, with its values as the form shows them."""
+    """START in millimeters, with the values that the form shows."""
 
     values: dict[str, Value]
     point: Point | None
@@ -164,12 +164,12 @@ class _Start:
     finish: CalledTool
     findings: tuple[Finding, ...]
     feed: tuple[float | None, Origin]
-    """The feed of segments before the first that has one typed, and where it comes from."""
+    """The feed of the segments before the first typed FEED, and its origin."""
     coolant: tuple[Coolant, Origin | None]
 
 
 def _start(block: Block, program: Program) -> _Start:
-    """START of a block as typed."""
+    """Read START of a block, with blanks filled by defaults and TOOL SETUP."""
     reading = read_form(Form.START, block, program.unit, 0)
     severity = Severity.WARNING if block.cutter_comp is CutterComp.ON else Severity.ERROR
     tool = called_tool(program, block.tool, "tool", severity)
@@ -179,7 +179,7 @@ def _start(block: Block, program: Program) -> _Start:
     proposed = _propose(reading, block, program)
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
-    # what was typed and is wrong comes before what is still to be typed: few of them are seen at once
+    # wrong entries come before missing ones: only a few findings are visible at once
     tools = (*tool.findings, *finish.findings, *_finish_values(block, program))
     trouble = (*tools, *_depths(known), *_missing(reading), *_empty(block))
     feed = (known.get("plunge_feed"), Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
@@ -188,7 +188,7 @@ def _start(block: Block, program: Program) -> _Start:
 
 
 def _propose(reading: Reading, block: Block, program: Program) -> float | None:
-    """Fill blanks of START with what the tool table proposes; returns the feed it proposes (mm/min)."""
+    """Fill blanks of START with the tool table's proposals; return the feed it proposes (mm/min), if any."""
     tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
     if tool is None:
         return None
@@ -211,7 +211,7 @@ def _coolant(block: Block, program: Program) -> tuple[Coolant, Origin | None]:
 
 
 def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
-    """Says that the finish tool cuts with the block's speed, feeds and coolant where TOOL SETUP has others for it."""
+    """Warn if TOOL SETUP has other speed, feeds or coolant for the finish tool than the block, which it cuts with."""
     called = [typed.value for typed in (block.tool, block.finish_tool) if isinstance(typed, Number)]
     if len(called) < 2 or called[1] in (0.0, called[0]):
         return ()

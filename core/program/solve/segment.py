@@ -1,4 +1,4 @@
-"""One segment solved by itself, before blending: its piece of the surface, and what it hands on."""
+"""This module solves one segment by itself, before blending: its piece of the surface, and what it passes on."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _ENDS: Final = ("x_end", "y_end")
 
 @dataclass(frozen=True, slots=True)
 class SegmentResult:
-    """What solving one segment gives: its piece, what is missing, or the answers to choose from."""
+    """The result for one segment: its piece, the missing fields, or the solutions to choose from."""
 
     piece: Piece | None = None
     end: Point | None = None
@@ -32,16 +32,16 @@ class SegmentResult:
     sketch: Piece | None = None
     findings: tuple[Finding, ...] = ()
     adjustment: Finding | None = None
-    """Says that an arc was fitted to its numbers; a contour says it once."""
+    """Reports that an arc was fitted to its numbers; a contour reports this once."""
 
 
 @dataclass(frozen=True, slots=True)
 class Carried:
-    """What a segment takes over from the one before it: its end, Z and feed, None while not known."""
+    """What a segment takes over from the one before it: its end, Z and feed; None if not known."""
 
     point: Point | None
     typed: tuple[float | None, float | None]
-    """X and Y of the end as typed, in program units; None where they are calculated."""
+    """X and Y of the end as typed, in program units; None for a calculated one."""
     z: float | None
     feed: float | None
     heading: float | None = None
@@ -51,7 +51,7 @@ class Carried:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """A segment solved by itself, before blending, with what it takes over and what it hands on."""
+    """A solved segment before blending, with what it takes over and what it passes on."""
 
     reading: Reading
     result: SegmentResult
@@ -60,19 +60,19 @@ class Draft:
 
 
 def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float | None, float | None]:
-    """X and Y of a point as typed, in program units; None where they are not typed."""
+    """Return X and Y of a point as typed, in program units; None for one that is not typed as a plain number."""
     x, y = values.get(names[0]), values.get(names[1])
     return x.value if isinstance(x, Number) else None, y.value if isinstance(y, Number) else None
 
 
 def draft(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Draft:
-    """A segment that begins where the one before it ends, solved from its own fields."""
+    """Solve a segment, which starts at the end of the one before it, from its own fields."""
     _keep_coordinate(segment, reading, before, unit)
     return drafted(segment, reading, before, _result(segment, reading, before, unit), unit)
 
 
 def drafted(segment: Segment, reading: Reading, before: Carried, result: SegmentResult, unit: Unit) -> Draft:
-    """A segment with its result, which takes over Z and feed where its own are blank, and what it hands on."""
+    """Return the draft of a segment with this result; blank Z and feed are taken over from the segment before."""
     known = reading.known
     origin = Origin.CALCULATED if "feed" in known else before.feed_origin
     z, feed = known.get("z_end", before.z), known.get("feed", before.feed)
@@ -80,19 +80,19 @@ def drafted(segment: Segment, reading: Reading, before: Carried, result: Segment
     if isinstance(segment, CornerSegment):
         return Draft(reading, result, before, Carried(result.end, before.typed, z, feed, before.heading, origin))
     reading.fill("z_end", None if z is None else from_mm(z, unit))
-    # later segments start at an end that is typed, whether or not this one is determined
+    # later segments start at a typed end even if this segment is not determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
     typed = typed_point(reading.values, _ENDS)
     kept = axis_kept_from(before.point, segment, reading)
     if kept is not None:
-        # the same number as typed before it
+        # the kept coordinate is the number typed for the segment before
         typed = (before.typed[0], typed[1]) if kept == 0 else (typed[0], before.typed[1])
     heading = None if result.piece is None else heading_at(result.piece, result.piece.end)
     return Draft(reading, result, before, Carried(result.end or typed_end, typed, z, feed, heading, origin))
 
 
 def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
-    """What is typed of a segment's own shape; coordinates relative to its known start are put in absolutely."""
+    """Return a segment's typed shape data, with coordinates relative to its known start made absolute."""
     known = {name: value for name, value in reading.known.items() if name in task.shape}
     for name, axis in (("x_end", 0), ("y_end", 1), ("x_center", 0), ("y_center", 1)):
         if name + "_inc" in reading.known:
@@ -101,7 +101,7 @@ def own_data(task: Task, reading: Reading, start: Point) -> dict[str, float]:
 
 
 def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> int | None:
-    """The axis (0 is X) on which a LINE from a start stays; None where it would be no longer than a point."""
+    """Return the axis (0 is X) whose coordinate a LINE keeps; None if it keeps none or would have no length."""
     axis = kept_axis(segment) if isinstance(segment, LineSegment) else None
     if axis is None or start is None:
         return axis
@@ -111,7 +111,7 @@ def axis_kept_from(start: Point | None, segment: Segment, reading: Reading) -> i
 
 
 def _keep_coordinate(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> None:
-    """Take the other coordinate of a LINE on which one end coordinate alone is typed from the segment before."""
+    """Fill the other end coordinate of a LINE with only one typed, from the segment before."""
     axis = axis_kept_from(before.point, segment, reading)
     names = (_ENDS[1 - axis], _ENDS[1 - axis] + "_inc") if axis is not None else ()
     if axis is not None and before.point is not None and any(name in reading.known for name in names):
@@ -138,7 +138,7 @@ def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> 
 
 
 def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, float | None], unit: Unit) -> bool:
-    """Whether the end of an arc, as far as it is typed, is typed as its start."""
+    """True if each typed end coordinate of an arc is typed as that of its start."""
     end = typed_point(reading.values, _ENDS)
     return all(
         value is None or is_start(value, here, here_typed, unit)
@@ -155,7 +155,7 @@ def _corner(segment: CornerSegment, reading: Reading, corner: Point | None) -> S
 
 
 def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> SegmentResult:
-    """A line or an arc: one solution, the picked one, or none with the reason."""
+    """Solve a line or an arc: return its only solution, the picked one, or none with the reason."""
     outcome = solve(task, given)
     pieces = outcome.pieces
     if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
@@ -175,7 +175,7 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
 
 
 def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> SegmentResult:
-    """A determined line or arc, with what is to be said of an arc's numbers."""
+    """Return the result of a determined line or arc, with findings on an arc's numbers."""
     if isinstance(piece, Line):
         return SegmentResult(piece, piece.end, choices=choices)
     finding = circle_finding(piece, given)
@@ -184,7 +184,7 @@ def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> SegmentRes
 
 
 def _too_far(piece: Piece) -> bool:
-    """Whether a piece ends beyond any machine, or its center leaves the numbers that are still exact."""
+    """True if a piece ends beyond any machine's travel, or its center is too far away for exact numbers."""
     x, y = piece.end
     if abs(x) > FARTHEST or abs(y) > FARTHEST:
         return True
@@ -192,7 +192,7 @@ def _too_far(piece: Piece) -> bool:
 
 
 def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> SegmentResult:
-    """Nothing fits yet; what is missing is not said while a typed field of the shape is itself at fault."""
+    """Return the result if nothing fits; missing data are not reported while a typed shape field has a fault."""
     faulty = any(finding.field in task.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
     sketch = line_sketch if task is LINE_TASK else arc_sketch
@@ -201,7 +201,7 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
 
 
 def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
-    """Fill the blanks of a determined line or arc."""
+    """Fill the blank fields of a determined line or arc."""
     reading.fill("x_end", from_mm(piece.end[0], unit))
     reading.fill("y_end", from_mm(piece.end[1], unit))
     if isinstance(piece, Line):

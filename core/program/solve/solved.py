@@ -1,7 +1,7 @@
-"""A block with its blanks calculated: what `core.program.solve.block` yields.
+"""This module defines a block with its blanks calculated, as `core.program.solve.block` returns it.
 
-`Solved` is a calculated number and never a `Number`: the form shows it with the tag CAL and no edit turns
-it into something typed.  Needs no numpy.
+A `Solved` is a number that was not typed and never a `Number`: the form shows it with the tag of its origin, such as
+CAL, and no edit turns it into a typed one.  This module needs no numpy.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from core.program.model import Coolant, Number, Relative, Unread
 
 
 class Origin(StrEnum):
-    """Where a number that was not typed comes from; the form shows it as the field's tag."""
+    """The source of a number that was not typed; the form shows it as the field's tag."""
 
     CALCULATED = "CAL"
     SAME = "SAME"
-    """The coordinate of the segment before."""
+    """A coordinate kept from the segment before."""
     TOOL = "TOOL"
-    """What TOOL SETUP proposes for the tool."""
+    """A proposal of TOOL SETUP for the tool."""
     USUAL = "DEF"
-    """What a blank usually means."""
+    """The default for a blank."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +42,10 @@ Value = Number | Relative | Solved | Unread | None
 class SolvedSegment:
     """Segment `number` with every field's value by name.
 
-    `piece` is its part of the surface in millimeters, None while it is not determined or has no length;
-    neighbors of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
-    `choices` are the pieces between which the operator picks, in the documented order.  `z_start`, `z_end` are
-    millimeters, `feed` millimeters per minute.
+    `piece` is its part of the surface in millimeters, None if it is not determined or has no length; the neighbors of
+    a BLEND ARC or CHAMFER are already shortened.  `missing` names fields of which one more is needed.  `choices` are
+    the pieces from which the operator picks, in the documented order.  `z_start` and `z_end` are in millimeters, `feed`
+    in millimeters per minute.
     """
 
     number: int
@@ -54,25 +54,25 @@ class SolvedSegment:
     missing: tuple[str, ...] = ()
     choices: tuple[Piece, ...] = ()
     start: Point | None = None
-    """Where it begins, as far as known, before any blending."""
+    """Its start before any blending, None if not known."""
     end: Point | None = None
-    """Where it ends before any blending, None while it is not determined."""
+    """Its end before any blending, None if not determined."""
     sketch: Piece | None = None
-    """What to draw dashed while it is not determined."""
+    """The piece to draw dashed while it is not determined."""
     z_start: float = 0.0
     z_end: float = 0.0
     feed: float | None = None
     findings: tuple[Finding, ...] = ()
     sharp: Piece | None = None
-    """The piece as its fields say it, before any blending."""
+    """The piece that its fields give, before any blending."""
 
 
 @dataclass(frozen=True, slots=True)
 class RunAnswer:
-    """One solution of a run: its pieces with their segment numbers, before any blending, and their length together.
+    """One solution of a run: its pieces with their segment numbers, before any blending, and their total length.
 
-    A program takes it with `choice` on the run's first segment or, where the run is calculated from a pick, with that
-    segment's PICK X and PICK Y at `pick` (millimeters).
+    A program selects it with `choice` on the run's first segment or, if the run is calculated from a pick, with that
+    segment's PICK X and PICK Y set to `pick` (millimeters).
     """
 
     pieces: tuple[tuple[int, Piece], ...]
@@ -85,8 +85,8 @@ class RunAnswer:
 class SolvedRun:
     """Segments `first` to `last`, calculated together.
 
-    `answers` are all solutions, the shortest first, `taken` the index of the one in force.  While there is none, `code`
-    says why, `missing` counts the values that are needed at least, and `sketch` is what is known of the run's pieces.
+    `answers` are all solutions, the shortest first; `taken` is the index of the one in force.  If it is None, `code`
+    says why, `missing` is the least number of values still needed, and `sketch` shows what is known of the pieces.
     """
 
     first: int
@@ -102,7 +102,7 @@ class SolvedRun:
 class SolvedBlock:
     """A whole block: START's values and its segments.  Lengths in millimeters, feeds in millimeters per minute.
 
-    `determined` is how many segments from the first on are determined; the surface known so far is theirs.
+    `determined` is the number of leading segments that are determined; the known surface consists of these.
     """
 
     values: Mapping[str, Value]
@@ -120,28 +120,28 @@ class SolvedBlock:
     findings: tuple[Finding, ...]
     coolant: Coolant = Coolant.OFF
     coolant_origin: Origin | None = None
-    """Where COOLANT comes from if it is not typed."""
+    """The origin of COOLANT, None if it is typed."""
     pieces: tuple[tuple[int, Piece], ...] = ()
-    """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
+    """(segment number, piece) of the determined surface from START on; segments without length are omitted."""
     runs: tuple[SolvedRun, ...] = ()
-    """The stretches whose segments are calculated together, in order."""
+    """The runs of segments that are calculated together, in order."""
 
     def run_of(self, number: int) -> SolvedRun | None:
-        """The run of which a segment is a part."""
+        """Return the run that contains a segment, None if there is none."""
         return next((run for run in self.runs if run.first <= number <= run.last), None)
 
     @property
     def every_finding(self) -> tuple[Finding, ...]:
-        """Findings of START and of all segments."""
+        """The findings of START and of all segments."""
         return (*self.findings, *(finding for segment in self.segments for finding in segment.findings))
 
     @property
     def whole(self) -> bool:
-        """Every segment is determined: what is known of the surface is all of it."""
+        """True if every segment is determined, so that the whole surface is known."""
         return self.determined == len(self.segments)
 
     @property
     def postable(self) -> bool:
-        """Everything is read and determined."""
+        """True if there is a surface, every segment is determined and no finding is an error."""
         sound = all(finding.severity is not Severity.ERROR for finding in self.every_finding)
         return self.whole and bool(self.pieces) and sound

@@ -1,9 +1,9 @@
-"""The circle of an ARC from three conditions on its center (x, y) and its signed radius rho.
+"""This module finds the circle of an ARC from three conditions on its center (x, y) and its signed radius rho.
 
-A typed center or radius, a known joint with a known heading, and a line that the circle touches or on which it ends at
-a known heading are linear in (x, y, rho).  A known point, a circle that it touches, and a point to which it is tied are
-|c - A|^2 = (rho + v)^2 + u^2, and two of these differ by a linear condition.  So two linear conditions and one other
-leave one quadratic: at most two circles.
+A typed center or radius, a known joint with a known heading, a line that the circle touches, and a line on which it
+ends at a known heading give conditions linear in (x, y, rho).  A known point, a circle that it touches, and a point to
+which it is tied give |c - A|^2 = (rho + v)^2 + u^2; two of these differ by a linear condition.  Two linear conditions
+and one other therefore leave one quadratic equation: at most two circles.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Row = tuple[float, float, float, float]
 """a x + b y + e rho = f."""
 
 INDEPENDENT: Final = 1e-9
-"""How far, as a sine, a linear condition must be from following from the others."""
+"""Least sine of the angle between a linear condition and the span of the others for it to be independent."""
 
 
 class Quadric(NamedTuple):
@@ -37,7 +37,7 @@ class Quadric(NamedTuple):
     rest: float
 
     def at(self, x: float, y: float, rho: float) -> float:
-        """The left side."""
+        """Return the left side of the equation."""
         return (
             self.square * (x * x + y * y)
             + self.rho_square * rho * rho
@@ -49,23 +49,23 @@ class Quadric(NamedTuple):
         )
 
     def curvature(self, x: float, y: float, rho: float) -> float:
-        """The quadratic part alone."""
+        """Return the quadratic terms alone."""
         return self.square * (x * x + y * y) + self.rho_square * rho * rho + rho * (self.cross_x * x + self.cross_y * y)
 
 
 class Circles(NamedTuple):
-    """The circles (center, rho) that fit, in their order; `grazing` where two have become one."""
+    """The circles (center, rho) that fit, in a fixed order; `grazing` if two have merged into one."""
 
     found: tuple[tuple[Point, float], ...]
     grazing: bool = False
 
 
 def circles(branch: Branch, index: int) -> Circles | None:
-    """The circles of the arc `index`; None while there are not three conditions.
+    """Return the circles of arc `index`; None if there are fewer than three conditions.
 
-    Two circles come in the order along the cross product of the two linear conditions, which keeps its sense whatever
-    the numbers are; where the radius is typed that is made the order along the line that is touched, or left of the way
-    between the two known points first.
+    Two circles are ordered along the cross product of the two linear conditions, whose sense does not depend on the
+    numbers.  If both have the same radius, they are ordered along the heading of a neighboring line instead, or else the one
+    left of the vector between the two known points comes first.
     """
     origin = branch.run.start
     rows, quadrics = _conditions(branch, index, origin)
@@ -91,7 +91,7 @@ def circles(branch: Branch, index: int) -> Circles | None:
 
 
 def _agreed_sense(branch: Branch, index: int, along: Point3, cones: list[Quadric]) -> Point3:
-    """The sense in which two centers at one radius are counted."""
+    """Return `along` or its opposite: the sense in which two centers with the same radius are ordered."""
     for neighbor in (index - 1, index + 1):
         if 0 <= neighbor < len(branch.run.elements) and not branch.run.elements[neighbor].turn:
             heading = branch.heading_in[neighbor]
@@ -101,9 +101,9 @@ def _agreed_sense(branch: Branch, index: int, along: Point3, cones: list[Quadric
                 return along if ahead >= 0.0 else (-along[0], -along[1], -along[2])
     if len(cones) >= 2:
         # centers of the two cones are at (-a / 2, -b / 2)
-        way = (cones[0].a - cones[1].a, cones[0].b - cones[1].b)
-        left = way[0] * along[1] - way[1] * along[0]
-        # left of the way first: the sense leads from left to right
+        vector = (cones[0].a - cones[1].a, cones[0].b - cones[1].b)
+        left = vector[0] * along[1] - vector[1] * along[0]
+        # left of the vector first: the sense leads from left to right
         return along if left <= 0.0 else (-along[0], -along[1], -along[2])
     return along
 
@@ -112,7 +112,7 @@ Point3 = tuple[float, float, float]
 
 
 def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], list[Quadric]]:
-    """All linear and quadratic conditions, about `origin`."""
+    """Return all linear and quadratic conditions, relative to `origin`."""
     rows: list[Row] = []
     quadrics: list[Quadric] = []
     x, y, rho = branch.center_x[index], branch.center_y[index], branch.rho[index]
@@ -138,7 +138,7 @@ def _conditions(branch: Branch, index: int, origin: Point) -> tuple[list[Row], l
 def _at_joint(
     branch: Branch, joint: int, heading: float | None, anchors: Iterator[Anchor], origin: Point
 ) -> Iterator[Row | Quadric]:  # fmt: skip
-    """Says that the circle passes a joint."""
+    """Yield the conditions that the circle passes through a joint."""
     if heading is None:
         yield from (_cone(anchor, origin) for anchor in anchors)
         return
@@ -148,7 +148,7 @@ def _at_joint(
 
 
 def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]:
-    """SWEEP ANGLE turns one joint into the other, whatever the heading is."""
+    """Yield the conditions that SWEEP ANGLE rotates one joint into the other, if no start heading is known."""
     sweep = branch.sweep[index]
     if sweep is None or branch.heading_in[index] is not None:
         return
@@ -164,13 +164,13 @@ def _swept(branch: Branch, index: int, origin: Point) -> Iterator[Row | Quadric]
 
 
 def _cone(anchor: Anchor, origin: Point) -> Quadric:
-    """The center is tied to A: |c - A|^2 = along^2 + (left + rho)^2."""
+    """Return the condition that ties the center to A: |c - A|^2 = along^2 + (left + rho)^2."""
     x, y, u, v = anchor.at[0] - origin[0], anchor.at[1] - origin[1], anchor.along, anchor.left
     return Quadric(1.0, -1.0, 0.0, 0.0, -2.0 * x, -2.0 * y, -2.0 * v, x * x + y * y - u * u - v * v)
 
 
 def _tied(heading: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
-    """The joint c - rho n, n the normal of its heading, lies on the locus."""
+    """Yield the conditions that the joint c - rho n, with n the normal of its heading, lies on the locus."""
     nx, ny = normal(heading)
     if isinstance(locus, tuple):
         yield 1.0, 0.0, -nx, locus[0] - origin[0]
@@ -185,7 +185,7 @@ def _tied(heading: float, locus: Locus | Point, origin: Point) -> Iterator[Row |
 
 
 def _turned(start: Point, angle: float, locus: Locus | Point, origin: Point) -> Iterator[Row | Quadric]:
-    """The joint `start` turned about c, (1 - R) c + R start with R the rotation, lies on the locus."""
+    """Yield the conditions that `start` rotated about c, (1 - R) c + R start, lies on the locus."""
     c, s = cos(angle), sin(angle)
     x, y = start[0] - origin[0], start[1] - origin[1]
     px, py = c * x - s * y, s * x + c * y
@@ -207,7 +207,7 @@ def _difference(first: Quadric, second: Quadric) -> Row:
 
 
 def _independent(rows: list[Row]) -> list[Row]:
-    """At most three of the rows, of unit length, none of which follows from the others: the clearly different first."""
+    """Return at most three independent rows, scaled to unit length; the clearly independent ones come first."""
     basis: list[Row] = []
     frame: list[Point3] = []
     for least in (0.02, INDEPENDENT):
@@ -241,7 +241,7 @@ def _determinant(rows: list[Point3]) -> float:
 
 
 def _solved(basis: list[Row]) -> Point3:
-    """Three linear conditions solved by Cramer's rule."""
+    """Solve three linear conditions by Cramer's rule."""
     whole = _determinant([(a, b, c) for a, b, c, _ in basis])
     return (
         _determinant([(d, b, c) for _, b, c, d in basis]) / whole,
@@ -251,12 +251,12 @@ def _solved(basis: list[Row]) -> Point3:
 
 
 def _point_on(basis: list[Row], along: Point3) -> Point3:
-    """The point of the line of two linear conditions that is nearest to the origin."""
+    """Return the point nearest to the origin on the line of two linear conditions."""
     return _solved([basis[0], basis[1], (*along, 0.0)])
 
 
 def _roots(quadric: Quadric, at: Point3, along: Point3) -> tuple[tuple[float, ...], bool] | None:
-    """Where a line in (x, y, rho) meets a quadric, and whether two have become one; None where it lies on it."""
+    """Intersect a line in (x, y, rho) with a quadric: the roots, and True if two merge; None if the line lies on it."""
     size = max(1.0, hypot(*at), abs(quadric.rest) ** 0.5)
     a = quadric.curvature(*along)
     b = (

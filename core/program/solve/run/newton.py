@@ -1,7 +1,7 @@
-"""The numbers of a chain that are not known, what a choice of them misses each datum by, and Newton's method on them.
+"""This module solves the unknown numbers of a chain by Newton's method: the residuals of all data vanish.
 
-A LINE has a heading and a length, an ARC a heading, a radius and a sweep; what is typed of these, and a heading that
-follows from the element before, is no unknown.
+A LINE has a heading and a length, an ARC a heading, a radius and a sweep.  Typed numbers, and headings that follow from
+the element before, are not unknowns.
 """
 
 from __future__ import annotations
@@ -24,32 +24,32 @@ STEPS: Final = 30
 """Newton steps from one start."""
 
 HOPELESS: Final = (8, 0.1)
-"""A start that has come no nearer than this part of the run's size after so many steps is given up."""
+"""Steps after which a start is given up if its residual still exceeds this fraction of the run's size."""
 
 CONVERGED: Final = 1e-14
-"""A residual that no further step makes less, in parts of the run's size."""
+"""Residual, as a fraction of the run's size, at which the steps stop."""
 
 ROOT: Final = 1e-11
-"""A residual that is nothing, in parts of the run's size."""
+"""Largest residual of a root, as a fraction of the run's size."""
 
 Numbers = list[float]
 
 
 @dataclass(frozen=True, slots=True)
 class _Slot:
-    """One number of an element: its value, or the index of the unknown that it is."""
+    """One number of an element: its known value, or the index of its unknown."""
 
     value: float = 0.0
     index: int | None = None
 
     def of(self, numbers: Numbers) -> float:
-        """The number."""
+        """Return the known value, or the unknown's value among `numbers`."""
         return self.value if self.index is None else numbers[self.index]
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """An element of the chain: heading (None where it follows from the one before), size and sweep."""
+    """An element of the chain: its heading (None if it follows from the element before), size and sweep."""
 
     element: Element
     heading: _Slot | None
@@ -58,8 +58,8 @@ class _Part:
 
 
 @dataclass(frozen=True, slots=True)
-class _Walked:
-    """An element of a chain: where it starts and ends, its center, and its headings."""
+class _Placed:
+    """An element placed on the chain: its start, end and center, its headings and its size."""
 
     start: Point
     end: Point
@@ -70,9 +70,9 @@ class _Walked:
 
 
 class ChainProblem:
-    """The numbers of a run that are not known, and what a choice of them misses each datum by.
+    """The unknown numbers of a run, and the residual of each datum for given numbers.
 
-    With `surplus` no numbers need meet all data exactly: more is typed than it takes, or a line only grazes a circle.
+    With `surplus` there may be no exact root: more data are typed than needed, or a line only grazes a circle.
     """
 
     def __init__(self, run: Run, known: Branch) -> None:
@@ -99,8 +99,8 @@ class ChainProblem:
         size = self._slot(None if rho is None else abs(rho), angular=False)
         return _Part(element, slot, size, self._slot(known.sweep[index], angular=True))
 
-    def walk(self, numbers: Numbers) -> list[_Walked]:
-        """The chain of these numbers."""
+    def walk(self, numbers: Numbers) -> list[_Placed]:
+        """Place the elements of the chain that has these numbers."""
         at, before = self.run.start, self.run.heading or 0.0
         walked = []
         for part in self.parts:
@@ -114,56 +114,56 @@ class ChainProblem:
                 end = (center[0] + turn * size * sin(out), center[1] - turn * size * cos(out))
             else:
                 out, center, end = heading, at, (at[0] + size * c, at[1] + size * s)
-            walked.append(_Walked(at, end, center, heading, out, size))
+            walked.append(_Placed(at, end, center, heading, out, size))
             at, before = end, out
         return walked
 
     def residuals(self, numbers: Numbers) -> Numbers:
-        """What the chain misses each datum by, in millimeters."""
+        """Return by how much the chain misses each datum, in millimeters."""
         missed: Numbers = []
         walked = self.walk(numbers)
         before = self.run.heading
-        for part, there in zip(self.parts, walked, strict=True):
+        for part, placed in zip(self.parts, walked, strict=True):
             known = part.element.known
             if part.heading is not None and part.element.link is not None and before is not None:
-                missed.append(self._angle(there.leaving - before - part.element.link))
+                missed.append(self._angle(placed.leaving - before - part.element.link))
             for name in ("angle", "start_angle"):
                 if name in known and part.heading is None:
-                    missed.append(self._angle(there.leaving - known[name]))
-            missed += [value - known[name] for name, value in _measured(there) if name in known]
-            missed += self._point(part.element, there)
-            missed += self._parallel(part.element, there, walked)
-            before = there.arriving
+                    missed.append(self._angle(placed.leaving - known[name]))
+            missed += [value - known[name] for name, value in _measured(placed) if name in known]
+            missed += self._point(part.element, placed)
+            missed += self._parallel(part.element, placed, walked)
+            before = placed.arriving
         return missed
 
     def _angle(self, off: float) -> float:
         return 2.0 * sin(off / 2.0) * self.scale
 
-    def _point(self, element: Element, there: _Walked) -> Numbers:
+    def _point(self, element: Element, placed: _Placed) -> Numbers:
         point = element.point
         if point is None:
             return []
         if element.turn:
-            return [dist(point, there.center) - there.size]
-        side = (point[1] - there.start[1]) * cos(there.leaving) - (point[0] - there.start[0]) * sin(there.leaving)
+            return [dist(point, placed.center) - placed.size]
+        side = (point[1] - placed.start[1]) * cos(placed.leaving) - (point[0] - placed.start[0]) * sin(placed.leaving)
         return [abs(side) - element.known["point_dist"]] if element.known.get("point_dist") else [side]
 
-    def _parallel(self, element: Element, there: _Walked, walked: list[_Walked]) -> Numbers:
+    def _parallel(self, element: Element, placed: _Placed, walked: list[_Placed]) -> Numbers:
         parallel = element.parallel
         if parallel is None:
             return []
         if isinstance(parallel, OrientedLine):
             heading, (nx, ny) = parallel.heading, parallel.normal
-            side = nx * there.start[0] + ny * there.start[1] - parallel.offset
+            side = nx * placed.start[0] + ny * placed.start[1] - parallel.offset
         else:
             target = walked[parallel]
             heading, at = target.leaving, target.start
-            side = (there.start[1] - at[1]) * cos(heading) - (there.start[0] - at[0]) * sin(heading)
-        missed = [sin(there.leaving - heading) * self.scale]
+            side = (placed.start[1] - at[1]) * cos(heading) - (placed.start[0] - at[0]) * sin(heading)
+        missed = [sin(placed.leaving - heading) * self.scale]
         return [*missed, abs(side) - element.known["offset"]] if "offset" in element.known else missed
 
     def numbers_of(self, chain: Chain) -> Numbers:
-        """The unknown numbers as they are in a chain."""
+        """Return the values of the unknowns in a chain."""
         numbers = [0.0] * self.count
         for part, piece in zip(self.parts, chain.pieces, strict=True):
             heading = heading_at(piece, piece.start)
@@ -175,18 +175,18 @@ class ChainProblem:
         return numbers
 
     def chain(self, numbers: Numbers) -> Chain | None:
-        """The pieces of a root; None where a length, a radius or a sweep is none."""
+        """Return the pieces of a root; None if a size or chord vanishes, or a sweep is not between 0 and 360 degrees."""
         pieces: list[Piece] = []
         start = self.run.start
-        for part, there in zip(self.parts, self.walk(numbers), strict=True):
+        for part, placed in zip(self.parts, self.walk(numbers), strict=True):
             known, turn = part.element.known, part.element.turn
-            # what is typed is met to the last digit
-            end = (known.get("x_end", there.end[0]), known.get("y_end", there.end[1]))
+            # typed coordinates are met to the last digit
+            end = (known.get("x_end", placed.end[0]), known.get("y_end", placed.end[1]))
             sweep = part.sweep.of(numbers)
-            if there.size <= JOINED or dist(start, end) <= JOINED or (turn and not 0.0 < sweep < tau):
+            if placed.size <= JOINED or dist(start, end) <= JOINED or (turn and not 0.0 < sweep < tau):
                 return None
             if turn:
-                center = (known.get("x_center", there.center[0]), known.get("y_center", there.center[1]))
+                center = (known.get("x_center", placed.center[0]), known.get("y_center", placed.center[1]))
                 pieces.append(construct.even_arc(start, end, center, turn))
             else:
                 pieces.append(Line(start, end))
@@ -194,14 +194,14 @@ class ChainProblem:
         return Chain(tuple(pieces))
 
 
-def _measured(there: _Walked) -> Iterator[tuple[str, float]]:
-    (x, y), (x_end, y_end), (cx, cy) = there.start, there.end, there.center
+def _measured(placed: _Placed) -> Iterator[tuple[str, float]]:
+    (x, y), (x_end, y_end), (cx, cy) = placed.start, placed.end, placed.center
     yield from (("x_end", x_end), ("y_end", y_end), ("x_end_inc", x_end - x), ("y_end_inc", y_end - y))
     yield from (("x_center", cx), ("y_center", cy), ("x_center_inc", cx - x), ("y_center_inc", cy - y))
 
 
 def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
-    """Where damped Newton steps (Levenberg and Marquardt) lead from a start, if that is a root."""
+    """Return the root that damped Newton steps (Levenberg-Marquardt) reach from a start, None if they reach none."""
     missed = problem.residuals(numbers)
     size, damping = norm(missed), 1e-3
     for count in range(STEPS):
@@ -225,12 +225,12 @@ def newton_root(problem: ChainProblem, numbers: Numbers) -> Numbers | None:
 
 
 def norm(values: Numbers) -> float:
-    """The length of a vector."""
+    """Return the length of a vector."""
     return sqrt(sum(value * value for value in values))
 
 
 def slopes(problem: ChainProblem, numbers: Numbers, missed: Numbers) -> list[Numbers]:
-    """Derivatives of the residuals by each unknown (a list of columns), angles counted in the run's size."""
+    """Return the derivatives of the residuals, one column for each unknown, per radian or per millimeter."""
     columns = []
     for index, angular in enumerate(problem.angular):
         small = 1e-7 if angular else 1e-7 * problem.scale
@@ -240,8 +240,8 @@ def slopes(problem: ChainProblem, numbers: Numbers, missed: Numbers) -> list[Num
 
 
 def _step(columns: list[Numbers], missed: Numbers, damping: float) -> Numbers:
-    """The damped step that lets the residuals vanish."""
-    square = [[sum(a * b for a, b in zip(one, other, strict=True)) for other in columns] for one in columns]
+    """Return the damped least-squares step toward vanishing residuals."""
+    square = [[sum(a * b for a, b in zip(column, other, strict=True)) for other in columns] for column in columns]
     right = [-sum(a * b for a, b in zip(column, missed, strict=True)) for column in columns]
     for index, row in enumerate(square):
         row[index] += damping * row[index] + 1e-300
@@ -249,7 +249,7 @@ def _step(columns: list[Numbers], missed: Numbers, damping: float) -> Numbers:
 
 
 def _eliminated(square: list[Numbers], right: Numbers) -> Numbers:
-    """Gauss's elimination with pivots by size; an unknown without a pivot stays."""
+    """Solve by Gaussian elimination with partial pivoting; an unknown without a pivot does not change."""
     rows = [[*row, value] for row, value in zip(square, right, strict=True)]
     count = len(rows)
     for index in range(count):
@@ -271,11 +271,11 @@ def _eliminated(square: list[Numbers], right: Numbers) -> Numbers:
 
 
 POLISHED: Final = 1e-11
-"""Residuals, in parts of the run's size, that need no polishing."""
+"""Largest residual, as a fraction of the run's size, that needs no polishing."""
 
 
 def polished(run: Run, chain: Chain) -> Chain:
-    """The chain with the digits that a nearly singular step has lost; the same chain where none are."""
+    """Restore digits that a nearly singular step has lost; return the same chain if that does not improve it."""
     problem = ChainProblem(run, Branch(run))
     numbers = problem.numbers_of(chain)
     if max(map(abs, problem.residuals(numbers)), default=0.0) <= POLISHED * problem.scale:

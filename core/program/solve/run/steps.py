@@ -1,7 +1,7 @@
-"""The steps that choose: each yields the one or two ways in which a branch goes on, in an order that stays.
+"""Each step of this module chooses: it returns the one or two branches that continue a branch, in a fixed order.
 
-Tried in this order, the first that has something to do is taken: PARALLEL, a circle without a choice, a LINE's heading,
-a joint, a circle, the side of a POINT at DISTANCE, the side of an OFFSET.
+The first step that applies is taken, in this order: PARALLEL, a circle without a choice, a LINE's heading, a joint, a
+circle, the side of a POINT at DISTANCE, the side of an OFFSET.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from core.tolerance import JOINED
 
 Ways = list[Branch]
 Step = Callable[[Branch], Ways | None]
-"""The branches that follow, None where the step has nothing to do; DeadEnd where nothing fits."""
+"""Returns the branches that follow, None if the step does not apply; raises DeadEnd if nothing fits."""
 
 
 def next_branches(branch: Branch) -> Ways | None:
-    """What the first step that has something to do makes of a branch; None where no step has."""
+    """Return the branches of the first step that applies; None if no step does."""
     for step in STEPS:
         ways = step(branch)
         if ways is not None:
@@ -32,7 +32,7 @@ def next_branches(branch: Branch) -> Ways | None:
 
 
 def _parallel(branch: Branch) -> Ways | None:
-    """The heading of a line PARALLEL TO a known one: the same first, then the opposite."""
+    """Choose the heading of a line PARALLEL TO a known one: the same heading first, then the opposite."""
     for index, element in enumerate(branch.run.elements):
         target = element.parallel
         if target is None:
@@ -53,12 +53,12 @@ def _headed(branch: Branch, root: int, index: int, heading: float) -> Branch:
 
 
 def _joints(branch: Branch) -> Iterator[int]:
-    """The joints that are not known."""
+    """Return the indices of the unknown joints."""
     return (index for index in range(1, len(branch.x)) if branch.joint(index) is None)
 
 
 def _joint(branch: Branch) -> Ways | None:
-    """A joint on two loci."""
+    """Choose a joint among the points where two loci meet."""
     for index in _joints(branch):
         loci = branch.loci(index)
         if len(loci) < 2:
@@ -74,7 +74,7 @@ def _joint(branch: Branch) -> Ways | None:
 
 
 def _arcs(branch: Branch) -> Iterator[tuple[int, Circles]]:
-    """The arcs whose circle is not known but follows."""
+    """Yield the arcs whose unknown circle can be calculated, with the circles that fit."""
     for index, element in enumerate(branch.run.elements):
         if not element.turn or (branch.center(index) is not None and branch.rho[index] is not None):
             continue
@@ -84,7 +84,7 @@ def _arcs(branch: Branch) -> Iterator[tuple[int, Circles]]:
 
 
 def _single_circle(branch: Branch) -> Ways | None:
-    """A circle that follows without a choice."""
+    """Set a circle that is the only one that fits."""
     for index, answer in _arcs(branch):
         if len(answer.found) == 1 and not answer.grazing:
             return _circle_ways(branch, index, answer)
@@ -92,7 +92,7 @@ def _single_circle(branch: Branch) -> Ways | None:
 
 
 def _circle(branch: Branch) -> Ways | None:
-    """One of two circles."""
+    """Choose one of the circles that fit."""
     for index, answer in _arcs(branch):
         return _circle_ways(branch, index, answer)
     return None
@@ -118,7 +118,7 @@ def _circle_ways(branch: Branch, index: int, answer: Circles) -> Ways:
 
 
 def _plain_headings(branch: Branch) -> Ways | None:
-    """The headings of all LINEs that run from one known point or circle to another: one root each."""
+    """Set the headings of all LINEs from one known point or circle to another: each has one root."""
     way: Branch | None = None
     for index, first, second in _tied_lines(branch):
         if (first[2], second[2]) != ("start", "end"):
@@ -133,7 +133,7 @@ def _plain_headings(branch: Branch) -> Ways | None:
 
 
 def _heading(branch: Branch) -> Ways | None:
-    """A LINE's heading from two points that it passes at known distances."""
+    """Choose a LINE's heading from two points that it passes at known distances."""
     for index, first, second in _tied_lines(branch):
         headings, grazing = headings_at_distances(first[0], first[1], second[0], second[1])
         if not headings:
@@ -149,7 +149,7 @@ Tie = tuple[Point, float, str]
 
 
 def _tied_lines(branch: Branch) -> Iterator[tuple[int, Tie, Tie]]:
-    """The LINEs of unknown heading with two points at known distances."""
+    """Yield the LINEs of unknown heading that pass two points at known distances, with these points."""
     for index, element in enumerate(branch.run.elements):
         if element.turn or branch.heading_in[index] is not None:
             continue
@@ -161,7 +161,7 @@ def _tied_lines(branch: Branch) -> Iterator[tuple[int, Tie, Tie]]:
 
 
 def _point_side(branch: Branch) -> Ways | None:
-    """The side on which a LINE passes its POINT at DISTANCE: the point on its left first."""
+    """Choose the side on which a LINE passes its POINT at DISTANCE: the point to its left first."""
     for index, element in enumerate(branch.run.elements):
         distance = element.known.get("point_dist", 0.0)
         if element.turn or element.point is None or distance == 0.0 or branch.point_side[index] is not None:
@@ -177,7 +177,7 @@ def _point_side(branch: Branch) -> Ways | None:
 
 
 def _offset_side(branch: Branch) -> Ways | None:
-    """The side on which a LINE lies OFFSET from its parallel: left of that first."""
+    """Choose the side on which a LINE lies OFFSET from its parallel: left of the parallel first."""
     for index, element in enumerate(branch.run.elements):
         heading, offset, parallel = branch.heading_in[index], element.known.get("offset"), element.parallel
         if parallel is None or heading is None or offset is None or branch.offset[index] is not None:
