@@ -61,11 +61,11 @@ class Circles(NamedTuple):
 
 
 def circles(branch: Branch, index: int) -> Circles | None:
-    """Return the circles of arc `index`; None if there are fewer than three conditions.
+    """Return the circles of arc `index`; None if fewer than three conditions are independent.
 
     Two circles are ordered along the cross product of the two linear conditions, whose sense does not depend on the
-    numbers.  If both have the same radius, they are ordered along the heading of a neighboring line instead, or else the one
-    left of the vector between the two known points comes first.
+    numbers.  If both have the same radius, they are ordered along the heading of a neighboring line instead; without
+    one, the circle left of the vector between the two known points comes first.
     """
     origin = branch.run.start
     rows, quadrics = _conditions(branch, index, origin)

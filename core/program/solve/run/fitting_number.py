@@ -1,6 +1,6 @@
-"""The number that would fit: where a typed one leaves a run without answer, the one that the rest of it gives.
+"""This module finds the number that would fit if a typed one leaves a run without an answer: the other data give it.
 
-For a RADIUS that is too small or too large it is the nearest with which the run has an answer.
+For a RADIUS that is too small or too large, it is the nearest radius with which the run has an answer.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from core.program.solve.run.search import GRAZE_SHIFT, search
 from core.program.solve.run.typed_run import Element, Run
 
 TRIED: Final = tuple(1.08**step for step in range(1, 60))
-"""The factors by which a radius is made larger and smaller."""
+"""The factors by which a radius is enlarged and reduced."""
 
 HALVINGS: Final = 48
-"""How often the way between a radius that fits and one that does not is halved."""
+"""The number of times the interval between a radius that fits and one that does not is halved."""
 
 ABOUT_RADIUS: Final = frozenset(
     ("TOO_SMALL", "BEHIND", "NO_TANGENT", "NO_MEETING", "NO_LENGTH_LEFT", "INSIDE", "WRONG_SENSE", "OUT_OF_RANGE")
@@ -30,10 +30,10 @@ ABOUT_RADIUS: Final = frozenset(
 
 @lru_cache(64)
 def with_fitting_number(run: Run, finding: Finding) -> Finding:
-    """The finding with the number that would fit in place of the typed one, where there is one.
+    """Return the finding with the number that would fit instead of the typed one, if there is one.
 
-    A contradiction found on the way to an answer names a number that was calculated with the wrong one: what the rest
-    of the run gives is known only without that.
+    A contradiction names a number that was calculated with the wrong one; the other data give the right number only
+    when the run is solved without it.
     """
     if finding.code == "CONTRADICTION":
         return _by_the_rest(run, finding)
@@ -48,7 +48,7 @@ def with_fitting_number(run: Run, finding: Finding) -> Finding:
 
 
 def _by_the_rest(run: Run, finding: Finding) -> Finding:
-    """What the typed number that contradicts is in the answer nearest to it that the run has without it."""
+    """Report the value that the contradicting number has in the run's answers without it, the nearest if several."""
     index = next(index for index, element in enumerate(run.elements) if element.number == finding.segment)
     element = run.elements[index]
     name = next((name for name in (finding.field, f"{finding.field}_inc") if name in element.known), None)
@@ -71,7 +71,7 @@ def _centered(element: Element) -> bool:
 
 
 def _limit(run: Run, index: int) -> float | None:
-    """The radius nearest to the typed one at which the run has an answer."""
+    """Return the radius nearest to the typed one with which the run has an answer, None if no tried one has."""
     radius = run.elements[index].known["radius"]
     last = {1: radius, -1: radius}
     for factor in TRIED:
@@ -94,6 +94,6 @@ def _fits(run: Run, index: int, radius: float) -> bool:
     element = run.elements[index]
     typed = tuple((name, radius if name == "radius" else value) for name, value in element.typed)
     elements = (*run.elements[:index], replace(element, typed=typed), *run.elements[index + 1 :])
-    # where it only just fits, the limit is where it does without any tolerance
+    # near the limit, count only answers that need no tolerance
     answers = search.__wrapped__(replace(run, elements=elements)).answers
     return any(answer.choice < 1 << GRAZE_SHIFT for answer in answers)

@@ -1,10 +1,10 @@
-"""Answers near the operator's pick, for a run that `steps` do not solve; `newton` has Newton's method itself.
+"""This module finds the answers near the operator's pick, for a run that `steps` do not solve, by Newton's method.
 
-The pick is a point near the first joint of the run that is not known (nearly always the end of its first segment).
-From it a few dozen starts are laid out; each is led to an answer by damped Newton steps on the numbers of the chain
-that are not known yet.  Every answer is proved by walking its chain; the one whose joint is nearest to the pick is
-taken.  Nothing is taken where another pick nearby would lead elsewhere, where the answer is far from the pick, or where
-the data leave the answer free to move.
+The pick is a point near the first unknown joint of the run (nearly always the end of its first segment).  A few dozen
+starting values are generated about it, and damped Newton steps on the unknown numbers of the chain (`newton`) lead from
+each to an answer.  Every answer is proved by walking its chain; the answer whose joint is nearest to the pick is taken.
+None is taken if another pick nearby would lead to a different answer, if the answer is far from the pick, or if the
+data leave the answer free to move.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ from core.program.solve.run.search import SAME, Answer, same_pieces, search
 from core.program.solve.run.typed_run import Run
 
 STARTS: Final = 48
-"""Starts that are laid out about a pick."""
+"""Number of starts generated about a pick."""
 
 FARTHEST_PICK: Final = 0.4
-"""How far an answer's joint may be from its pick, in parts of the run's size."""
+"""Largest distance of an answer's joint from its pick, as a fraction of the run's size."""
 
 NEARBY: Final = 0.01
-"""How far another pick is for which the answer must be the same, in parts of the run's size."""
+"""Distance of other picks that must give the same answer, as a fraction of the run's size."""
 
 SINGULAR: Final = 1e-7
-"""The least pivot, in parts of the largest, of data that determine an answer."""
+"""Smallest pivot, as a fraction of the largest, for data that determine an answer."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picked:
     """The answers near a pick, the shortest first, and the index of the one that is taken, if any.
 
-    `joint` is the first joint that is not known: the end of element `joint` - 1, to which the pick points.
+    `joint` is the first unknown joint, to which the pick refers: the end of element `joint` - 1.
     """
 
     joint: int
@@ -48,7 +48,7 @@ class Picked:
 
 @lru_cache(64)
 def picked_answers(run: Run, pick: Point) -> Picked:
-    """The answers to which the starts about a pick lead, and the one that is nearest to it."""
+    """Return the answers that the starts about a pick lead to, and the one nearest to the pick."""
     known = search(run).known
     problem = ChainProblem(run, known)
     joint = next((index for index in range(1, len(run.elements) + 1) if known.joint(index) is None), 1)
@@ -58,7 +58,7 @@ def picked_answers(run: Run, pick: Point) -> Picked:
 
 
 def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> int | None:
-    """The index of the answer that lies nearest to the pick and to all picks nearby."""
+    """Return the index of the answer nearest to the pick and to all picks nearby; None if they differ or it is far."""
     if not answers:
         return None
     reach = NEARBY * size
@@ -70,14 +70,14 @@ def _nearest(answers: list[Answer], joint: int, pick: Point, size: float) -> int
 
 
 def _distances(answer: Answer, joint: int, pick: Point) -> tuple[float, ...]:
-    """How far a pick is from the joint; where answers share that, from the next ones, and then from the centers."""
+    """Return the distances of a pick from the joint, from the later joints and from the centers, to break ties."""
     following = answer.pieces[joint - 1 :]
     points = [piece.end for piece in following] + [piece.center for piece in following if isinstance(piece, Arc)]
     return tuple(round(dist(point, pick), 4) for point in points)
 
 
 def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
-    """All proved answers to which the starts lead; none where the data leave one free to move."""
+    """Return all proved answers that the starts lead to; none if the data leave an answer free to move."""
     answers: list[Answer] = []
     for start in _starts(problem, joint, pick):
         root = newton_root(problem, start)
@@ -93,7 +93,7 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
 
 
 def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]:
-    """Starts laid out so that the chain passes near the pick, the rest spread evenly (golden ratio in each number)."""
+    """Yield starts, most of which pass near the pick; the other numbers spread evenly (square roots of primes)."""
     for count in range(STARTS):
         numbers = [_spread(count, index) * tau for index in range(problem.count)]
         for index, angular in enumerate(problem.angular):
@@ -105,7 +105,7 @@ def _starts(problem: ChainProblem, joint: int, pick: Point) -> Iterator[Numbers]
 
 
 def _spread(count: int, index: int) -> float:
-    """A number from 0 to 1 that is spread evenly over the starts, another one for each unknown."""
+    """Return a number from 0 to 1, spread evenly over the starts and different for each unknown."""
     return (0.5 + (count + 1) * sqrt(_PRIMES[index % len(_PRIMES)])) % 1.0
 
 
@@ -113,7 +113,7 @@ _PRIMES: Final = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
 
 def _aim(problem: ChainProblem, joint: int, pick: Point, numbers: Numbers, count: int) -> None:
-    """Let the element before the joint end at the pick, as far as its numbers are unknown."""
+    """Set the unknown numbers of the element before the joint so that it ends at the pick, and aim later headings."""
     part = problem.parts[joint - 1]
     start = problem.walk(numbers)[joint - 1].start
     way = (pick[0] - start[0], pick[1] - start[1])
@@ -132,7 +132,7 @@ def _aim(problem: ChainProblem, joint: int, pick: Point, numbers: Numbers, count
 
 
 def _free(problem: ChainProblem, root: Numbers) -> bool:
-    """Whether the data leave an answer free to move: some unknown follows from none of them (Gram and Schmidt)."""
+    """True if the data leave an answer free to move: its derivatives are dependent (Gram-Schmidt)."""
     columns = slopes(problem, root, problem.residuals(root))
     sizes = [problem.scale if angular else 1.0 for angular in problem.angular]
     vectors = [[value / size for value in column] for column, size in zip(columns, sizes, strict=True)]

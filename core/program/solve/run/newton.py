@@ -175,7 +175,7 @@ class ChainProblem:
         return numbers
 
     def chain(self, numbers: Numbers) -> Chain | None:
-        """Return the pieces of a root; None if a size or chord vanishes, or a sweep is not between 0 and 360 degrees."""
+        """Return the pieces of a root; None if a size or chord vanishes, or a sweep is not within one turn."""
         pieces: list[Piece] = []
         start = self.run.start
         for part, placed in zip(self.parts, self.walk(numbers), strict=True):

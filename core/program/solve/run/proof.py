@@ -1,7 +1,7 @@
-"""The proof of an answer: its chain is walked from the start, and every typed number is compared with what it comes to.
+"""This module proves an answer: it walks the chain from its start and compares every typed number with the actual one.
 
-A branch that does not agree is dropped, so that surplus data choose among several.  Typed lengths agree within
-0.00254 mm (0.0001 in), angles within 0.001 degree or where they move nothing by more than that.
+A branch that disagrees is dropped, so that surplus data choose among branches.  Lengths agree within 0.00254 mm
+(0.0001 in); angles agree within 0.001 degree, or if they displace the piece by no more than 0.00254 mm.
 """
 
 from __future__ import annotations
@@ -24,27 +24,27 @@ from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """A run's pieces, joined end to start; what is against it comes from `objections`."""
+    """A run's pieces, joined end to start; `objections` finds what disagrees with it."""
 
     pieces: tuple[Piece, ...]
 
     @property
     def length(self) -> float:
-        """The length of all pieces together, in millimeters."""
+        """The total length of all pieces, in millimeters."""
         return sum(piece.length for piece in self.pieces)
 
 
 ANGLES: Final = ("angle", "start_angle", "sweep")
-"""The names of fields in radians."""
+"""The names of the fields in radians."""
 
 
 def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
-    """The chain of a complete branch and what is against it; no chain where an element has no length."""
+    """Return the chain of a complete branch and its objections; no chain if a piece cannot be made."""
     run = branch.run
     pieces: list[Piece] = []
     findings: list[Finding] = []
     for index, element in enumerate(run.elements):
-        # an arc's end may have moved onto its circle
+        # the end of an arc may have moved onto its circle
         start, end = pieces[-1].end if pieces else run.start, branch.joint(index + 1)
         assert end is not None
         far = max(map(abs, end)) > FARTHEST
@@ -67,22 +67,22 @@ def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
 
 
 def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tuple[Line | None, list[Finding]]:
-    """A line, which must run the way its heading says."""
+    """Return a line, with an objection if it runs against its heading; None if it has no length."""
     heading = branch.heading_in[index]
-    way = (end[0] - start[0], end[1] - start[1])
-    if hypot(*way) <= JOINED:
+    vector = (end[0] - start[0], end[1] - start[1])
+    if hypot(*vector) <= JOINED:
         return None, [reasons.no_length(run, index)]
     if heading is None:
         return Line(start, end), []
     tx, ty = direction(heading)
-    ahead = way[0] * tx + way[1] * ty
+    ahead = vector[0] * tx + vector[1] * ty
     if ahead < 0.0:
         return Line(start, end), [reasons.behind(run, index, -ahead, heading)]
     return Line(start, end), []
 
 
 def _arc(run: Run, index: int, start: Point, end: Point, center: Point) -> tuple[Arc | None, list[Finding]]:
-    """An arc, which must be as far from its center at both ends, and turn by more than nothing."""
+    """Return an arc; None with an objection if its radii at both ends differ or it has no length."""
     element = run.elements[index]
     radius, out = dist(start, center), dist(end, center)
     if dist(start, end) <= CLOSED:
@@ -98,7 +98,7 @@ def _arc(run: Run, index: int, start: Point, end: Point, center: Point) -> tuple
 
 
 def _full(element: Element, start: Point) -> bool:
-    """Whether an arc that ends where it starts is typed as the full circle: by SWEEP ANGLE, or with center and end."""
+    """True if an arc that ends at its start is typed as a full circle: by SWEEP ANGLE, or with center and end."""
     known = element.known
     if "sweep" in known:
         return known["sweep"] >= tau - SLIVER
@@ -107,11 +107,11 @@ def _full(element: Element, start: Point) -> bool:
 
 
 def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:
-    """Every typed number that the chain does not meet."""
+    """Return a finding for every typed number that the chain does not match."""
     findings: list[Finding] = []
     before = run.heading
     for index, (element, piece) in enumerate(zip(run.elements, chain.pieces, strict=True)):
-        findings += _own(run, index, element, piece)
+        findings += _field_objections(run, index, element, piece)
         leaving = heading_at(piece, piece.start)
         if element.link is not None and before is not None:
             turned = leaving - before - element.link
@@ -122,8 +122,8 @@ def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:
     return tuple(findings)
 
 
-def _own(run: Run, index: int, element: Element, piece: Piece) -> list[Finding]:
-    """What disagrees of an element's own fields."""
+def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> list[Finding]:
+    """Return the disagreements with an element's own fields."""
     findings = []
     for name, actual in measured(piece).items():
         typed = element.known.get(name)
@@ -144,7 +144,7 @@ def _own(run: Run, index: int, element: Element, piece: Piece) -> list[Finding]:
 
 
 def measured(piece: Piece) -> dict[str, float]:
-    """What a piece comes to, by field name, in millimeters and radians."""
+    """Return the actual values of a piece by field name, in millimeters and radians."""
     (x, y), (x_end, y_end) = piece.start, piece.end
     values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
     if isinstance(piece, Line):
@@ -162,7 +162,7 @@ def measured(piece: Piece) -> dict[str, float]:
 
 
 def _distance(piece: Piece, point: Point) -> float:
-    """The distance of a point from a piece's endless line or whole circle."""
+    """Return the distance of a point from the infinite line or full circle of a piece."""
     if isinstance(piece, Arc):
         return abs(dist(point, piece.center) - piece.radius)
     tx, ty = piece.direction_at(piece.start)
@@ -170,7 +170,7 @@ def _distance(piece: Piece, point: Point) -> float:
 
 
 def _reach(piece: Piece) -> float:
-    """How far a wrong angle moves a piece, per radian."""
+    """Return how far an angle error displaces a piece, per radian."""
     return piece.length if isinstance(piece, Line) else piece.radius
 
 
@@ -180,7 +180,7 @@ def _same_heading(off: float, reach: float) -> bool:
 
 
 def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
-    """What disagrees of PARALLEL TO and OFFSET."""
+    """Return the disagreement with PARALLEL TO or OFFSET, if any."""
     element, piece = run.elements[index], chain.pieces[index]
     parallel = element.parallel
     if parallel is None or not isinstance(piece, Line):

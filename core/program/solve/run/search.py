@@ -1,4 +1,4 @@
-"""Every answer of a run: the branches of the steps, each proved by walking its chain."""
+"""This module finds every answer of a run: it follows the branches of the steps and proves each one."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from core.program.solve.run.steps import next_branches
 from core.program.solve.run.typed_run import Run
 
 SAME: Final = 1e-6
-"""Millimeters within which two answers are one."""
+"""Millimeters within which two answers count as the same."""
 
 MOST_BRANCHES: Final = 512
-"""The branches of one run that are followed; a run that has more is not solved."""
+"""The most branches that are followed in one run; a run with more is not solved."""
 
 GRAZE_SHIFT: Final = 12
-"""The bits of a choice that say which roots are taken; those above say which of them are double."""
+"""The number of low bits of a choice that record the roots taken; higher bits record which of them are double."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """One way to run: its pieces, and the number by which a program file picks it.
+    """One solution of a run: its pieces, and the number by which a program file picks it.
 
-    Bit i of `choice` is the root taken at the i-th step that has two, so that it does not change when another answer
-    appears or vanishes; a root that has become double has a bit of its own.
+    Bit i of `choice` is the root taken at the i-th choosing step, so that it does not change when another answer
+    appears or vanishes; a root that has become double sets a second bit.
     """
 
     choice: int
@@ -40,19 +40,19 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """All answers of a run, the shortest first; `stuck` is a branch of which the steps know no more."""
+    """All answers of a run, the shortest first; `stuck` is an incomplete branch to which no step applies, or None."""
 
     answers: tuple[Answer, ...]
     findings: tuple[Finding, ...]
-    """Why branches were dropped: of each branch what is against it first."""
+    """Why branches were dropped: the first objection to each, those nearest to an answer first."""
     stuck: Branch | None
     known: Branch
-    """What is known without a choice."""
+    """The values known without a choice."""
 
 
 @lru_cache(512)
 def search(run: Run) -> Search:
-    """Every answer that the steps give."""
+    """Return every answer that the steps give."""
     first, dropped = Branch(run), []
     answers: list[Answer] = []
     stuck: Branch | None = None
@@ -84,23 +84,23 @@ def search(run: Run) -> Search:
 
 
 def _add(answers: list[Answer], branch: Branch, chain: Chain) -> None:
-    """Put an answer among the others unless it is one of them."""
+    """Add an answer unless the same one is already there."""
     if not any(same_pieces(chain.pieces, other.pieces, SAME) for other in answers):
         answers.append(Answer(choice_of(branch), chain.pieces, chain.length))
 
 
 def choice_of(branch: Branch) -> int:
-    """The number of a branch."""
+    """Return the choice number of a branch."""
     code = sum(root << place for place, root in enumerate(branch.choices))
     return code + sum(1 << (GRAZE_SHIFT + place) for place, grazing in enumerate(branch.grazes) if grazing)
 
 
 def same_pieces(first: tuple[Piece, ...], second: tuple[Piece, ...], within: float) -> bool:
-    """Whether the ends and centers of two answers' pieces are the same within so many millimeters."""
+    """True if the ends and centers of two answers' pieces agree within `within` millimeters."""
     return all(
         dist(a, b) <= within
-        for one, two in zip(first, second, strict=True)
-        for a, b in zip(_points(one), _points(two), strict=True)
+        for piece, other in zip(first, second, strict=True)
+        for a, b in zip(_points(piece), _points(other), strict=True)
     )
 
 

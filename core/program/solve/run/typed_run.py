@@ -1,4 +1,4 @@
-"""The input of a run: its elements in millimeters and radians, where it starts, and how many data are missing."""
+"""This module defines the input of a run: its elements in millimeters and radians, its start and its missing data."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Point, Turn
 
 LONGEST: Final = 12
-"""The most LINEs and ARCs that are solved together."""
+"""The largest number of LINEs and ARCs that are solved together."""
 
 COUNTED: Final = (
     "x_end",
@@ -32,19 +32,19 @@ COUNTED: Final = (
     "offset",
     "link",
 )
-"""What counts as one datum each."""
+"""The data that count as one each."""
 
 
 Parallel = int | OrientedLine
-"""PARALLEL TO: the index of the line in the run, or the line itself where it lies before the run."""
+"""PARALLEL TO: the index of the line in the run, or the line itself if it lies before the run."""
 
 
 @dataclass(frozen=True)
 class Element:
     """A LINE (`turn` NONE) or an ARC of a run.
 
-    `typed` are its data by name; `link` is the angle from the heading at the end of the element before to its own,
-    0 for TANGENT, None where nothing is typed about it.
+    `typed` are its data by name.  `link` is the angle from the final heading of the element before to its own initial
+    heading: 0 for TANGENT, None if nothing is typed about it.
     """
 
     number: int
@@ -55,24 +55,24 @@ class Element:
 
     @cached_property
     def known(self) -> Mapping[str, float]:
-        """The data by name, in millimeters and radians; relative ones with the ending `_inc`."""
+        """The data by name, in millimeters and radians; names of relative data end in `_inc`."""
         return dict(self.typed)
 
     @property
     def point(self) -> Point | None:
-        """The point that the element's line passes at DISTANCE, or that lies on its circle."""
+        """The point that the element's line passes at DISTANCE, or that its circle passes through."""
         if "point_x" in self.known and "point_y" in self.known:
             return self.known["point_x"], self.known["point_y"]
         return None
 
     @property
     def unknowns(self) -> int:
-        """How many numbers determine it once its start is known."""
+        """The number of values that determine it once its start is known."""
         return 3 if self.turn else 2
 
     @cached_property
     def data(self) -> tuple[str, ...]:
-        """What is typed of it, each of which counts as one."""
+        """The names of its typed data, each of which counts as one."""
         present = set(self.known) & set(COUNTED)
         extra = {"point": self.point, "parallel": self.parallel, "link": self.link}
         present |= {name for name, value in extra.items() if value is not None}
@@ -81,7 +81,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Run:
-    """Elements that are solved together: from `start`, behind a piece that ends in direction `heading`."""
+    """Elements that are solved together, from `start`, after a piece that ends in direction `heading`."""
 
     start: Point
     heading: float | None
@@ -89,12 +89,12 @@ class Run:
 
     @property
     def missing(self) -> int:
-        """How many more data it takes at least; 0 or less where there are enough."""
+        """The least number of data still needed; 0 or less if there are enough."""
         return sum(element.unknowns - len(element.data) for element in self.elements)
 
     @property
     def enough(self) -> bool:
-        """Whether there may be enough data: for the whole run, and for its end whatever comes before that."""
+        """True if the data may suffice: counted for the whole run, and for its last elements, however many."""
         rest = 0
         for element in reversed(self.elements):
             rest += element.unknowns - len(element.data)
@@ -104,7 +104,7 @@ class Run:
 
     @property
     def size(self) -> float:
-        """The largest coordinate difference among its typed points, at least its largest typed length."""
+        """The greatest of the X and Y ranges of its typed points and its typed lengths and radii."""
         xs, ys, sizes = [self.start[0]], [self.start[1]], [0.0]
         for element in self.elements:
             known = element.known
