@@ -1,9 +1,9 @@
-"""The calculator behind a length or an angle: the shop's usual cases, from what a drawing gives to the missing number.
+"""This module is the calculator of a length or angle field: it gets a missing number from those on a drawing.
 
-Each case takes texts as a field takes them (`1 1/2`, `25.4/2`, `12.7mm`), so that what was typed stays as it was
-typed, and yields every answer in an order that stays.  Lengths are in program units, angles in degrees,
-counterclockwise from +X.  Formulas: the right triangle; the tangent from a point to a circle at sqrt(d^2 - r^2); the
-division of a circle; the meetings of lines and circles.
+Each case of everyday shop work accepts texts as a field does (`1 1/2`, `25.4/2`, `12.7mm`), so that they stay as typed,
+and returns every answer in a fixed order.  Lengths are in program units, angles in degrees, counterclockwise from +X.
+Formulas: the right triangle; the tangent from a point to a circle, of length sqrt(d^2 - r^2); the division of a circle;
+the intersections of lines and circles.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Numbers = Mapping[str, float]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """One number of a case: its name, what the operator reads, and its kind."""
+    """One number of a case: its name, the label that the operator reads, and its kind."""
 
     name: str
     label: str
@@ -31,27 +31,27 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why there is no answer: the sentence, and the input that it belongs to, None for all of them."""
+    """Why there is no answer: the sentence, and the name of the input at fault, None for all of them."""
 
     text: str
     name: str | None = None
 
 
 Answers = tuple[Numbers, ...]
-"""Every answer of a case: each the outputs by name, in program units and degrees."""
+"""Every answer of a case: each maps output names to values, in program units and degrees."""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One case: what is typed, what comes out, and how."""
+    """One case: its inputs, its outputs, and how to calculate them."""
 
     name: str
     inputs: tuple[Quantity, ...]
     outputs: tuple[Quantity, ...]
     solve: Callable[[Numbers], Answers | Refusal]
-    """From millimeters and radians to millimeters and radians."""
+    """Takes and returns millimeters and radians."""
     optional: bool = False
-    """Whether some inputs may stay blank: of a triangle and of an arc any two are typed."""
+    """True if inputs may stay blank: for a triangle or an arc, any two are typed."""
 
 
 def _length(name: str, label: str) -> Quantity:
@@ -63,7 +63,7 @@ def _angle(name: str, label: str) -> Quantity:
 
 
 def calculate(case: Case, typed: Mapping[str, str], unit: Unit) -> Answers | Refusal:
-    """What comes out of a case with these texts in its inputs; blanks may be left out."""
+    """Return the answers of a case for these input texts, or why there are none; blanks may be left out."""
     known: dict[str, float] = {}
     for quantity in case.inputs:
         text = typed.get(quantity.name, "")
@@ -93,7 +93,7 @@ def _outside(case: Case, answer: Numbers, unit: Unit) -> Numbers:
 
 
 def field_text(value: float, unit: Unit) -> str:
-    """An answer as the text that goes into a field: with as many decimals as a conversion keeps, none of them 0."""
+    """Format an answer for a field, with as many decimals as a unit conversion keeps, without trailing zeros."""
     text = f"{value:.{KEPT_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
     return "0" if text in ("-0", "") else text
 
@@ -102,7 +102,7 @@ def field_text(value: float, unit: Unit) -> str:
 
 
 def _triangle(known: Numbers) -> Answers | Refusal:
-    """Any two of both legs, the hypotenuse and the angle between the first leg and the hypotenuse."""
+    """Solve a right triangle from two of its legs, its hypotenuse and the angle between first leg and hypotenuse."""
     fault = _two_of("Enter two of the four: two sides, or a side and the angle.", known)
     if fault is not None:
         return fault
@@ -121,7 +121,7 @@ def _two_of(advice: str, known: Numbers) -> Refusal | None:
 
 
 def _legs(known: Numbers) -> tuple[float, float]:
-    """The legs of a right triangle at and across the angle, from two of its four numbers."""
+    """Return the adjacent and the opposite leg of a right triangle, from two of its four numbers."""
     match known:
         case {"adjacent": a, "opposite": b}:
             return a, b
@@ -138,7 +138,7 @@ def _legs(known: Numbers) -> tuple[float, float]:
 
 
 def _arc(known: Numbers) -> Answers | Refusal:
-    """Any two of radius, chord, height over the chord, and sweep; a radius and a chord leave two arcs."""
+    """Solve an arc from two of radius, chord, height over the chord and sweep; a radius and a chord fit two arcs."""
     fault = _two_of("Enter two of the four: radius, chord, height, sweep.", known)
     if fault is not None:
         return fault
@@ -153,7 +153,7 @@ def _arc(known: Numbers) -> Answers | Refusal:
 
 
 def _radii_and_sweeps(known: Numbers) -> tuple[tuple[float, float], ...]:
-    """Radius and sweep of an arc from two of its four numbers."""
+    """Return each radius and sweep that fit two of an arc's four numbers."""
     match known:
         case {"radius": r, "chord": c}:
             half = asin(c / (2.0 * r))
@@ -180,7 +180,7 @@ def _arc_numbers(radius: float, sweep: float) -> Numbers:
 
 
 def _tangent(known: Numbers) -> Answers | Refusal:
-    """The two tangents from a point to a circle: that which leaves the circle on its left first."""
+    """Return the two tangents from a point to a circle: first the one with the circle on its left."""
     point, center, radius = _point(known, "x", "y"), _point(known, "x_center", "y_center"), known["radius"]
     if radius <= 0.0:
         return Refusal("RADIUS must be above 0.", "radius")
@@ -197,14 +197,14 @@ def _tangent(known: Numbers) -> Answers | Refusal:
 
 
 def _polar(known: Numbers) -> Answers | Refusal:
-    """The point at a length in a direction."""
+    """Return the point at a length and an angle from a point."""
     x, y = _point(known, "x", "y")
     angle, length = known["angle"], known["length"]
     return ({"x_end": x + length * cos(angle), "y_end": y + length * sin(angle)},)
 
 
 def _bolt_circle(known: Numbers) -> Answers | Refusal:
-    """One hole of a bolt circle; hole 1 stands at the start angle, the others follow counterclockwise."""
+    """Return one hole of a bolt circle; hole 1 is at the start angle, the others follow counterclockwise."""
     count, hole = known["count"], known["hole"]
     if not 1 <= count <= 9999:
         return Refusal("HOLES must be from 1 to 9999.", "count")
@@ -318,9 +318,9 @@ CASES: Final = (
         _two_circles,
     ),
 )
-"""The cases, in the order in which a screen lists them."""
+"""The cases, in the order that a screen lists them."""
 
 
 def outputs_for(case: Case, kind: Kind) -> tuple[Quantity, ...]:
-    """The outputs of a case that a field of this kind takes: lengths for a length, angles for an angle."""
+    """Return the outputs of a case that a field of this kind accepts: lengths for a length, angles for an angle."""
     return tuple(quantity for quantity in case.outputs if quantity.kind is kind)

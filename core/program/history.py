@@ -1,4 +1,4 @@
-"""Undo and redo: every program the operator has had, and what differs between two of them in an operator's words."""
+"""This module keeps programs for undo and redo, and describes the differences of two programs for the operator."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from core.units import Kind, Unit, printable, show
 
 @dataclass(frozen=True, slots=True)
 class UndoStep:
-    """A program and what the edit was called that led away from it."""
+    """A program, and the label of the edit that separates it from its neighbor in the history."""
 
     program: Program
     label: str
@@ -23,27 +23,27 @@ class UndoStep:
 
 @dataclass(frozen=True, slots=True)
 class History:
-    """The program as it is, with those before it (oldest first) and those undone (the last undone last)."""
+    """The current program, the earlier ones (oldest first) and the undone ones (the last undone last)."""
 
     program: Program
     past: tuple[UndoStep, ...] = ()
     future: tuple[UndoStep, ...] = ()
 
     def do(self, program: Program, label: str) -> History:
-        """The history with an edit made; an edit that changes nothing leaves it as it is."""
+        """Return the history after an edit; an edit that changes nothing leaves the history unchanged."""
         if program == self.program:
             return self
         return History(program, (*self.past, UndoStep(self.program, label)))
 
     def undo(self) -> History:
-        """One edit taken back; as it is when there is none."""
+        """Return the history with one edit undone, unchanged if there is none."""
         if not self.past:
             return self
         *earlier, last = self.past
         return History(last.program, tuple(earlier), (*self.future, UndoStep(self.program, last.label)))
 
     def redo(self) -> History:
-        """One edit made again; as it is when none was taken back."""
+        """Return the history with one edit redone, unchanged if none was undone."""
         if not self.future:
             return self
         *later, following = self.future
@@ -51,22 +51,22 @@ class History:
 
     @property
     def undo_label(self) -> str | None:
-        """What the next undo takes back."""
+        """The label of the edit that the next undo reverses, None if there is none."""
         return self.past[-1].label if self.past else None
 
     @property
     def redo_label(self) -> str | None:
-        """What the next redo makes again."""
+        """The label of the edit that the next redo repeats, None if there is none."""
         return self.future[-1].label if self.future else None
 
     @property
     def undo_count(self) -> int:
-        """How many edits can be taken back."""
+        """The number of edits that can be undone."""
         return len(self.past)
 
     @property
     def redo_count(self) -> int:
-        """How many edits can be made again."""
+        """The number of edits that can be redone."""
         return len(self.future)
 
 
@@ -77,7 +77,7 @@ FormPart = Block | Segment | Tool | ProgramParameters | PartSetup
 
 @dataclass(frozen=True, slots=True)
 class Splice(Generic[Item]):
-    """What of one tuple is replaced by what of another, from index `at` (0 is the first)."""
+    """The items of one tuple that those of another replace, from index `at` (0 is the first)."""
 
     at: int
     old: tuple[Item, ...]
@@ -85,7 +85,7 @@ class Splice(Generic[Item]):
 
 
 def splice(old: tuple[Item, ...], new: tuple[Item, ...]) -> Splice[Item]:
-    """The shortest middle in which two tuples differ."""
+    """Return the shortest middle part in which two tuples differ."""
     shorter = min(len(old), len(new))
     front = next((index for index in range(shorter) if not same(old[index], new[index])), shorter)
     most = shorter - front
@@ -94,12 +94,12 @@ def splice(old: tuple[Item, ...], new: tuple[Item, ...]) -> Splice[Item]:
 
 
 def same(first: object, second: object) -> bool:
-    """Whether two parts are equal, at once where they are the same object."""
+    """True if two parts are equal; fast if they are the same object."""
     return first is second or first == second
 
 
 def differences(old: Program, new: Program) -> tuple[str, ...]:
-    """One sentence for each field, segment, block and tool in which `new` is not as `old`; none if they are equal."""
+    """Return a sentence for each difference in fields, segments, blocks and tools; none if the programs are equal."""
     return tuple(_differences(old, new))
 
 
@@ -175,7 +175,7 @@ def _segments(where: str, old: tuple[Segment, ...], new: tuple[Segment, ...], un
 
 
 def _replaced(thing: str, where: str, at: int, old: int, new: int) -> str:
-    """How many were taken out and put in from index `at` on."""
+    """Describe how many items were deleted and inserted from index `at` on."""
     if old == 0:
         return f"{where}{_run(thing, at, new)} {'is' if new == 1 else 'are'} new."
     if new == 0:

@@ -1,7 +1,7 @@
-"""The program as the operator typed it: frozen, blanks included, nothing calculated.
+"""This module defines the program as the operator typed it: frozen, with blanks, and without calculated numbers.
 
-Numbers are in program units, as typed; `core.program.solve.block` turns them into millimeters and calculates
-the blanks.  A blank is None, text that could not be read stays as `Unread`.
+Numbers are in program units, as typed; `core.program.solve.block` converts them to millimeters and calculates
+the blanks.  A blank is None; text that could not be read stays as `Unread`.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from core.units import Unit
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number that was typed, in program units (degrees for an angle)."""
+    """A typed number, in program units (degrees for an angle)."""
 
     value: float
 
 
 @dataclass(frozen=True, slots=True)
 class Relative:
-    """A number that was typed with an I: from the segment's start, or from the heading at the end of the one before."""
+    """A number typed with an I: relative to the segment's start, or to the final heading of the segment before."""
 
     value: float
 
 
 @dataclass(frozen=True, slots=True)
 class Unread:
-    """Text that was typed and cannot be read; it never becomes a number, and blocks posting."""
+    """Typed text that cannot be read; it never becomes a number, and it blocks posting."""
 
     text: str
     reason: str
@@ -57,7 +57,7 @@ class Direction(StrEnum):
 
 
 class PathChoice(StrEnum):
-    """Which center path is posted: the control's, or the true offset."""
+    """The center path to post: the control's, or the true offset."""
 
     CONTROL = "CONTROL"
     BEST = "BEST"
@@ -73,9 +73,9 @@ class Coolant(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LineSegment:
-    """A LINE as typed; `choice` says which solution is picked, on the first segment of a run for the whole run.
+    """A LINE as typed; `choice` is the picked solution, on the first segment of a run for the whole run.
 
-    `parallel` is the number of an earlier LINE, `pick_x` and `pick_y` a point near the end of the run's first segment.
+    `parallel` is the number of an earlier LINE; `pick_x`, `pick_y` is a point near the end of a run's first segment.
     """
 
     x_end: Typed = None
@@ -97,7 +97,7 @@ class LineSegment:
 
 @dataclass(frozen=True, slots=True)
 class ArcSegment:
-    """An ARC as typed; `choice` and the pick as of a LINE."""
+    """An ARC as typed; `choice` and the pick are as in a LINE."""
 
     direction: Direction = Direction.CW
     x_end: Typed = None
@@ -127,14 +127,14 @@ class BlendSegment:
 
 @dataclass(frozen=True, slots=True)
 class ChamferSegment:
-    """A CHAMFER as typed: the corner of its neighbors cut off, the same length from both."""
+    """A CHAMFER as typed: it cuts off the corner of its neighbors, the same length from both."""
 
     length: Typed = None
     feed: Typed = None
 
 
 CornerSegment = BlendSegment | ChamferSegment
-"""The kinds of segments that stand at the corner of their two neighbors and shorten both."""
+"""The kinds of segments that lie at the corner of their two neighbors and shorten both."""
 
 Segment = LineSegment | ArcSegment | CornerSegment
 """The kinds of segment.  A new kind also needs its form in `fields`, its rules in `solve`, and its keys in `file.read`;
@@ -143,9 +143,9 @@ a new curve needs a piece in `geometry.piece`."""
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A MILL CONTOUR block: segment 0 START and the segments 1 ... n.  `lookahead` None is CAL, a value is USR.
+    """A MILL CONTOUR block: segment 0 is START, then segments 1 ... n.  `lookahead` None is CAL, a value is USR.
 
-    A blank `speed`, `plunge_feed` or `coolant` takes what the tool table proposes for the tool.
+    A blank `speed`, `plunge_feed` or `coolant` takes the tool table's proposal for the tool.
     """
 
     tool: Typed = None
@@ -194,7 +194,7 @@ class ProgramParameters:
 
 @dataclass(frozen=True, slots=True)
 class PartSetup:
-    """PART SETUP: what the posted file's header and its end need. `work_offset` is 54 ... 59."""
+    """PART SETUP: the data for the header and the end of the posted file.  `work_offset` is 54 ... 59."""
 
     name: str = ""
     work_offset: Typed = None
@@ -219,12 +219,12 @@ Part = TypeVar(
 
 
 def changed(part: Part, values: Mapping[str, Any]) -> Part:
-    """A copy of a part of a program with these attributes changed; the caller vouches for names and types."""
+    """Return a copy of a part with these attributes changed; the caller is responsible for names and types."""
     return replace(part, **values)
 
 
 def unread_texts(program: Program) -> Iterator[Unread]:
-    """Every text of a program that could not be read, on whatever form."""
+    """Yield every text in a program that could not be read, on any form."""
     segments = (segment for block in program.blocks for segment in block.segments)
     for part in (program.parameters, program.setup, *program.tools, *program.blocks, *segments):
         values = (getattr(part, name) for name in part.__match_args__)

@@ -1,7 +1,7 @@
-"""Tools: the program's tool table, the tool a field calls, LinuxCNC tables (the controls': `controls.control_tools`).
+"""This module finds called tools in the program's tool table and reads LinuxCNC's (others: `controls.control_tools`).
 
-A LinuxCNC table has a tool a line, `T1 P1 Z0.5 D0.25 Q0 ;remark`: a letter and a number at a time, in any order, and a
-remark after the semicolon.  It does not say its unit: lengths are in the machine's.
+A LinuxCNC table has one tool per line, `T1 P1 Z0.5 D0.25 Q0 ;remark`: words of a letter and a number, in any order, and
+a remark after the semicolon.  Lengths are in machine units, which the table does not name.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from core.units import Unit, convert, printable, to_mm
 
 @dataclass(frozen=True, slots=True)
 class CalledTool:
-    """A tool as a block calls it: `diameter` in millimeters, None where the table gives none that can be used."""
+    """A tool as a block calls it: `diameter` in millimeters, None if the table has no usable one."""
 
     type: str = ""
     diameter: float | None = None
@@ -29,15 +29,15 @@ class CalledTool:
 
 
 def find_tool(program: Program, number: float) -> Tool | None:
-    """The tool of that number, None if the table has none."""
+    """Return the tool with a number, None if the table has none."""
     return next((tool for tool in program.tools if tool.number == number), None)
 
 
 def called_tool(program: Program, typed: Typed, name: str, severity: Severity = Severity.ERROR) -> CalledTool:
-    """The tool that field `name` (`tool` or `finish_tool`) calls.
+    """Return the tool that field `name` (`tool` or `finish_tool`) calls.
 
-    A blank and unreadable text call nothing and are reported elsewhere; 0 is no finish tool.
-    `severity` weighs a diameter that cannot be used, which hurts less when the center runs on the contour.
+    A blank or unreadable text calls no tool and is reported elsewhere; 0 means no finish tool.
+    `severity` applies to an unusable diameter, which matters less if the tool center runs on the contour.
     """
     if not isinstance(typed, Number) or (name == "finish_tool" and typed.value == 0.0):
         return CalledTool()
@@ -53,7 +53,7 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
 
 
 def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
-    """Why the diameter of a tool cannot be used."""
+    """Return why the diameter of a tool cannot be used, None if it can."""
     diameter, field = tool.diameter, field_of(Form.TOOL, "diameter")
     missing = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
     if diameter is None:
@@ -70,11 +70,11 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
 TOOL_TABLE: Final = "TOOLTABLE"
 EXAMPLE: Final = "write T1 P1 D.25 Z0"
 TABLE_LETTERS: Final = "TPXYZABCUVWDIJQ"
-"""The words a LinuxCNC table knows."""
+"""The letters of the words in a LinuxCNC table."""
 MAX_TABLE_LINES: Final = 10_000
 """A file with more lines is not a tool table."""
 MAX_TABLE_FAULTS: Final = 3
-"""Faults that are listed."""
+"""The most faults that are listed."""
 _WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))(?=[\sA-Za-z]|$)")
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
@@ -90,25 +90,25 @@ class TableLine:
     remark: str = ""
 
     def finding(self, severity: Severity, letter: str, text: str) -> Finding:
-        """Trouble with one word of this line."""
+        """Return a finding on one word of this line."""
         return Finding(TOOL_TABLE, severity, text, line=self.line, column=self.columns.get(letter, 1))
 
 
 @dataclass(frozen=True, slots=True)
 class ImportedTools:
-    """A whole table's tools in the program's unit, in order of number; none at all while there is an error."""
+    """The tools of a table in the program's unit, sorted by number; none if there is any error."""
 
     tools: tuple[Tool, ...] = ()
     findings: tuple[Finding, ...] = field(default_factory=tuple)
 
     @property
     def errors(self) -> tuple[Finding, ...]:
-        """Why it cannot be imported."""
+        """The errors that prevent the import."""
         return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
 
 
 def table_faults(name: str, findings: Sequence[Finding]) -> str:
-    """What is wrong with a table of this name: the first few faults, a line each, and how many more there are."""
+    """List the first few faults of a table with this name, one per line, and the number of further ones."""
     listed = findings[:MAX_TABLE_FAULTS]
     lines = [f"{name}, line {finding.line}, column {finding.column}: {finding.text}" for finding in listed]
     if more := len(findings) - len(listed):
@@ -117,7 +117,7 @@ def table_faults(name: str, findings: Sequence[Finding]) -> str:
 
 
 def decode_table(data: bytes) -> str:
-    """A table's text: UTF-8, or byte for byte where it is not."""
+    """Decode a table as UTF-8, or as Latin-1 if it is not UTF-8."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -125,7 +125,7 @@ def decode_table(data: bytes) -> str:
 
 
 def table_lines(lines: Iterable[str]) -> Iterator[TableLine | Finding]:
-    """Every line that has words, or what is wrong with it; blank lines and remarks alone are passed over."""
+    """Yield every line that has words, or its fault; skip blank lines and lines with only a remark."""
     for number, text in enumerate(lines, 1):
         words, _, remark = text.partition(";")
         if words.strip():
@@ -133,9 +133,9 @@ def table_lines(lines: Iterable[str]) -> Iterator[TableLine | Finding]:
 
 
 def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
-    """The tools of a table whose lengths are in `unit`, for a program that is in `program`.
+    """Return the tools of a table with lengths in `unit`, for a program in unit `program`.
 
-    The remark becomes the tool's type.  A tool without a diameter comes with a blank one and a warning.
+    The remark becomes the tool's type.  A tool without a diameter gets a blank one and a warning.
     """
     rows: list[TableLine] = []
     findings: list[Finding] = []
@@ -178,7 +178,7 @@ def _line(line: int, text: str, remark: str) -> TableLine | Finding:
 
 
 def _quoted(text: str) -> str:
-    """A piece of the table as a message repeats it; braces would be taken for the place of a length."""
+    """Quote text of the table for a message; replace braces, which would be taken for placeholders of lengths."""
     return printable(text).replace("{", "?").replace("}", "?")
 
 
@@ -193,7 +193,7 @@ def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str 
 
 
 def _objections(row: TableLine, unit: Unit, program: Unit) -> Iterator[Finding]:
-    """What the shop's own table cannot take, though a control may."""
+    """Yield findings on values that the program's tool table does not accept, although a control may."""
     number, _, size, *_ = TOOL
     if (trouble := value_refusal(number, row.number, program)) is not None:
         yield row.finding(Severity.ERROR, "T", trouble)

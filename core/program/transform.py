@@ -1,7 +1,7 @@
-"""Transform: blocks and segments moved, rotated, mirrored and repeated, as one edit.
+"""This module moves, rotates and mirrors blocks, and repeats segments, as one edit.
 
-Results are typed numbers of six decimals.  What was calculated stays blank where it still follows from them: the new
-contour is solved and held against the old one, and where a blank no longer follows, ends and centers are typed.
+Results are typed numbers with six decimals.  Calculated fields stay blank if they still give the same contour: the new
+contour is solved and compared with the old one, and if it differs, all ends and centers are typed.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from core.program.solve.solved import SolvedBlock, SolvedSegment
 from core.units import Unit, from_mm, to_mm
 
 DECIMALS: Final = 6
-"""Decimals of the numbers that are typed."""
+"""Decimals of the resulting typed numbers."""
 SAME_PLACE: Final = 1e-3
-"""Millimeters by which six decimals may move a place: their rounding, grown by what is calculated from them."""
+"""Millimeters by which six decimals may move a point: their rounding, magnified in calculated values."""
 MAX_COPIES: Final = 400
 OTHER_SIDE: Final = {
     CutterComp.LEFT: CutterComp.RIGHT,
@@ -48,9 +48,9 @@ OTHER_WAY: Final = {Direction.CW: Direction.CCW, Direction.CCW: Direction.CW}
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A motion of the plane, in millimeters: mirrored in the X axis where `mirrored`, turned, then shifted.
+    """A motion of the plane, in millimeters: mirrored in the X axis if `mirrored`, rotated, then shifted.
 
-    Points are complex numbers; `turn` is a unit number.
+    Points are complex numbers; `turn` is a complex number of modulus 1.
     """
 
     turn: complex = 1.0
@@ -58,49 +58,49 @@ class Motion:
     mirrored: bool = False
 
     def point(self, at: Point) -> Point:
-        """Where a point goes."""
+        """Return the image of a point."""
         z = complex(*at)
         moved = self.turn * (z.conjugate() if self.mirrored else z) + self.shift
         return moved.real, moved.imag
 
     def angle(self, degrees: float) -> float:
-        """A direction in degrees after the motion, from 0 to 360."""
+        """Return the image of a direction, in degrees from 0 up to 360."""
         turned = phase(self.turn) * 180.0 / pi
         return (turned - degrees if self.mirrored else turned + degrees) % 360.0
 
     def times(self, count: int) -> Motion:
-        """The motion done several times; of one that mirrors only once."""
+        """Return this motion repeated `count` times."""
         motion = Motion()
         for _ in range(count):
             motion = motion.then(self)
         return motion
 
     def then(self, other: Motion) -> Motion:
-        """This motion and another one after it."""
+        """Return the motion that does this one first, then the other."""
         turn = self.turn.conjugate() if other.mirrored else self.turn
         shift = self.shift.conjugate() if other.mirrored else self.shift
         return Motion(other.turn * turn, other.turn * shift + other.shift, self.mirrored is not other.mirrored)
 
 
 def moved(x: float, y: float) -> Motion:
-    """A shift in millimeters."""
+    """Return a shift in millimeters."""
     return Motion(shift=complex(x, y))
 
 
 def rotated(center: Point, degrees: float) -> Motion:
-    """A turn about a point (mm), counterclockwise."""
+    """Return a counterclockwise rotation about a point (mm)."""
     turn, about = exp(1j * radians(degrees)), complex(*center)
     return Motion(turn, about - turn * about)
 
 
 def mirrored(point: Point, degrees: float) -> Motion:
-    """A reflection in the line through a point (mm) in this direction."""
+    """Return a reflection in the line through a point (mm) in this direction."""
     turn, about = exp(2j * radians(degrees)), complex(*point)
     return Motion(turn, about - turn * about.conjugate(), mirrored=True)
 
 
 def transform_block(program: Program, number: int, motion: Motion) -> Edited:
-    """A block after a motion; a reflection also turns DIRECTION and CUTTER COMP. round."""
+    """Move a block; a reflection also reverses DIRECTION and CUTTER COMP."""
     block = program.blocks[number - 1]
     solved = solve_block(block, program)
     if (refusal := _undetermined(block, solved)) is not None:
@@ -119,9 +119,9 @@ def transform_block(program: Program, number: int, motion: Motion) -> Edited:
 
 
 def repeat_segments(program: Program, number: int, first: int, last: int, motion: Motion, copies: int) -> Edited:
-    """Copies of segments `first` to `last` after the last of them, each moved on from the one before.
+    """Insert copies of segments `first` to `last` after `last`, each moved on from the one before.
 
-    Where a copy does not begin at the end of what stands before it, a LINE leads there.
+    If a copy does not start at the end of the preceding segment, a LINE leads there.
     """
     block = program.blocks[number - 1]
     if first > last:
@@ -169,7 +169,7 @@ def _with_own_values(copy: list[Segment], shapes: Sequence[SolvedSegment], unit:
 
 
 def _undetermined(block: Block, solved: SolvedBlock) -> Refused | None:
-    """Why a block cannot be moved: nobody knows where some of it is."""
+    """Refuse to move a block of which some segment or START is not determined; None if all are."""
     if not (isinstance(block.x_start, Number) and isinstance(block.y_start, Number)):
         return Refused("Type X START and Y START first.")
     if solved.determined < len(block.segments):
@@ -188,14 +188,14 @@ def _end(segment: SolvedSegment) -> Point:
 
 
 def _typed(millimeters: float, unit: Unit) -> Number:
-    # no minus zero
+    # avoid minus zero
     return Number(round(from_mm(millimeters, unit), DECIMALS) + 0.0)
 
 
 def _transformed(
     segments: Sequence[Segment], shapes: Sequence[SolvedSegment], motion: Motion, unit: Unit, *, explicit: bool
 ) -> Iterator[Segment]:
-    """The segments after the motion; where `explicit`, every end and center is typed."""
+    """Yield the moved segments; if `explicit`, every end and center is typed."""
     for segment, shape in zip(segments, shapes, strict=True):
         match segment:
             case LineSegment():
@@ -240,7 +240,7 @@ def _given(*values: Typed) -> bool:
 
 
 def _follows(made: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion) -> bool:
-    """Whether a block is the one before after the motion."""
+    """True if a block equals the moved old one."""
     pairs = zip(made.segments, before, strict=True)
     return made.determined == len(before) and all(_same(now.sharp, old.sharp, motion) for now, old in pairs)
 
@@ -248,8 +248,8 @@ def _follows(made: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion)
 def _same(now: Piece | None, before: Piece | None, motion: Motion) -> bool:
     if now is None or before is None:
         return now is None and before is None
-    places = zip((now.start, now.end), (before.start, before.end), strict=True)
-    if type(now) is not type(before) or any(dist(at, motion.point(old)) > SAME_PLACE for at, old in places):
+    points = zip((now.start, now.end), (before.start, before.end), strict=True)
+    if type(now) is not type(before) or any(dist(at, motion.point(old)) > SAME_PLACE for at, old in points):
         return False
     if not (isinstance(now, Arc) and isinstance(before, Arc)):
         return True

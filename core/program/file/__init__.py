@@ -1,1 +1,1 @@
-"""Program files: TOML text read strictly, line and key named, and written."""
+"""This package writes program files as TOML and reads them strictly, with errors that name line and key."""

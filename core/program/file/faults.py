@@ -1,8 +1,8 @@
-"""Faults of a program file's text: the line of a key, a text that is cut off, and what a TOML reader refuses.
+"""This module locates faults in a program file's text: the line of a key, a cut-off text, and TOML syntax errors.
 
-A file of which the rest was lost can be a whole, other program: `y_end = 3.5` becomes `y_end = 3`.  The first line of
-a file that this program writes therefore says what its last one is.  Both are comments: a file without the first, such
-as one written by hand, needs no last one, and one with text added after the last one is whole.
+A truncated file can still be a valid, different program: `y_end = 3.5` becomes `y_end = 3`.  The first line of a file
+that this program writes therefore announces its last line.  Both are comments: a file without the first, such as one
+written by hand, needs no last one, and a file with text added after the last one is complete.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import Final
 from core.program.file.write import END, PROMISE
 
 KeyPath = tuple[str | int, ...]
-"""The way to a value: table names, indices from 0 in arrays of tables, the key."""
+"""The path to a value: table names, indices from 0 in arrays of tables, the key."""
 
 LONGEST_QUOTE: Final = 40
-"""Characters of a line that a sentence repeats."""
+"""The most characters of a line that a sentence quotes."""
 
 _HEADER: Final = re.compile(r"\s*(\[\[?)\s*([\w.\s\"'-]+?)\s*\]\]?\s*(?:#.*)?$")
 _KEY: Final = re.compile(r"\s*([\w.\s\"'-]+?)\s*=")
@@ -28,7 +28,7 @@ _TOML_FAULT: Final = re.compile(r"(.*) \(at (?:(line (\d+), column \d+)|end of d
 
 
 def key_lines(text: str) -> Mapping[KeyPath, int]:
-    """The line, from 1, of each table's header and of each key that is on a line by itself."""
+    """Return the line (from 1) of each table's header and of each key that starts a line."""
     lines: dict[KeyPath, int] = {(): 1}
     counts: dict[KeyPath, int] = {}
     table: KeyPath = ()
@@ -46,7 +46,7 @@ def _names(dotted: str) -> list[str]:
 
 
 def _entered(names: list[str], counts: dict[KeyPath, int], *, array: bool) -> KeyPath:
-    """The path of the table a header opens: of each array of tables on the way the last element."""
+    """Return the path of the table that a header opens, through the last element of each array of tables."""
     path: KeyPath = ()
     for name in names[:-1]:
         path = (*path, name)
@@ -60,14 +60,14 @@ def _entered(names: list[str], counts: dict[KeyPath, int], *, array: bool) -> Ke
 
 
 def line_of(lines: Mapping[KeyPath, int], path: KeyPath) -> int:
-    """The line of a key, or of the nearest table around it that has one."""
+    """Return the line of a key, or of the nearest enclosing table that has one."""
     while path not in lines:
         path = path[:-1]
     return lines[path]
 
 
 def cut_off(text: str) -> str | None:
-    """The line and the sentence on a text that promises an end and lacks it, None for every other one."""
+    """Return line and sentence for a text that announces a last line but lacks it, None for any other text."""
     if _PROMISED.search(text) is None or _ENDED.search(text) is not None:
         return None
     lines = text.rstrip().splitlines()
@@ -83,9 +83,9 @@ def _quoted(line: str) -> str:
 
 
 def syntax_fault(fault: str, text: str) -> str:
-    """What a reader of TOML says of a text, with its line in front and the remedy after it.
+    """Return a TOML reader's fault, with its line in front and a remedy at the end.
 
-    What stops in the middle of its last line may be cut off there; the key of that line is named.
+    A text that stops in the middle of its last line may be cut off there; the key of that line is named.
     """
     parts = _TOML_FAULT.fullmatch(fault)
     if parts is None:

@@ -1,4 +1,4 @@
-"""A Program as the text of its file: what was typed and nothing calculated, in the order of the screens."""
+"""This module writes a program as the text of its file: only what was typed, in the order of the screens."""
 
 from __future__ import annotations
 
@@ -22,37 +22,37 @@ from core.program.model import (
 from core.units import Kind
 
 FORMAT: Final = 1
-"""The format of program files that every version reads."""
+"""The program file format that every version reads."""
 
 NEWER_FORMAT: Final = 2
-"""The format of files with anything that format 1 does not have."""
+"""The format of files that need anything format 1 does not have."""
 
 NEWER_KEYS: Final = frozenset(
     ("tangent", "start_angle", "point_x", "point_y", "point_dist", "parallel", "offset", "pick_x", "pick_y")
 )
-"""The keys that format 1 does not have, besides relative numbers and a `choice` above 1."""
+"""The segment keys that format 1 does not have, besides relative numbers and a `choice` above 1."""
 
 RELATIVE: Final = "_inc"
-"""The ending of the key of a number that is relative."""
+"""The suffix of the key of a relative number."""
 
 PROPOSALS: Final = ("speed", "feed", "plunge_feed", "coolant")
-"""What format 1 does not have of a tool."""
+"""The keys of a tool that format 1 does not have."""
 
 KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
 
 UNREAD: Final = "unread"
-"""The table of texts that were typed and could not be read."""
+"""The table of typed texts that could not be read."""
 
 END: Final = "# end of program"
 """The last line of a program file."""
 
 PROMISE: Final = f'# its last line is "{END}"'
-"""What the first line says, so that a file whose rest was lost is recognized."""
+"""The comment on the first line, by which a truncated file is recognized."""
 
 
 def dumps(program: Program) -> str:
-    """The text of a program's file."""
+    """Return the text of a program's file."""
     lines = [
         f"format = {format_of(program)}  {PROMISE}",
         f'units = "{program.unit}"  # every length and feed below is in it',
@@ -70,7 +70,7 @@ def dumps(program: Program) -> str:
 
 
 def format_of(program: Program) -> int:
-    """The format a program needs: 2 where it has anything that format 1 does not have."""
+    """Return the format a program needs: 2 if it has anything that format 1 does not have."""
     segments = (segment for block in program.blocks for segment in block.segments)
     newer = any(map(_is_newer, segments)) or any(block.coolant is not None for block in program.blocks)
     newer = newer or any(getattr(tool, name) is not None for tool in program.tools for name in PROPOSALS)
@@ -89,7 +89,7 @@ Typable = ProgramParameters | PartSetup | Tool | Block | Segment
 
 
 def _table(header: str, name: str, form: Form, part: Typable, kind: str | None = None) -> list[str]:
-    """A table with its header, followed by the table of its unread texts."""
+    """Return the lines of a table with its header, followed by the table of its unread texts."""
     keys = [] if kind is None else [f'kind = "{kind}"']
     keys += _keys(form, part)
     unread = [f"{key} = {_quoted(text)}" for key, text in _unread(form, part)]
@@ -124,12 +124,12 @@ def _unread(form: Form, part: Typable) -> Iterator[tuple[str, str]]:
 
 
 def _number(value: float, kind: Kind) -> str:
-    """The shortest text that reads back as the same number."""
+    """Format a number as the shortest text that reads back as the same number."""
     whole = kind is Kind.COUNT and value == int(value)
     return str(int(value)) if whole else repr(float(value) + 0.0)
 
 
 def _quoted(text: str) -> str:
-    """A basic string; half characters, which no file can hold, become question marks."""
+    """Format a TOML basic string; lone surrogates, which no file can hold, become question marks."""
     whole = str(text).encode("utf-8", "replace").decode("utf-8")
     return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,1 +1,1 @@
-"""What follows from what was typed: each segment solved from its own fields and its start."""
+"""This package calculates the blanks of a block: each segment from its own fields and its start, or in a run."""

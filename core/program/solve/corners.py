@@ -1,6 +1,6 @@
-"""BLEND ARCs and CHAMFERs: each put between its two neighbors at their corner, which it shortens.
+"""This module inserts BLEND ARCs and CHAMFERs: each goes at the corner of its two neighbors and shortens both.
 
-In order of the segments; a neighbor that one of them has shortened is shortened further as it then is.
+They are inserted in the order of the segments; a neighbor that is already shortened is shortened further.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from core.program.model import BlendSegment, CornerSegment, Segment
 
 @dataclass(slots=True)
 class Corners:
-    """The surface with its blends and chamfers, by index of segment: pieces as they are left, and what is wrong.
+    """The surface with its blends and chamfers, by segment index: the remaining pieces, and the faults.
 
-    `waiting` are those that are not in place: faulty, without a size, or next to a segment not determined yet.
+    `waiting` holds the corners that are not inserted: faulty, without a size, or next to an undetermined segment.
     """
 
     pieces: list[Piece | None]
@@ -31,7 +31,7 @@ class Corners:
 def put_corners_in(
     segments: Sequence[Segment], pieces: Sequence[Piece | None], sizes: dict[int, float], lengthless: Set[int]
 ) -> Corners:
-    """The pieces of the segments with every BLEND ARC and CHAMFER put in.
+    """Return the pieces of the segments with every BLEND ARC and CHAMFER inserted.
 
     `sizes` holds the typed radii and lengths (mm), `lengthless` the determined segments without length.
     """
@@ -73,7 +73,7 @@ def _misplaced(segments: Sequence[Segment], index: int, segment: CornerSegment) 
 def _put_in(
     pieces: list[Piece | None], index: int, segment: CornerSegment, size: float, determined: Set[int]
 ) -> Finding | None:
-    """Put a blend or a chamfer in and shorten its neighbors, or say why not; nothing while a neighbor is unknown."""
+    """Insert a blend or chamfer and shorten its neighbors, or return why not; wait for an undetermined neighbor."""
     before, after = pieces[index - 1], pieces[index + 1]
     if before is None or after is None:
         return _no_neighbor(pieces, index, segment, determined)
@@ -87,7 +87,7 @@ def _put_in(
 def _no_neighbor(
     pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
 ) -> Finding | None:
-    """What is wrong where a determined neighbor has no length, or none any more."""
+    """Return a fault if a determined neighbor has no length, or none left."""
     verb, what = _words(segment)
     for neighbor in (index - 1, index + 1):
         if pieces[neighbor] is None and neighbor in determined:
@@ -97,7 +97,7 @@ def _no_neighbor(
 
 
 def _words(segment: CornerSegment) -> tuple[str, str]:
-    """What is done to the corner, and the field of its size."""
+    """Return the verb for what is done to the corner, and the label of its size field."""
     return ("blend", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "LENGTH")
 
 

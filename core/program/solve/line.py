@@ -1,6 +1,6 @@
-"""A LINE from its own fields and its start.
+"""This module solves a LINE from its own fields and its start.
 
-Order of two solutions (one end coordinate and XY LENGTH): the one with the greater other coordinate first.
+If two solutions fit (one end coordinate and XY LENGTH), the one with the greater other coordinate comes first.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def _polar(given: Given) -> Outcome:
 
 
 def _along(axis: int, given: Given) -> Outcome | None:
-    """Along the angle to one end coordinate."""
+    """Solve a line along XY ANGLE to one end coordinate; None if the angle leaves the end open."""
     start, known = given.start, given.known
     value, angle = known[_END[axis]], known["angle"]
     end = construct.ray_to_coordinate(start, angle, axis, value)
@@ -51,7 +51,7 @@ def _along(axis: int, given: Given) -> Outcome | None:
 
 
 def _long(axis: int, given: Given) -> Outcome:
-    """As long as typed, to one end coordinate."""
+    """Solve a line of the typed XY LENGTH to one end coordinate."""
     value, length = given.known[_END[axis]], given.known["length"]
     ends = construct.on_circle(given.start, length, axis, value)
     if isinstance(ends, OutOfReach):
@@ -61,7 +61,7 @@ def _long(axis: int, given: Given) -> Outcome:
 
 
 def points_of(ends: OnePoint | TwoPoints) -> tuple[Point, ...]:
-    """The points of a construction, in its documented order."""
+    """Return the points of a construction, in its documented order."""
     return (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
 
 
@@ -70,9 +70,9 @@ def _lines(start: Point, *ends: Point) -> Outcome:
 
 
 def kept_axis(segment: LineSegment) -> int | None:
-    """The axis (0 is X) on which a LINE stays: the other end coordinate is all that is typed of its shape.
+    """Return the axis (0 is X) whose coordinate a LINE keeps: its only typed shape field is the other end coordinate.
 
-    With anything else typed, or with both ends blank, nothing is assumed.
+    Return None if any other shape field is typed, or both end coordinates are blank.
     """
     shape = [field.name for field in LINE if field.name not in ("z_end", "feed")]
     typed = [name for name in shape if getattr(segment, name) not in (None, False)]
@@ -82,18 +82,18 @@ def kept_axis(segment: LineSegment) -> int | None:
 
 
 def shown_angle(angle: float) -> str:
-    """An angle as the form shows it."""
+    """Format an angle as the form shows it."""
     return show(from_radians(angle), Kind.ANGLE, Unit.IN)
 
 
 def heading(line: Line) -> float:
-    """Direction of a line in radians, from 0 up to a full turn."""
+    """Return the direction of a line in radians, from 0 up to a full turn."""
     angle = atan2(line.end[1] - line.start[1], line.end[0] - line.start[0])
     return angle + tau if angle < 0.0 else angle
 
 
 def heading_at(piece: Piece, at: Point) -> float:
-    """Direction of travel at a point of a piece in radians, from -pi to pi."""
+    """Return the direction of travel at a point of a piece in radians, from -pi to pi."""
     x, y = piece.direction_at(at)
     return atan2(y, x)
 
@@ -101,7 +101,7 @@ def heading_at(piece: Piece, at: Point) -> float:
 def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Line)
     if name == "angle":
-        # between two directions, at most half a turn
+        # the difference of two directions, at most half a turn
         off = abs((heading(piece) - value + pi) % tau - pi)
         if off <= AGREES or piece.length * off <= ARC_RADII:
             return None
@@ -129,7 +129,7 @@ LINE_TASK = Task(
 
 
 def line_sketch(start: Point, known: Known) -> Line | None:
-    """What to draw dashed of a line that is not determined: toward what is typed of its end."""
+    """Return the line to draw dashed for an undetermined LINE, toward as much of its end as is typed."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     if end == start and "length" in known and "angle" in known:
         end = (start[0] + known["length"] * cos(known["angle"]), start[1] + known["length"] * sin(known["angle"]))

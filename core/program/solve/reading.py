@@ -1,4 +1,4 @@
-"""Reading: what is typed in a form's fields as millimeters and radians, and a finding for each that cannot be used."""
+"""This module reads a form's typed fields as millimeters and radians, with a finding for each unusable field."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from core.units import Kind, Unit, to_mm, to_radians
 class Reading:
     """A form's typed fields: `values` by name with blanks as None, `known` in millimeters and radians.
 
-    A relative number is known by its field's name with the ending `_inc`.
+    In `known`, a relative number has its field's name with `_inc` appended.
     """
 
     values: dict[str, Value]
@@ -24,7 +24,7 @@ class Reading:
     findings: tuple[Finding, ...]
 
     def copy(self) -> Reading:
-        """A reading of its own, into which calculated numbers can be put."""
+        """Return an independent copy, into which calculated numbers can be put."""
         return Reading(dict(self.values), dict(self.known), self.findings)
 
     def fill(self, name: str, value: float | None, origin: Origin = Origin.CALCULATED) -> None:
@@ -36,7 +36,7 @@ class Reading:
 def read_form(
     form: Form, part: Block | Segment | ProgramParameters | PartSetup, unit: Unit, number: int | None
 ) -> Reading:
-    """Read all numbers of a form, of segment `number`; what cannot be used is not known and has a finding."""
+    """Read all numbers of a form, for segment `number`; an unusable one has a finding and is not in `known`."""
     values: dict[str, Value] = {}
     known: dict[str, float] = {}
     findings: list[Finding] = []
@@ -56,14 +56,14 @@ def read_form(
 
 
 def usable(field: Field, typed: Typed, unit: Unit) -> float | None:
-    """A typed number in millimeters or radians, None for a blank and for what the field does not take."""
+    """Return a plain number in millimeters or radians; None for anything else or if the field does not accept it."""
     if not isinstance(typed, Number) or _trouble(field, typed, unit) is not None:
         return None
     return _internal(typed.value, field.kind, unit)
 
 
 def _trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
-    """Code and sentence about a field that cannot be used."""
+    """Return the code and the sentence of the fault in a typed field, None if it can be used."""
     if isinstance(typed, Number | Relative):
         refusal = value_refusal(field, typed.value, unit)
     elif (refusal := text_refusal(typed.text, field, unit)) is None:
@@ -72,14 +72,14 @@ def _trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tup
 
 
 def _internal(value: float, kind: Kind, unit: Unit) -> float:
-    """Millimeters of a length, millimeters per minute of a feed, radians of an angle."""
+    """Convert a length to millimeters, a feed to millimeters per minute, an angle to radians."""
     if kind in (Kind.LENGTH, Kind.FEED):
         return to_mm(value, unit)
     return to_radians(value) if kind is Kind.ANGLE else value
 
 
 def shared_findings(program: Program) -> Iterator[Finding]:
-    """What cannot be used of PROGRAM PARAMETERS and PART SETUP, which all blocks share, with the screen's name."""
+    """Yield findings on PROGRAM PARAMETERS and PART SETUP, which all blocks share, with the screen's name."""
     for form, part in ((Form.PARAMETERS, program.parameters), (Form.SETUP, program.setup)):
         for finding in read_form(form, part, program.unit, None).findings:
             yield replace(finding, text=f"{form.value}: {finding.text}")

@@ -1,7 +1,7 @@
-"""Rules: which typed fields determine a segment, what they give, and whether the others agree.
+"""This module applies rules: which typed fields determine a segment, what they give, and whether the others agree.
 
-A rule names the fields it needs; the first whose fields are typed and which has an answer is taken, in the
-order of its table.  Fields typed beyond it must agree, and choose where the rule leaves two solutions.
+A rule names the fields it needs.  The first rule in the table whose fields are typed and which gives a result is used.
+Other typed fields must agree with it, and choose if the rule leaves two solutions.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from core.geometry.piece import Piece, Point
 from core.program.fields import Form, field_of
 
 Known = Mapping[str, float]
-"""What is typed, by field name: millimeters, radians."""
+"""The typed values by field name, in millimeters and radians."""
 
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What a segment is solved from: where it starts, and what is typed of it."""
+    """The data from which a segment is solved: its start, and its typed values."""
 
     start: Point
     known: Known
     back: bool = False
-    """X END and Y END, as far as they are typed, are typed as the start's."""
+    """True if each of X END and Y END that is typed is typed as the start's."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A segment as far as its fields give it: one piece, or several to pick from, or what is missing or wrong."""
+    """The result of a segment's fields: one piece, several to pick from, or what is missing or wrong."""
 
     pieces: tuple[Piece, ...] = ()
     missing: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ class Outcome:
 
 
 Solver = Callable[[Given], Outcome | None]
-"""None where the fields say nothing about this segment: another rule may."""
+"""Returns None if its fields do not determine this segment; another rule may."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,24 +50,24 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One kind of segment: its rules, the fields that bear on its shape, and how a piece disagrees with a typed one."""
+    """One kind of segment: its rules, its shape fields, and a check of a piece against one typed field."""
 
     form: Form
     shape: tuple[str, ...]
     rules: tuple[Rule, ...]
     disagreement: Callable[[Piece, str, float], Finding | None]
     advice: str
-    """What to type when nothing is."""
+    """The advice if nothing more specific is known."""
     special: Callable[[Given], tuple[tuple[str, ...], str] | None] = lambda _given: None
-    """Missing fields and advice where what is typed says nothing about the segment."""
+    """Returns missing fields and advice for a special case in which no rule has given a result, else None."""
 
     def label(self, name: str) -> str:
-        """A field's label on this form."""
+        """Return a field's label on this form."""
         return field_of(self.form, name).label
 
 
 def solve(task: Task, given: Given) -> Outcome:
-    """The pieces that fit everything typed."""
+    """Return the pieces that fit all typed values, or what is missing or wrong."""
     known, tried = given.known, False
     for rule in task.rules:
         if not rule.needs <= known.keys():
@@ -82,7 +82,7 @@ def solve(task: Task, given: Given) -> Outcome:
 
 
 def _agreeing(task: Task, outcome: Outcome, others: list[str], known: Known) -> Outcome:
-    """Those of the pieces with which every other typed field agrees, or the first disagreement."""
+    """Keep the pieces that agree with every other typed field; if none does, return the first disagreement."""
     complaints = [_complaint(task, piece, others, known) for piece in outcome.pieces]
     fitting = tuple(piece for piece, complaint in zip(outcome.pieces, complaints, strict=True) if complaint is None)
     return Outcome(fitting) if fitting else Outcome(finding=complaints[0])
@@ -98,13 +98,13 @@ def _complaint(task: Task, piece: Piece, others: list[str], known: Known) -> Fin
 
 
 def more_needed(missing: tuple[str, ...], advice: str) -> Outcome:
-    """Says that the fields `missing` are needed, with the advice what to type."""
+    """Return an outcome that the fields `missing` are needed, with advice on what to type."""
     field = missing[0] if missing else None
     return Outcome(missing=missing, finding=fault("MISSING", f"More data needed: {advice}", field))
 
 
 def _undetermined(task: Task, known: Known, *, tried: bool) -> Outcome:
-    """What to type of what is blank; a rule was `tried` in vain where its fields said nothing."""
+    """Advise which blank fields to type; `tried` if a rule had its fields but they did not determine the segment."""
     blank = tuple(name for name in task.shape if name not in known)
     one_more = tuple(name for name in blank if any(rule.needs <= {*known, name} for rule in task.rules))
     missing = blank if tried or not one_more else one_more
@@ -113,15 +113,15 @@ def _undetermined(task: Task, known: Known, *, tried: bool) -> Outcome:
 
 
 def either(labels: list[str]) -> str:
-    """The choice between these, in words."""
+    """Join labels with commas and `or`."""
     return labels[0] if len(labels) == 1 else f"{', '.join(labels[:-1])} or {labels[-1]}"
 
 
 def fault(code: str, text: str, field: str | None, *lengths: float) -> Finding:
-    """An error of one field."""
+    """Return an error at one field."""
     return Finding(code, Severity.ERROR, text, field=field, lengths=lengths)
 
 
 def contradiction(text: str, field: str, *lengths: float) -> Outcome:
-    """The error on `field` that what is typed cannot be; `{0}` ... of the text are `lengths` (mm)."""
+    """Return the error at `field` that typed values contradict; `{0}` ... in the text are `lengths` (mm)."""
     return Outcome(finding=fault("CONTRADICTION", text, field, *lengths))

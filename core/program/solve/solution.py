@@ -1,6 +1,6 @@
-"""What SOLUTION shows and steps through: the answers of a run, or the two solutions of a segment by itself.
+"""This module lists what SOLUTION steps through: the answers of a run, or the two solutions of a single segment.
 
-The shortest answer of a run comes first; a segment's own two solutions keep their documented order.
+The shortest answer of a run comes first; a single segment's two solutions keep their documented order.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from core.program.solve.solved import RunAnswer, SolvedBlock
 class Solution:
     """The answers at a segment.
 
-    `number` is the segment whose `choice` or pick takes one, `taken` the index of the one in force, None for none.
+    `number` is the segment whose `choice` or pick selects one; `taken` is the index of the one in force, or None.
     """
 
     number: int
@@ -24,17 +24,17 @@ class Solution:
 
     @property
     def label(self) -> str:
-        """What the field shows, such as `2 of 4`; `? of 4` while none is taken."""
+        """The text in the field, such as `2 of 4`, or `? of 4` if none is taken."""
         return f"{'?' if self.taken is None else self.taken + 1} of {len(self.answers)}"
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """What the field shows for each answer."""
+        """The text in the field for each answer."""
         return tuple(f"{index} of {len(self.answers)}" for index in range(1, len(self.answers) + 1))
 
 
 def solution_at(block: SolvedBlock, number: int) -> Solution | None:
-    """What there is to choose at a segment; None where there is no choice."""
+    """Return the solutions to choose from at a segment; None if there is no choice."""
     run = block.run_of(number)
     if run is not None and (len(run.answers) > 1 or (run.answers and run.taken is None)):
         return Solution(run.first, run.answers, run.taken)
@@ -49,7 +49,7 @@ def solution_at(block: SolvedBlock, number: int) -> Solution | None:
 
 
 def untaken_pieces(block: SolvedBlock, number: int) -> tuple[tuple[Piece, ...], ...]:
-    """The pieces of each answer at a segment that is not taken while another one is; a drawing shows them dotted."""
+    """Return the pieces of the answers not taken at a segment, none until one is taken; a drawing shows them dotted."""
     solution = solution_at(block, number)
     if solution is None or solution.taken is None:
         return ()

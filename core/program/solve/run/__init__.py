@@ -1,1 +1,1 @@
-"""Runs: LINEs and ARCs whose ends their own fields do not give, calculated together from what precedes and follows."""
+"""This package solves runs: LINEs and ARCs that their own fields do not determine, calculated together."""
