@@ -87,8 +87,8 @@ def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple
     contour = Contour(block.segments, readings, drafts, unit)
     while len(drafts) < len(readings):
         index = len(drafts)
-        own = draft(block.segments[index], readings[index].copy(), carried, unit)
-        together, run = stretch_at(contour, index, own) or ((own,), None)
+        own_draft = draft(block.segments[index], readings[index].copy(), carried, unit)
+        together, run = stretch_at(contour, index, own_draft) or ((own_draft,), None)
         drafts += together
         runs += [run] if run is not None else []
         carried = drafts[-1].after

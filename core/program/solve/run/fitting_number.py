@@ -75,11 +75,11 @@ def _limit(run: Run, index: int) -> float | None:
     radius = run.elements[index].known["radius"]
     last = {1: radius, -1: radius}
     for factor in TRIED:
-        for way in (1, -1):
-            tried = radius * factor**way
+        for sign in (1, -1):
+            tried = radius * factor**sign
             if _fits(run, index, tried):
-                return _halved(run, index, last[way], tried)
-            last[way] = tried
+                return _halved(run, index, last[sign], tried)
+            last[sign] = tried
     return None
 
 

@@ -116,11 +116,11 @@ def _aim(problem: ChainProblem, joint: int, pick: Point, numbers: Numbers, count
     """Set the unknown numbers of the element before the joint so that it ends at the pick, and aim later headings."""
     part = problem.parts[joint - 1]
     start = problem.walk(numbers)[joint - 1].start
-    way = (pick[0] - start[0], pick[1] - start[1])
-    chord = hypot(*way)
+    vector = (pick[0] - start[0], pick[1] - start[1])
+    chord = hypot(*vector)
     turned = part.sweep.of(numbers) / 2.0 * part.element.turn
     if part.heading is not None and part.heading.index is not None:
-        numbers[part.heading.index] = atan2(way[1], way[0]) - turned
+        numbers[part.heading.index] = atan2(vector[1], vector[0]) - turned
     if part.size.index is not None:
         numbers[part.size.index] = chord / max(0.2, 2.0 * abs(sin(turned))) if part.element.turn else chord
     for following in problem.parts[joint:]:
