@@ -1,8 +1,8 @@
-"""Program flow: which line runs next by subprograms and LinuxCNC's O-words; `macro_b_flow` is that of Fanuc and Haas.
+"""This module finds the line to run next, by subprograms and O-words; `macro_b_flow` does so for Fanuc and Haas.
 
-LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
-`endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a
-name; a word leads to where its label says.
+LinuxCNC's O-words take a line each: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
+`endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label, a number or a
+name, ties words that belong together.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
 SIGNS_PER_EXPRESSION: Final = 4
-"""A line that is more than plain words counts as two blocks, and as one more for this many characters: reading takes
-time, and evaluating expressions a lot of it."""
+"""A line that is more than plain words counts as two blocks, plus one for every so many characters: reading it takes
+time, and evaluating expressions takes much more."""
 
 MAX_NESTED: Final = 9
-"""Subprograms that may run inside each other."""
+"""How deep subprograms of O-words may nest."""
 
 MAX_ARGUMENTS: Final = 30
 
 MAX_O_WORDS: Final = 15_000
-"""O-words that may run before the run is given up."""
+"""O-words that may run before cutcomp gives up the run."""
 
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _PROGRAM_ALONE: Final = re.compile(r"[ \t]*O[ \t]*0*([0-9]+)[ \t]*(?:\(.*)?$", re.IGNORECASE)
@@ -49,13 +49,13 @@ _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
 ProgramLibrary = Callable[[int | str], tuple[str, bytes] | None]
-"""Finds a program outside of the file, by its number or by the label of LinuxCNC's O-word: its name and text."""
+"""Returns the name and text of a program outside the file, by its number or the label of LinuxCNC's O-word."""
 
 
 class OWord(NamedTuple):
-    """An O-word: its row of the file from 0, label and word; the line, where the word begins, and where it ends.
+    """An O-word: its row from 0, label and word, and its line with where the word begins and ends in it.
 
-    The label is empty where it is evaluated when it runs.
+    The label is empty if it must be evaluated when the word runs.
     """
 
     row: int
@@ -67,13 +67,13 @@ class OWord(NamedTuple):
 
     @property
     def column(self) -> int:
-        """Where the word stands in its line."""
+        """The word's column in its line."""
         return self.line.column(self.begin)
 
 
 @dataclass(slots=True)
 class OpenBlock:
-    """A branch or a loop that runs: its first word, where that stands, how often a repeat runs again."""
+    """A branch or a loop that runs: its first word, that word's row, and how often a repeat runs again."""
 
     word: str
     row: int
@@ -82,11 +82,11 @@ class OpenBlock:
 
 @dataclass(slots=True)
 class Call:
-    """The program or a subprogram that runs: the line index it returns to, and what O-words have `opened` in it.
+    """The program or a running subprogram: the line index it returns to, and the blocks that O-words `opened` in it.
 
-    `label` is that of a subprogram that an O-word called, None for the program.  One that M98 called has its `number`,
-    the index it starts at, and how often it runs again, and shares its caller's label and what is opened.  `loops` are
-    the open ones of WHILE and DO by number and row; `macro`: it has variables of its own.
+    `label` is that of a subprogram called by an O-word, None for the program.  A subprogram called by M98 has its
+    `number`, the index of its `start` and how often it runs `again`; it shares its caller's `label` and `opened`.
+    `loops` are the open WHILE and DO loops by number and row; `macro`: it has variables of its own.
     """
 
     back: int
@@ -100,7 +100,7 @@ class Call:
 
 
 def o_words_of(lines: Sequence[str], first: int = 0) -> dict[int, OWord]:
-    """The O-words of a program by their line's index; `first` is that of the first of these lines."""
+    """Return the O-words of a program by line index; `first` is the index of the first of these lines."""
     read = ((index, _read(index, line)) for index, line in enumerate(lines, first) if "o" in line or "O" in line)
     return {index: word for index, word in read if word is not None}
 
@@ -117,11 +117,11 @@ def _read(index: int, line: str) -> OWord | None:
 
 
 class OWords:
-    """Follows the O-words of a program; `run` gives the index of the next line.
+    """Follows the O-words of a program; `run` returns the index of the next line.
 
-    `calls` are the program and the subprograms that run, the innermost last, those that M98 called among them.
-    `load` looks for the file of a subprogram that is not in this one, and adds its words.
-    `origin_of` tells the line of a file and where a line of a called file stands.
+    `calls` are the program and the running subprograms, the innermost last, those called by M98 included.
+    `load` looks for the file of a subprogram that is not in this one, adds its words and returns its name.
+    `origin_of` returns the main file's line that a line counts for, and where a line of a called file is.
     """
 
     def __init__(
@@ -162,14 +162,14 @@ class OWords:
         }
 
     def add(self, words: Mapping[int, OWord]) -> None:
-        """The words of lines that come after those known before."""
+        """Add the words of lines that follow those already known."""
         self.words.update(words)
         self.subs += [row for row, word in words.items() if word.word == "SUB"]
         for word in words.values():
             self.by_label.setdefault(word.label, []).append(word)
 
     def run(self, word: OWord) -> int:
-        """Runs an O-word."""
+        """Run an O-word and return the index of the next line."""
         if not word.label and word.word != "CALL":
             self._stop(word, "Only call takes an expression as label. Write the number itself.")
         return self._steps[word.word](word)
@@ -185,7 +185,7 @@ class OWords:
         return self.calls[-1].opened
 
     def _values(self, word: OWord, most: int) -> list[float]:
-        """The bracketed values after a word; anything else there stops the run."""
+        """Return the bracketed values after a word, `most` at most; anything else there stops the run."""
         text, values = word.line.text, list[float]()
         reader = ExpressionReader(text, self.values, word.end)
         try:
@@ -206,7 +206,7 @@ class OWords:
         return values[0] != 0.0
 
     def _seek(self, word: OWord, *wanted: str) -> OWord:
-        """The next of some words of the same label after a word."""
+        """Return the next of the wanted words with the same label after a word."""
         later = (other for other in self.by_label[word.label] if other.row > word.row and other.word in wanted)
         following = next(later, None)
         if following is None:
@@ -214,7 +214,7 @@ class OWords:
         return following
 
     def _open(self, word: OWord, *wanted: str) -> OpenBlock:
-        """What is open under a word's label."""
+        """Return the block that is open under a word's label."""
         opened = self._opened.get(word.label)
         if opened is None or opened.word not in wanted:
             before = " or ".join(wanted).lower()
@@ -222,11 +222,11 @@ class OWords:
         return opened
 
     def _sub(self, word: OWord) -> int:
-        """A subprogram that is met is stepped over."""
+        """Skip a subprogram that is reached without a call."""
         nested = "A subprogram begins inside a subprogram. Put it after the end of that subprogram."
         if self.calls[-1].label is not None:
             self._stop(word, nested)
-        self._fresh(word)
+        self._claim_label(word)
         self._values(word, 0)
         end = self._seek(word, "ENDSUB")
         after = bisect_right(self.subs, word.row)
@@ -235,7 +235,7 @@ class OWords:
         return end.row + 1
 
     def _call(self, word: OWord) -> int:
-        label = word.label or self._worked_label(word)
+        label = word.label or self._evaluated_label(word)
         name = quoted(f"O{label}" if label.isdigit() else f"O<{label.lower()}>")
         begun = self._begin_of(label)
         if begun is None and (file := self.load(label, word.row + 1)):
@@ -254,7 +254,7 @@ class OWords:
     def _begin_of(self, label: str) -> OWord | None:
         return next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
 
-    def _worked_label(self, word: OWord) -> str:
+    def _evaluated_label(self, word: OWord) -> str:
         reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
         try:
             value = reader.value()
@@ -274,14 +274,14 @@ class OWords:
         return self.calls.pop().back
 
     def _if(self, word: OWord) -> int:
-        self._fresh(word)
+        self._claim_label(word)
         if self._true(word):
             self._opened[word.label] = OpenBlock("IF", word.row)
             return word.row + 1
         return self._other_branch(word)
 
     def _other_branch(self, word: OWord) -> int:
-        """The branch that runs where a condition is false."""
+        """Open the branch that runs if a condition is false, and return the index of its first line."""
         while True:
             word = self._seek(word, "ELSEIF", "ELSE", "ENDIF")
             if word.word == "ENDIF":
@@ -291,13 +291,13 @@ class OWords:
                 return word.row + 1
 
     def _end_branch(self, word: OWord) -> int:
-        """The end of a branch that ran."""
+        """Leave a branch that ran, and return the index of the line after its ENDIF."""
         self._open(word, "IF")
         del self._opened[word.label]
         return (word if word.word == "ENDIF" else self._seek(word, "ENDIF")).row + 1
 
-    def _fresh(self, word: OWord) -> None:
-        """A label that began something once cannot begin anything else in its subprogram."""
+    def _claim_label(self, word: OWord) -> None:
+        """Claim a label for a word; one that began something else in its subprogram stops the run."""
         key = (self.calls[-1].label, word.label)
         if self.begun.setdefault(key, word.row) != word.row:
             line, place = self.origin_of(self.begun[key] + 1)
@@ -311,7 +311,7 @@ class OWords:
                 return opened.row + 1
             del self._opened[word.label]
             return word.row + 1
-        self._fresh(word)
+        self._claim_label(word)
         if not self._true(word):
             self._opened.pop(word.label, None)
             return self._seek(word, "ENDWHILE").row + 1
@@ -319,13 +319,13 @@ class OWords:
         return word.row + 1
 
     def _do(self, word: OWord) -> int:
-        self._fresh(word)
+        self._claim_label(word)
         self._values(word, 0)
         self._opened[word.label] = OpenBlock("DO", word.row)
         return word.row + 1
 
     def _repeat(self, word: OWord) -> int:
-        self._fresh(word)
+        self._claim_label(word)
         values = self._values(word, 1)
         if not values:
             self._stop(word, "repeat needs a number in square brackets.")
@@ -336,7 +336,7 @@ class OWords:
         return word.row + 1
 
     def _again(self, word: OWord) -> int:
-        """The end of a loop."""
+        """Return from a loop's end to its beginning, or leave it."""
         opened = self._open(word, word.word.removeprefix("END"))
         if opened.word == "WHILE":
             return opened.row
@@ -363,7 +363,7 @@ _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0
 
 
 def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, int]:
-    """The subprograms for M98 by number: the index of the first line with that O, the O-words left out."""
+    """Return where the subprograms of M98 begin: by number, the index of the first line with that O but no O-word."""
     labels: dict[int, int] = {}
     for index, line in enumerate(lines):
         label = None if index in words else _LABEL.match(line)
@@ -373,10 +373,10 @@ def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, in
 
 
 class Flow:
-    """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any.
+    """The lines of a program and the index `at` of the one to run next; `values` are its parameters, if it has any.
 
-    Lines of files that are called come after its own `main_lines`; `called_from` has for each such file the line that
-    called it first, its name, and how many lines it has.
+    Lines of called files follow the file's own, of which there are `main_lines`; `called_from` has for each called file
+    the line that called it first, its name, and its number of lines.
     """
 
     def __init__(
@@ -404,7 +404,7 @@ class Flow:
         self.labels = _labels_of(lines, words)
 
     def _load(self, label: str, line: int) -> str:
-        """Adds the lines of the file in which an O-word finds its subprogram; its name, "" where there is none."""
+        """Add the lines of the file that has an O-word's subprogram; return the file's name, "" if there is none."""
         program = self.library(label.lower())
         if program is None:
             return ""
@@ -418,13 +418,13 @@ class Flow:
         return name
 
     def add_called(self, name: str, count: int, line: int) -> int:
-        """Notes a file that a line calls; the number of its first line."""
+        """Note a file that a line calls; return the number of its first line."""
         first = self.main_lines + sum(lines for _, _, lines in self.called_from) + 1
         self.called_from.append((self.origin_of(line)[0], name, count))
         return first
 
     def origin_of(self, number: int) -> tuple[int, str]:
-        """The line of the file a line counts for, and where a line of another file stands: `O3001.nc line 5`."""
+        """Return the main file's line that a line counts for, and its own place in a called file: `O3001.nc line 5`."""
         left = number - self.main_lines
         for line, name, count in self.called_from:
             if 0 < left <= count:
@@ -433,7 +433,7 @@ class Flow:
         return number, ""
 
     def blocks(self, line: int) -> Iterable[Block]:
-        """The blocks of a line, none of an O-word, which is followed."""
+        """Return the blocks of a line; an O-word is run and has none."""
         if self.dialect.syntax.strict:
             check_length(self.lines[line - 1], line, self.log)
         word = self.o_words.words.get(line - 1) if self.o_words is not None else None
@@ -450,13 +450,13 @@ class Flow:
         return ()
 
     def ends_here(self, line: int, /) -> bool:
-        """Whether the program ends with a line that was run."""
+        """True if the program ends with a line that was run."""
         if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
             self.percents += 1
         return self.percents > 1 or (len(self.calls) == 1 and self.at >= self.main_lines)
 
     def follow_call(self, block: Block) -> bool:
-        """Follows a block's M98 or M99; False where the program ends with it."""
+        """Follow a block's M98 or M99; False if the program ends with it."""
         if 980 in block.m:
             self._call(block)
         elif 990 in block.m:
@@ -467,7 +467,7 @@ class Flow:
         return True
 
     def _numbers(self) -> set[int]:
-        """Of the subprograms that M98 called."""
+        """Return the numbers of the running subprograms that M98 called."""
         return {call.number for call in self.calls if call.number is not None}
 
     def _call(self, block: Block) -> None:
@@ -514,37 +514,37 @@ class Flow:
         return True
 
     def count_repeat(self, line: int) -> None:
-        """Counts a line that is about to run, if it ran before: a plain one as one block, any other as more."""
+        """Count a line that is about to run, if it ran before: a plain one as one block, any other as more."""
         if not self.ran[line - 1]:
             self.ran[line - 1] = True
             return
         text = self.lines[line - 1]
-        signs = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
-        self.budget -= 1 if is_plain(text) else 2 + len(text) // signs
+        per_block = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
+        self.budget -= 1 if is_plain(text) else 2 + len(text) // per_block
         if self.budget < 0:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
             self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
 
     def finish(self, *, alarmed: bool) -> None:
-        """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
+        """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
         if alarmed:
             return
         last = max((row for row in range(self.main_lines) if self.ran[row]), default=0)
-        behind = next((row for row in range(last + 1, self.main_lines) if has_words(self.lines[row])), None)
-        if behind is None:
+        after = next((row for row in range(last + 1, self.main_lines) if has_words(self.lines[row])), None)
+        if after is None:
             return
-        # a subprogram that a condition leaves out is no matter
-        closed = any(self.lines[row].strip() == "%" for row in range(last, behind))
-        if closed or not self.lines[behind].lstrip().upper().startswith("O") or self._is_uncalled(behind):
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind + 1, 1)
+        # a subprogram that a condition skips needs no warning
+        closed = any(self.lines[row].strip() == "%" for row in range(last, after))
+        if closed or not self.lines[after].lstrip().upper().startswith("O") or self._is_uncalled(after):
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
 
     def _is_uncalled(self, row: int) -> bool:
-        """Whether a program begins with a row, its O and number alone, that no line names in a P."""
+        """True if a row is a program's O and number alone, and no line has that number in a P."""
         named = _PROGRAM_ALONE.match(self.lines[row])
         return named is not None and not any(re.search(rf"P[ \t]*0*{named[1]}\b", line, re.I) for line in self.lines)
 
     def end_of_file(self) -> None:
-        """End of file: reports what is still open."""
+        """Warn that the file ends inside a subprogram, or without the end that the control needs."""
         if len(self.calls) > 1:
             text = "The file ends inside a subprogram; end the subprogram with M99."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
@@ -553,4 +553,4 @@ class Flow:
 
 
 MakeControl = Callable[[Log], Control]
-"""Makes a control that writes its findings into a log."""
+"""Makes a control that writes its findings to a log."""

@@ -1,6 +1,6 @@
-"""Machine: executes the blocks of a word-address program, each block's codes in the order of the controls.
+"""The machine executes the blocks of a word-address program, each block's codes in the order that controls use.
 
-Blocks come in; programmed elements go out to a `Control`, which compensates them and makes the moves.
+It passes programmed elements to a `Control`, which compensates them and makes the moves.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ NON_MODAL_ACTIONS: Final = frozenset(
         CodeAction.TRANSFORM,
     )
 )
-"""What takes a block's axis words for itself."""
+"""The actions that use a block's axis words for themselves."""
 
 _G43_1: Final = 431
 _G43_2: Final = 432
@@ -68,40 +68,40 @@ _CENTERS: Final = frozenset("IJKR")
 
 
 class Control(Recorder):
-    """What a control adds to the machine that runs it: its compensation, and what it says of blocks."""
+    """What a control adds to its machine: compensation, and its own rules for blocks."""
 
     machine: Machine
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 or G42, also while already active; before the block's motion."""
+        """Handle G41 or G42, also if already active, before the block's motion."""
 
     def finish(self, block: Block) -> None:
-        """G40; before the block's motion."""
+        """Handle G40 before the block's motion."""
 
     def watch(self, block: Block) -> None:
-        """Any block, before anything of it happens."""
+        """Look at a block before any of it takes effect."""
 
     def tool_called(self, number: int, block: Block) -> None:
-        """A T word or tool data, before it takes effect."""
+        """Handle a T word or tool data before it takes effect."""
 
     def tool_changed(self) -> None:
-        """M6, after it took effect."""
+        """Handle M6 after it has taken effect."""
 
     def idle(self, block: Block) -> None:
-        """A block without motion while active, after its codes."""
+        """Handle a block without motion under compensation, after its codes."""
 
     def own_code(self, code: int, block: Block) -> None:
-        """A G code of this control alone, in tenths."""
+        """Handle a G code of this control alone, in tenths."""
 
     def takes_effect(self, _code: int, _block: Block) -> bool:
-        """Whether a G code does anything under compensation, asked in its turn; one that is refused stops the run."""
+        """True if a G code does anything under compensation, asked in its turn; one that is refused stops the run."""
         return True
 
     def program_stop(self) -> None:
-        """M0, M1 or M60, after the block's motion."""
+        """Handle M0, M1 or M60 after the block's motion."""
 
     def close(self) -> None:
-        """The program ends."""
+        """Handle the end of the program."""
 
 
 class Machine(ModalState):
@@ -113,25 +113,25 @@ class Machine(ModalState):
         control.machine, control.unit = self, self.unit
 
     def step(self, block: Block) -> None:
-        """Runs one block: its codes, then its motion."""
+        """Run one block: its codes, then its motion."""
         self.control.watch(block)
-        once = self._codes(block)
-        if once is None:
+        non_modal = self._codes(block)
+        if non_modal is None:
             self._motion(block)
-        elif not self.control.active or self.control.takes_effect(once.value, block):
-            self._run_once(once, block)
+        elif not self.control.active or self.control.takes_effect(non_modal.value, block):
+            self._run_non_modal(non_modal, block)
         if not _STOPS.isdisjoint(block.m):
             self.control.program_stop()
         if not _ENDS.isdisjoint(block.m):
             self.ended = True
 
     def value_of(self, key: int | str) -> float | str | None:
-        """What a program reads of the machine by number or name, None if it is not known before the control runs."""
+        """Return a machine value by number or name, a sentence why it has none, or None if it is not known yet."""
         if key in _POSITION:
             if self.control.active and isinstance(key, int):
                 return "The position cannot be read under compensation; write G40 before it."
-            standing = self.position if isinstance(key, int) else self.control.readable_position(self.position)
-            return from_mm(standing[_POSITION[key]] - self.shift[_POSITION[key]], self.unit)
+            position = self.position if isinstance(key, int) else self.control.readable_position(self.position)
+            return from_mm(position[_POSITION[key]] - self.shift[_POSITION[key]], self.unit)
         tool, system = self.tools.get(self.tool), self.origin.system
         values: dict[int | str, float] = {
             5220: float((system - 530) // 10 if system <= 590 else system - 584),
@@ -150,7 +150,7 @@ class Machine(ModalState):
         return values.get(key)
 
     def _codes(self, block: Block) -> Code | None:
-        """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""
+        """Run all of a block but its motion; return the code that uses the block's axis words for itself, if any."""
         codes = self._grouped(block)
         for code in codes:
             if code.action is CodeAction.RATE:
@@ -162,17 +162,17 @@ class Machine(ModalState):
         self.take_spindle(block)
         self._take_tool(block)
         self._warn_of_axes(block)
-        once = None
+        non_modal = None
         for code in codes:
             if self._takes_axis_words(code):
-                once = code
+                non_modal = code
             elif not self.control.active or self.control.takes_effect(code.value, block):
                 self._set(code, block)
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
         if self.dialect.tells_unused:
             self._warn_of_unused(block)
-        return once
+        return non_modal
 
     def _takes_axis_words(self, code: Code) -> bool:
         if code.action is CodeAction.DWELL:
@@ -180,7 +180,7 @@ class Machine(ModalState):
         return code.action in NON_MODAL_ACTIONS or (code.action is CodeAction.LENGTH and code.value == _G43_1)
 
     def check_codes(self, block: Block) -> None:
-        """A G code that is unknown stops the run."""
+        """Stop the run at an unknown G code."""
         for number in block.g:
             if number not in self.dialect.codes:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
@@ -188,7 +188,7 @@ class Machine(ModalState):
                 self.log.stop("CODE", text, block.line, block.column("G", number))
 
     def _grouped(self, block: Block) -> list[Code]:
-        """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
+        """Return a block's G codes in order of execution; stop at an unknown one or, on most controls, two of a group."""
         self.check_codes(block)
         known, groups = list[Code](), set[str]()
         for number in block.g:
@@ -216,7 +216,7 @@ class Machine(ModalState):
         return known
 
     def _moves_in(self, block: Block) -> bool:
-        """Whether a block has a motion or a cycle besides G80."""
+        """True if a block has a code of the motion group besides G80."""
         known = (self.dialect.codes.get(number) for number in block.g if number != _G80)
         return any(code is not None and code.group == "motion" for code in known)
 
@@ -246,7 +246,7 @@ class Machine(ModalState):
                 self._act(code, block)
 
     def _act(self, code: Code, block: Block) -> None:
-        """A code that does more than set a value."""
+        """Run a code that does more than set a value."""
         match code.action:
             case CodeAction.SIDE if code.value == 400:
                 self.side_on = False
@@ -268,7 +268,7 @@ class Machine(ModalState):
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:
-        """G20, G21, G70 or G71."""
+        """Set the unit by G20, G21, G70 or G71."""
         self.unit = self.control.unit = Unit.MM if code in _METRIC else Unit.IN
         self.scale = 1.0 if self.unit is Unit.MM else 25.4
         self.unit_said = True
@@ -292,7 +292,7 @@ class Machine(ModalState):
                 self.log.tell(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
 
     def _warn_of_unused(self, block: Block) -> None:
-        """A control may do something with such words that cutcomp does not follow."""
+        """Warn of words that no code uses: a control may do something with them that cutcomp does not follow."""
         unused = unused_words(block, self.mode, self.dialect)
         if unused:
             text = f"No code in this block uses {' and '.join(unused)}. cutcomp ignores it."
@@ -363,7 +363,7 @@ class Machine(ModalState):
         self.control.travel(element)
 
     def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point:
-        """The center of an arc; one that is impossible stops the run."""
+        """Return the center of an arc; an impossible arc stops the run."""
         if "R" in block.words and {"I", "J", "K"}.isdisjoint(block.words):
             center = center_by_radius(start, end, block.words["R"] * self.scale, turn)
         else:
@@ -376,7 +376,7 @@ class Machine(ModalState):
         return center
 
     def _given_center(self, block: Block, start: Point, end: Point, *, absolute: bool) -> Point | NoArc:
-        """The center out of I, J, K, counted from the program's origin or from the arc's start."""
+        """Return the center from I, J and K, counted from the program's origin or from the arc's start."""
         origin = flat(self.shift, self.plane) if absolute else None
         center = given_center(block.words, self.plane, start, self.scale, origin)
         if isinstance(center, NoArc):
@@ -384,9 +384,9 @@ class Machine(ModalState):
         return self.dialect.arc_tolerance.refused(start, end, center, self.unit) or center
 
     def _fits_otherwise(self, block: Block, start: Point, end: Point) -> str:
-        """What to write where the center is right counted in the other way; nothing where it is wrong in both.
+        """Return what to write if the center is right when counted the other way; "" if it is wrong both ways.
 
-        Any center is right for a full circle.
+        It is "" for a full circle too, for which any center is right.
         """
         absolute = self.centers_from_origin
         center = self._given_center(block, start, end, absolute=not absolute)
@@ -395,23 +395,23 @@ class Machine(ModalState):
         first, second, _ = IN_PLANE[self.plane]
         zero = flat(self.shift, self.plane)[:2] if absolute else start
         meant = "the arc's start" if absolute else "the program's zero"
-        i, j = (self._number(to - fro) for to, fro in zip(center, zero, strict=True))
+        i, j = (self._number(coordinate - reference) for coordinate, reference in zip(center, zero, strict=True))
         return f" If {first} and {second} are meant from {meant}, write {first}{i} {second}{j}"
 
     def _number(self, millimeters: float) -> str:
-        """A length as a word's number, with the point that every control reads."""
+        """Return a length as a word's number, with the decimal point that every control reads."""
         return f"{round(millimeters / self.scale, 5) + 0.0:.5f}".rstrip("0")
 
     def _drill(self, block: Block) -> None:
-        """A block of a drilling cycle in force."""
+        """Run a block of the drilling cycle in force."""
         if self.control.active:
             text = "A drilling cycle does not go with compensation; write G40 before it, or G80 and another motion."
             self.log.stop(self.dialect.cycle_rule, text, block.line, block.column("GXYZ"))
         for end, rapid in cycles.drill(self, block):
             self._straight(block, end, rapid=rapid)
 
-    def _run_once(self, code: Code, block: Block) -> None:
-        """Runs a code that takes the block's axis words for itself: G28, G52, G53, G92, G10, G4."""
+    def _run_non_modal(self, code: Code, block: Block) -> None:
+        """Run a code that uses the block's axis words for itself: G28, G30, G52, G53, G92, G10, G4, G43.1."""
         match code.action:
             case CodeAction.SHIFT:
                 local = self.axis_words(block, self.origin.local)
@@ -432,31 +432,31 @@ class Machine(ModalState):
                 self._move_in_machine(block)
 
     def _take_length(self, code: int, block: Block) -> None:
-        """G43 and G43.2, the offset of a tool in the table, and G49."""
+        """Set the length offset to that of a tool in the table (G43), add it (G43.2), or cancel it (G49)."""
         number = whole(block.words.get("H", float(self.tool)))
         tool = None if number is None or code == _G49 else self.tools.get(number)
         x, y, z = self.length_offset if code == _G43_2 else ZERO
         self.set_length_offset((x, y, z + (tool.length_mm(self.unit) if tool else 0.0)))
 
     def _unshift(self, code: int) -> None:
-        """G92.1 forgets the shift of G52 and G92, G92.2 suspends it, and G92.3 takes it up again."""
+        """Forget the shift of G52 and G92 (G92.1), suspend it (G92.2), or restore it (G92.3)."""
         stored = ZERO if code == 921 else self.origin.stored
         self.set_origin(replace(self.origin, local=stored if code == 923 else ZERO, stored=stored))
 
     def _select_system(self, code: int, block: Block) -> None:
-        """Another work offset; one that the program did not set is taken as zero, and reported."""
+        """Select a work offset; one that the program did not set is taken as zero, and except for G54 reported."""
         if code not in self.origin.systems and code != G54:
             text = f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}"
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
         self.set_origin(replace(self.origin, system=code))
 
     def _preset(self, block: Block) -> None:
-        """G92: the origin moves so that the present position reads as written."""
+        """Run G92: move the origin so that the current position reads as written."""
         local = self._reading_as_written(block, self.origin.base, self.origin.local)
         self.set_origin(replace(self.origin, local=local, stored=local))
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
-        """What makes the present position read as written, besides the rest of the origin; old where no word is."""
+        """Return the offset that, with the rest of the origin, makes the position read as written; old for other axes."""
         words = self.axis_words(block, ZERO)
         x, y, z = (
             self.position[axis] - words[axis] - rest[axis] if "XYZ"[axis] in block.words else old[axis]
@@ -465,19 +465,19 @@ class Machine(ModalState):
         return x, y, z
 
     def _set_data(self, block: Block) -> None:
-        """G10: a work offset, or a tool's data where the control has that; other data stop the run."""
+        """Run G10: set a work offset, or a tool's data where the control has that; other data stop the run."""
         kind = whole(block.words.get("L", -1.0))
         if kind == 2 or (kind == 20 and self.dialect.tool_data_kinds):
             self._set_system(block, from_here=kind == 20)
         elif kind in self.dialect.tool_data_kinds:
             self._set_tool(block)
         else:
-            can = "work offsets: G10 L2 P1 to P6 with X, Y, Z"
-            text = f"cutcomp sets only {can}. {only_on(TOOL_DATA.get(kind or 0, ()))}".rstrip()
+            settable = "work offsets: G10 L2 P1 to P6 with X, Y, Z"
+            text = f"cutcomp sets only {settable}. {only_on(TOOL_DATA.get(kind or 0, ()))}".rstrip()
             self.log.stop("DATA", f"{text} Set other data on the control.", block.line, block.column("L"))
 
     def _set_system(self, block: Block, *, from_here: bool) -> None:
-        """G10 L2 P: a work offset is set; with L20 so that the present position reads as written."""
+        """Run G10 L2 P: set a work offset; with L20, so that the current position reads as written."""
         number, most = whole(block.words.get("P", -1.0)), 9 if self.dialect.tool_data_kinds else 6
         if self.dialect.tool_data_kinds and block.words.get("R", 0.0):
             text = "cutcomp does not follow a work offset with a rotation R, and the path after it would be wrong."
@@ -491,7 +491,7 @@ class Machine(ModalState):
         self.set_system(code, offset)
 
     def _set_tool(self, block: Block) -> None:
-        """G10 L1 P R: the radius of a tool in the table; its length counts for nothing in the plane."""
+        """Run G10 L1 P R: set the radius of a tool in the table; its length has no effect in the plane."""
         number = whole(block.words.get("P", -1.0))
         tool = None if number is None else self.tools.get(number)
         if tool is None:
@@ -506,7 +506,7 @@ class Machine(ModalState):
         self.tools = self.tools.with_tools(ToolTable.of(tool))
 
     def _home(self, block: Block) -> None:
-        """G28, G30: by way of the block's point to the reference point, which is taken as machine zero."""
+        """Run G28 or G30: move by way of the block's point to the reference point, taken as machine zero."""
         text = "The reference point is not known; cutcomp takes the machine's zero."
         self.log.tell(Severity.WARNING, "HOME", text, block.line, block.column("G"))
         named = [letter in block.words for letter in "XYZ"]
@@ -514,12 +514,12 @@ class Machine(ModalState):
             self._straight(block, self.target(block.words), rapid=True)
         elif self.dialect.moves_alone:
             self._straight(block, self.position, rapid=True)
-        goes = named if any(named) else [True] * 3
-        x, y, z = (0.0 if home else now for home, now in zip(goes, self.position, strict=True))
+        homed = named if any(named) else [True] * 3
+        x, y, z = (0.0 if home else now for home, now in zip(homed, self.position, strict=True))
         self._straight(block, (x, y, z), rapid=True)
 
     def _dwell(self, block: Block) -> None:
-        """G4: X in its block is a time, and Y or Z have no place there; nothing moves."""
+        """Run G4: X in its block is a time, Y and Z do not belong there; nothing moves."""
         wrong = next((letter for letter in "YZ" if letter in block.words), None)
         if wrong is not None:
             text = f"{wrong} with G4 may or may not move the axis. Put it in its own block."
@@ -531,7 +531,7 @@ class Machine(ModalState):
             self.control.idle(block)
 
     def _move_in_machine(self, block: Block) -> None:
-        """G53: this block counts from the machine's zero."""
+        """Run G53: count this block from machine zero."""
         if self.mode not in _LINES or self.incremental:
             text = "G53 goes with G0 or G1 in absolute positions; write G90 G0 G53."
             self.log.stop("MOTION", text, block.line, block.column("G", _G53))

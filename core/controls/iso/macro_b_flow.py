@@ -1,7 +1,7 @@
-"""Macro flow: IF, GOTO, WHILE, DO and END, and calls of subprograms and macros, as Fanuc and Haas controls follow them.
+"""This module follows IF, GOTO, WHILE, DO, END and calls of subprograms and macros as Fanuc and Haas controls do.
 
-A row is one block's text: a line, or a part of it between semicolons.  A program goes from its O to the next one; a
-program that is not in the file is read from a library, and its moves and findings then count for the line that calls.
+A row is one block's text: a line, or a part of it between semicolons.  A program runs from its O to the next one.  A
+program that is not in the file is read from a library, and its moves and findings count for the line that calls it.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from core.units import Unit
 MAX_ROWS_RUN_AGAIN: Final = 200_000
 MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
 MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
-"""Rows after which a program is taken to run for ever; a row that runs for the first time is not counted."""
+"""Rows after which a program counts as endless; a row's first run counts only toward MAX_ROWS_WITHOUT_MOVEMENT."""
 
 BUILDER_PROGRAMS: Final = range(9000, 10_000)
-"""The numbers of programs that are usually the machine's: for its probe, or for its tool changer."""
+"""Program numbers that usually belong to the machine builder, as for a probe or the tool changer."""
 
 MAX_CALLS: Final = 4
-"""Subprograms, and macros, that may run inside each other."""
+"""How deep subprograms may nest; macros have the same limit of their own."""
 
 MAX_LOOPS: Final = 3
 
@@ -48,20 +48,20 @@ _THEN: Final = re.compile(r"TH(?:EN)?")
 _NO_O_WORD: Final = (
     r"(?![ \t]*+(?:sub|endsub|call|return|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat|break|continue)\b)"
 )
-"""LinuxCNC's O-words are no heads of programs."""
+"""Rejects LinuxCNC's O-words, which do not begin a program."""
 _LEADER: Final = " \t\0\x11\x12\x13\x14\x7f"
-"""What may stand before the first %: blanks, and what tapes and their readers leave."""
+"""Characters that may precede the first %: blanks, and what paper tapes and their readers leave."""
 
 _PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])" + _NO_O_WORD, re.IGNORECASE)
 _NAME: Final = re.compile(r"[ \t]*+(O?)[ \t]*+(<[^>]*+>)" + _NO_O_WORD, re.IGNORECASE)
 _CALLING: Final = re.compile(r"(?:M98|G6[56])(?![0-9])")
 _CALLED: Final = re.compile(r"(?<![A-Z])P([0-9]*+)")
 NAMES_TOLD: Final = 3
-"""Programs that were not run are named up to here; of the rest only the number is."""
+"""Most programs that a finding names as not run; the rest are only counted."""
 _NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
 _NO_POINT: Final = r"[ \t]*+[-+]?[0 \t]*+[1-9][0-9 \t]*+(?![0-9.])"
 _WITHOUT_POINT: Final = re.compile(f"[XYZIJKRQ]{_NO_POINT}")
-_REPEATS_ASIDE: Final = re.compile(f"[XYZRQ]{_NO_POINT}")
+_WITHOUT_POINT_NO_CENTER: Final = re.compile(f"[XYZRQ]{_NO_POINT}")
 _ARGUMENTS_WITHOUT_POINT: Final = re.compile(f"[ABCIJKQRUVWXYZ]{_NO_POINT}")
 _ARC: Final = re.compile(r"G0?[23](?![0-9])|[IJ]")
 _MACRO_CALL: Final = re.compile(r"G6[56]")
@@ -75,11 +75,11 @@ ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
     {"A": 1, "B": 2, "C": 3, "D": 7, "E": 8, "F": 9, "H": 11, "I": 4, "J": 5, "K": 6, "M": 13}
     | {"Q": 17, "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26}
 )
-"""The variable an argument of G65 sets; the n-th I, J or K one that is three further for each before it."""
+"""The variable that each argument of G65 sets; each repeat of I, J or K sets the one three further on."""
 
 
 class Statement(NamedTuple):
-    """A row as the macro reads it: its keyword (empty for a block of words), its text, and where the rest begins."""
+    """A row as a macro statement: its keyword (empty for a block of words), its text, and where the rest begins."""
 
     keyword: str
     line: CompactText
@@ -88,7 +88,7 @@ class Statement(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ModalCall:
-    """G66: the macro that runs after every move, and the depth of calls at which the moves count."""
+    """G66: the macro that runs after every move, and the call depth at which moves trigger it."""
 
     number: int
     times: int
@@ -97,7 +97,7 @@ class ModalCall:
 
 
 class MacroFlow(Flow):
-    """The rows of a program with macro statements; `numbers` and `starts` are the line and column of each row."""
+    """The rows of a program with macro statements; `numbers` and `starts` are each row's line and column less one."""
 
     def __init__(
         self, lines: list[str], dialect: Dialect, log: Log, machine: MacroMachine, library: ProgramLibrary
@@ -131,12 +131,12 @@ class MacroFlow(Flow):
     # programs
 
     def _programs(self) -> list[int]:
-        """The rows at which the programs of the file begin; files that are called are not among them."""
+        """Return the rows at which the file's own programs begin, without those of called files."""
         first = [self._first_row()] if self.lines else []
         return sorted({*first, *(row for row in self.begins if self.numbers[row] <= self.main_lines)})
 
     def _called_by_others(self) -> tuple[set[int], bool]:
-        """The rows at which programs begin that others of the file call, and whether a variable may name one more."""
+        """Return the rows where programs begin that others in the file call; True if a variable may name another."""
         called, by_variable = set[int](), False
         for row, text in enumerate(self.lines):
             if "P" not in (squeezed := "".join(without_comments(capitals(text)).split())):
@@ -146,14 +146,14 @@ class MacroFlow(Flow):
             if not numbers or not numbers[-1]:
                 continue
             number = int(numbers[-1])
-            # on a Fanuc more than four digits hold how often it runs, too
-            for each in {number} if self.dialect.m97_calls else {number, number % 10_000}:
-                if (begin := self.labels.get(each)) is not None and not begin <= row < self._range_of(begin)[1]:
+            # on a Fanuc, a P of more than four digits also holds the number of repeats
+            for label in {number} if self.dialect.m97_calls else {number, number % 10_000}:
+                if (begin := self.labels.get(label)) is not None and not begin <= row < self._range_of(begin)[1]:
                     called.add(begin)
         return called, by_variable
 
     def _main_program(self) -> int:
-        """The row at which the run begins: the first program that no other one in the file calls."""
+        """Return the row at which the run begins: that of the first program that no other in the file calls."""
         programs = self._programs()
         first = programs[0] if programs else 0
         main = next((row for row in programs if row not in self.called_programs), first)
@@ -163,11 +163,11 @@ class MacroFlow(Flow):
         return main
 
     def _name_of(self, row: int) -> str:
-        """What the program is called that begins at a row."""
+        """Return what findings call the program that begins at a row."""
         return self._head(self.lines[row]) or "what stands first"
 
     def _head(self, text: str) -> str:
-        """The number or the name of the program that begins with a row, empty where none does."""
+        """Return the number or name of the program that begins with a row, "" if none does."""
         if number := _PROGRAM.match(text):
             return f"O{number[1]}"
         bare = without_comments(text)
@@ -178,7 +178,7 @@ class MacroFlow(Flow):
         return quoted(name[2]) if name[1] or alone else ""
 
     def _tell_not_run(self) -> None:
-        """Names the programs of the file that neither ran nor are called, and what stands behind the end."""
+        """Report programs that neither ran nor are called, and words before the first % or after the end."""
         ranges = (self._range_of(row) for row in self._programs())
         idle = [first for first, last in ranges if first not in self.called_programs and not any(self.ran[first:last])]
         if idle:
@@ -190,31 +190,31 @@ class MacroFlow(Flow):
         if self.line_before is not None:
             text = "The lines from here to the % stand before the program and were not run. Check them."
             self.log.tell(Severity.WARNING, "NOT_RUN", text, self.line_before, 1)
-        behind = self._line_behind_end() or self.unread_line
-        if behind is not None:
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind, 1)
+        line_after = self._line_after_end() or self.unread_line
+        if line_after is not None:
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, line_after, 1)
 
-    def _line_behind_end(self) -> int | None:
-        """The first line behind the end of the program that ran, unless its number says that something leads there."""
+    def _line_after_end(self) -> int | None:
+        """Return the first line with words after the last row that ran; None if its N may be the target of a jump."""
         first, last = self.program
         ended = max((row for row in range(first, last) if self.ran[row]), default=last)
-        behind = next((row for row in range(ended + 1, last) if has_words(self.lines[row])), None)
-        return None if behind is None or _NUMBER.match(self.lines[behind]) else self.numbers[behind]
+        after = next((row for row in range(ended + 1, last) if has_words(self.lines[row])), None)
+        return None if after is None or _NUMBER.match(self.lines[after]) else self.numbers[after]
 
     # rows
 
     def _append(self, lines: Sequence[str], first_number: int) -> int:
-        """More rows: the lines cut at their semicolons; gives the index of the first one."""
+        """Add lines, cut at their semicolons, as rows; return the index of the first one."""
         begin = len(self.lines)
         for number, line in enumerate(lines, first_number):
             if _FOR_EDITORS.match(line):
-                said = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
-                self.log.tell(Severity.INFO, "TEXT", said, number, 1)
+                message = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
+                self.log.tell(Severity.INFO, "TEXT", message, number, 1)
                 continue
             for start, text in _parts(line):
                 if start and _is_remark(text):
-                    said = f"Text after the end of the block is ignored: {quoted(text)}"
-                    self.log.tell(Severity.INFO, "TEXT", said, number, start + 1)
+                    message = f"Text after the end of the block is ignored: {quoted(text)}"
+                    self.log.tell(Severity.INFO, "TEXT", message, number, start + 1)
                     continue
                 row = len(self.lines)
                 self.lines.append(text)
@@ -231,18 +231,18 @@ class MacroFlow(Flow):
         return begin
 
     def _first_row(self, begin: int = 0) -> int:
-        """The first row from one on with anything but blanks and comments."""
+        """Return the first row from `begin` on that has more than blanks and comments."""
         rows = range(begin, len(self.lines))
         return next((row for row in rows if without_comments(self.lines[row]).strip()), begin)
 
     def _range_of(self, row: int) -> tuple[int, int]:
-        """The rows of the program a row belongs to."""
+        """Return the first row of the program that a row belongs to, and the first row after it."""
         index = bisect_right(self.begins, row)
         first = self.begins[index - 1] if index else 0
         return first, self.begins[index] if index < len(self.begins) else len(self.lines)
 
     def count_repeat(self, line: int) -> None:
-        """Counts rows that run again, and rows since the last movement."""
+        """Count rows that run again and rows since the last movement; stop a program that does not end."""
         self.rows_without_movement += 1
         if len(self.machine.control.tape) != self.tape_length:
             self.tape_length, self.rows_without_movement = len(self.machine.control.tape), 0
@@ -261,15 +261,15 @@ class MacroFlow(Flow):
             self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
 
     def _note_progress(self, row: int, differences: list[float]) -> None:
-        """A condition that comes nearer to its turn brings the program nearer to its end, and loops inside begin anew.
+        """Reset the count of rows without progress if the values that a condition compares are closer than ever before.
 
-        One that compares nothing may do so at any time.
+        Conditions inside its loop then start afresh.  A condition that compares nothing always resets the count.
         """
         for index, difference in enumerate(differences):
             condition = (row, index)
             least = self.least_differences.get(condition)
             if least is not None and difference < least:
-                # those asked since this one was asked last stand inside its loop
+                # conditions evaluated since the last time this one was are inside its loop
                 order = list(self.least_differences)
                 for inside in order[order.index(condition) :]:
                     del self.least_differences[inside]
@@ -282,14 +282,14 @@ class MacroFlow(Flow):
             self.rows_without_progress = 0
 
     def ends_here(self, _line: int, /) -> bool:
-        """Whether the next row belongs to another program, which nothing has called."""
+        """True if the next row is outside the program that runs: nothing has called what follows."""
         first, last = self.program
         return not first <= self.at < last
 
-    # what a row is
+    # reading rows
 
     def blocks(self, line: int) -> Iterator[Block]:
-        """The blocks of words of a row; a macro statement is run, and has none."""
+        """Yield the blocks of words of a row, and run its macro statement if it has one."""
         row = line - 1
         if row in self.plain_blocks or self._read_plain(row):
             yield from self._run_block(self.plain_blocks[row], row)
@@ -311,7 +311,7 @@ class MacroFlow(Flow):
             yield from self._words(row, statement)
 
     def _read_plain(self, row: int) -> bool:
-        """Reads a row that holds nothing but letters with numbers, as most do; it is read once."""
+        """Read and keep a row that holds only letters with numbers, as most do; False for any other row."""
         text = self.lines[row]
         bare = without_comments(capitals(text))
         if row in self.statements or not is_words(bare):
@@ -322,15 +322,15 @@ class MacroFlow(Flow):
         return True
 
     def _note_points(self, bare: str, row: int) -> None:
-        """Remembers lengths without a decimal point; K beside a cycle counts its repeats."""
+        """Note lengths without a decimal point; without an arc, K counts the repeats of a cycle."""
         if not _NO_LENGTHS.search(bare):
-            pattern = _WITHOUT_POINT if _ARC.search(bare) else _REPEATS_ASIDE
+            pattern = _WITHOUT_POINT if _ARC.search(bare) else _WITHOUT_POINT_NO_CENTER
             pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
-            places = (match.start() + self.starts[row] + 1 for match in pattern.finditer(bare))
-            self.no_point.extend((self.numbers[row], column) for column in places)
+            columns = (match.start() + self.starts[row] + 1 for match in pattern.finditer(bare))
+            self.no_point.extend((self.numbers[row], column) for column in columns)
 
     def _tell_unset(self, row: int) -> None:
-        """Reports common variables that the program calculates with before it sets them."""
+        """Report the first common variable that a row reads before the program sets it."""
         unset, self.variables.unset = self.variables.unset, []
         if unset:
             text = (
@@ -344,8 +344,8 @@ class MacroFlow(Flow):
         bare = without_comments(capitals(text), GAP)
         line = CompactText.of(bare, self.starts[row])
         if o_words_of([text]):
-            said = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
-            self.log.stop("WORD", said, self.numbers[row], line.column(0))
+            message = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
+            self.log.stop("WORD", message, self.numbers[row], line.column(0))
         if not _EXPRESSIONS.intersection(bare):
             self._note_points(bare, row)
         keyword = _KEYWORD.match(line.text)
@@ -360,14 +360,14 @@ class MacroFlow(Flow):
 
     def _program_alarm(self, number: int, row: int) -> NoReturn:
         comment = re.search(r"\(([^)]*)", self.lines[row])
-        said = f': "{quoted(comment[1])}"' if comment else ""
-        text = f"The program stops itself here with alarm {3000 + number}{said}."
+        quotation = f': "{quoted(comment[1])}"' if comment else ""
+        text = f"The program stops itself here with alarm {3000 + number}{quotation}."
         self.log.stop(f"MC{3000 + number}", text, self.numbers[row], 1)
 
     # macro statements
 
     def _run_statement(self, statement: Statement, row: int) -> int:
-        """Runs a macro statement and gives the row that comes next."""
+        """Run a macro statement and return the row that comes next."""
         self.machine.line = self.numbers[row]
         reader = MacroReader(statement.line.text, self.variables, statement.at)
         match statement.keyword:
@@ -411,7 +411,7 @@ class MacroFlow(Flow):
         return row + 1
 
     def _skip_unless(self, reader: MacroReader, statement: Statement, row: int) -> int:
-        """Haas's `[condition] M99 P`: the words behind run where the condition is true."""
+        """Run Haas's `[condition] M99 P`: the words after the condition run only if it is true."""
         true = reader.brackets() != 0.0
         rest = reader.at
         self.statements[-1 - row] = Statement("[", statement.line, rest if true else len(statement.line.text))
@@ -425,7 +425,7 @@ class MacroFlow(Flow):
         return self._row_of(number, row, begin)
 
     def _row_of(self, number: float, row: int, at: int) -> int:
-        """The row with a sequence number: searched from here to the program's end, then from its beginning."""
+        """Return the row of a sequence number, the next one or else the program's first; close the loops it leaves."""
         first, last = self._range_of(row)
         rows = [other for other in self.numbered.get(round(number), ()) if first <= other < last]
         if not rows or number != round(number):
@@ -469,7 +469,7 @@ class MacroFlow(Flow):
         call.loops = [loop for loop in call.loops if loop != (number, row)]
 
     def _end_of(self, number: int, row: int) -> int:
-        """The row of the END that belongs to a DO."""
+        """Return the row of the END that belongs to a DO."""
         end = self.ends.get(row)
         if end is None:
             wanted = re.compile(rf"(?:/[0-9]?)?(?:N[0-9]++)?END{number}(?![0-9.])")
@@ -498,13 +498,13 @@ class MacroFlow(Flow):
     # words
 
     def _words(self, row: int, statement: Statement) -> Iterator[Block]:
-        """The block of a row, macro calls followed."""
+        """Yield the block of a row and follow its macro call."""
         kept = self.statements.get(-1 - row)
         line, start = (kept.line, kept.at) if kept else (statement.line, statement.at)
         yield from self._run_block(self._block(row, line, start), row)
 
     def _run_block(self, block: Block | None, row: int) -> Iterator[Block]:
-        """A block to be run, with the macro it calls."""
+        """Yield a block to run, then start the macro that it calls or that G66 runs after it."""
         if block is None:
             return
         if 650 in block.g or 660 in block.g:
@@ -532,15 +532,15 @@ class MacroFlow(Flow):
             self._fault(fault, row, line)
         self._tell_unset(row)
         if skip:
-            said = "Block skip is assumed off, so this block runs."
-            self.log.tell(Severity.INFO, "SKIP", said, number, skip)
+            message = "Block skip is assumed off, so this block runs."
+            self.log.tell(Severity.INFO, "SKIP", message, number, skip)
         if not columns:
             return None
         block = Block(number, words, self.starts[row], columns=columns, corner=corner)
         return fill_words(block, words, self.log, self.dialect.syntax)
 
     def _following(self, row: int) -> Block | None:
-        """The next block of words, for a corner to be rounded; None where a macro statement comes first."""
+        """Return the next block of words, for the corner before it; None if a macro statement comes first."""
         for other in range(row + 1, self.program[1]):
             if other in self.plain_blocks or self._read_plain(other):
                 block = self.plain_blocks[other]
@@ -554,7 +554,7 @@ class MacroFlow(Flow):
         return None
 
     def _after_move(self, block: Block, row: int, moved: int) -> None:
-        """G66: the macro runs after a block that moves."""
+        """Start the macro of G66 after a block that moves."""
         modal = self.modal_call
         if modal is None or len(self.calls) != modal.depth or {"X", "Y", "Z"}.isdisjoint(block.words):
             return
@@ -564,7 +564,7 @@ class MacroFlow(Flow):
     # calls
 
     def follow_call(self, block: Block) -> bool:
-        """Follows a block's M98, M97 or M99; False where the program ends with it."""
+        """Follow a block's M98, M97 or M99; False if the program ends with it."""
         if 980 in block.m or (970 in block.m and self.dialect.m97_calls):
             self._call_subprogram(block)
             return True
@@ -595,7 +595,7 @@ class MacroFlow(Flow):
         self._begin_call(number, max(round(times), 1), block, row, None)
 
     def _call_macro(self, block: Block, row: int, *, modal: bool) -> None:
-        """G65: a macro with arguments; G66 keeps it for the moves that follow."""
+        """Call a macro with its arguments (G65), or keep it for the moves that follow (G66)."""
         column = block.column("G")
         if "P" not in block.words:
             self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
@@ -628,7 +628,7 @@ class MacroFlow(Flow):
         self.program = self._range_of(start)
 
     def _from_library(self, number: int, block: Block, row: int) -> int:
-        """A program that is not in the file; its lines are numbered on from the file's."""
+        """Add a program that is not in the file, its lines numbered on from the file's; return its first row."""
         program = self.library(number)
         if program is None and number in BUILDER_PROGRAMS:
             text = f"O{number} may be a macro of the machine, such as for a probe. Add it to the file or its folder."
@@ -646,7 +646,7 @@ class MacroFlow(Flow):
         return begin
 
     def _return_from(self, block: Block) -> bool:
-        """M99, with P to a block of the program that called."""
+        """Follow M99, with P to a block of the calling program; False if it ends the run."""
         target = round(block.words["P"]) if "P" in block.words else None
         call = self.calls[-1]
         if len(self.calls) == 1:
@@ -678,29 +678,29 @@ class MacroFlow(Flow):
             self.log.stop(fault.code, fault.text, block.line, block.column("P"))
 
     def finish(self, *, alarmed: bool) -> None:
-        """What is to be said of the program as a whole once the run is over, by its end or an alarm."""
+        """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
         text = "\n".join(self.lines).upper()
         if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
-            said = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
-            self.log.tell(Severity.INFO, "FN-BODY", said, 1, 1)
+            message = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
+            self.log.tell(Severity.INFO, "FN-BODY", message, 1, 1)
         if self.no_point:
             unit, count = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in", len(self.no_point)
             which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
-            said = (
+            message = (
                 f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
             )
-            self.log.tell(Severity.WARNING, "FN-POINT", said, *self.no_point[0])
+            self.log.tell(Severity.WARNING, "FN-POINT", message, *self.no_point[0])
         if not alarmed:
             self._tell_not_run()
 
     def end_of_file(self) -> None:
-        """The program ends without M30, M02 or M99."""
+        """Warn that the program ends without M30, M02 or M99."""
         text = "The program has no end. Write M30, or M99 in a subprogram."
         self.log.tell(Severity.WARNING, "END", text, self.numbers[-1] if self.numbers else 1, 1)
 
 
 def arguments_of(block: Block) -> dict[int, float]:
-    """The variables that the words of G65 set; of those for the same one the later counts."""
+    """Return the variables that the words of G65 set; the last word for a variable counts."""
     arguments, seen = dict[int, float](), dict[str, int]()
     for letter, value in block.in_order():
         number = ARGUMENT_NUMBERS.get(letter)
@@ -715,16 +715,16 @@ def arguments_of(block: Block) -> dict[int, float]:
 
 
 def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None, int | None]:
-    """The lines between the signs %, those outside emptied, and the first lines with words before and behind them.
+    """Return the lines, empty outside the two % lines, and the first lines with words before and after those.
 
-    Where there is one % only, they go up to it or from it on.
+    A single % begins the program, or ends it if more than comments precede it.
     """
-    signs = [index for index, line in enumerate(lines) if line.lstrip(_LEADER).startswith("%")]
-    if not signs:
+    percents = [index for index, line in enumerate(lines) if line.lstrip(_LEADER).startswith("%")]
+    if not percents:
         return list(lines), None, None
-    first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
-    if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
-        first, last = -1, signs[0]
+    first, last = percents[0], percents[1] if len(percents) > 1 else len(lines)
+    if len(percents) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
+        first, last = -1, percents[0]
     kept = [line if first < index < last else "" for index, line in enumerate(lines)]
     if first >= 0 and _PROGRAM.match(head := lines[first].lstrip(_LEADER)[1:]):
         kept[first] = head
@@ -733,7 +733,7 @@ def _between_percents(lines: Sequence[str]) -> tuple[list[str], int | None, int 
 
 
 def _is_remark(text: str) -> bool:
-    """Whether what stands after a semicolon is a remark: a number, or letters that are neither words nor a macro's."""
+    """True if text after a semicolon is a remark: a number, or letters that are neither words nor a macro statement."""
     bare = capitals(without_comments(text))
     if bare.strip()[:1] in "+-.0123456789" and bare.strip():
         return True
@@ -741,12 +741,12 @@ def _is_remark(text: str) -> bool:
 
 
 def _parts(line: str) -> Iterator[tuple[int, str]]:
-    """The parts of a line between semicolons outside of comments, and where each begins."""
-    start, depth = 0, False
-    for index, sign in enumerate(line if ";" in line else ""):
-        if sign in "()":
-            depth = sign == "("
-        elif sign == ";" and not depth:
+    """Yield where each part of a line between semicolons outside comments begins, and the part."""
+    start, in_comment = 0, False
+    for index, character in enumerate(line if ";" in line else ""):
+        if character in "()":
+            in_comment = character == "("
+        elif character == ";" and not in_comment:
             yield start, line[start:index]
             start = index + 1
     if start < len(line) or not start:

@@ -1,7 +1,7 @@
-"""Macro machine: the machine of Fanuc and Haas mills, with offset memories, system variables and coordinate transforms.
+"""This module runs blocks of Fanuc and Haas mills, with offset memories, system variables and coordinate transforms.
 
-Programmed points are turned into those of the work coordinates before compensation: polar coordinates first, then
-rotation, scaling and the mirror image.  An axis that went to a machine point is nowhere known until an absolute word.
+Programmed points are converted to work coordinates before compensation: polar coordinates first, then rotation,
+scaling and mirror image.  After a move to a machine position an axis is at an unknown place until its absolute word.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
 
 EXTENDED_SYSTEM: Final = 100_000
-"""Work offsets of G54.1 P have this key, and their P."""
+"""The key of work offset G54.1 P is this plus its P."""
 
 HAAS_SYSTEMS: Final = tuple(range(1100, 1300, 10))
-"""G110 to G129 of a Haas, which are its G154 P1 to P20."""
+"""G110 to G129 of a Haas, the same as its G154 P1 to P20."""
 
 FIRST_BUILDER_CODE: Final = 1000
-"""G codes from G100 on that the control does not have may be macros."""
+"""G codes from G100 on that the control does not have may call macros."""
 
-_TURNED_OFF: Final = (150, 500, 690)
-"""Codes of transforms that leave the axis words of their block for a move."""
+_CANCELS: Final = (150, 500, 690)
+"""Codes that cancel a transform and leave the axis words of their block for a move."""
 
 _LINE: Final = 10
 _ARCS: Final = frozenset({20, 30})
@@ -66,7 +66,7 @@ _GROUPS: Final[Mapping[int, str]] = MappingProxyType(
         4022: "mirror",
     }
 )
-"""The group of codes whose code in force a variable has."""
+"""The code group of each variable that reads a group's code in force."""
 
 _AT_START: Final[Mapping[str, int]] = MappingProxyType(
     {"motion": 0, "plane": 170, "distance": 900, "feed": 940, "compensation": 400, "length": 490, "cycle": 800}
@@ -82,7 +82,7 @@ _LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
 class Offsets:
     """The offset memory as the program wrote it, in millimeters by number: radii of D, lengths of H, and their wear.
 
-    `separate`: D is apart from H, always or since the program has written it so; until then both are one.
+    `separate`: D and H have memories of their own, always or since the program wrote to one; until then they share it.
     """
 
     radii: dict[int, float]
@@ -94,10 +94,10 @@ class Offsets:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """What turns programmed points into those of the work coordinates: rotation, then scaling, then the mirror image.
+    """Converts programmed points to work coordinates: rotation, then scaling, then the mirror image.
 
-    So the center of a rotation is scaled and mirrored too, and one mirrored axis reverses its sense.  `mirror`: by
-    axis the coordinate of the mirror; `factor` scales about `fixed`; `angle` turns about `center` in a plane, radians.
+    So the center of a rotation is scaled and mirrored too, and one mirrored axis reverses its direction.  `mirror` has
+    the mirror's coordinate by axis; `factor` scales about `fixed`; `angle` rotates about `center` in `plane`, radians.
     """
 
     mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
@@ -111,13 +111,13 @@ class Transform:
         return bool(self.mirror) or self.factor != 1.0 or self.angle != 0.0
 
     def applied(self, point: Point3) -> Point3:
-        """A programmed point in work coordinates."""
+        """Return a programmed point in work coordinates."""
         turned = self._turned(point, self.angle)
         scaled = [fixed + (value - fixed) * self.factor for value, fixed in zip(turned, self.fixed, strict=True)]
         return self._mirrored(scaled)
 
     def undone(self, point: Point3) -> Point3:
-        """The programmed point of one in work coordinates."""
+        """Return the programmed point of a point in work coordinates: the inverse of `applied`."""
         mirrored = self._mirrored(point)
         x, y, z = (fixed + (value - fixed) / self.factor for value, fixed in zip(mirrored, self.fixed, strict=True))
         return self._turned((x, y, z), -self.angle)
@@ -135,23 +135,23 @@ class Transform:
         return solid(self.center[0] + turned[0], self.center[1] + turned[1], third, self.plane)
 
     def vector(self, vector: Point3) -> Point3:
-        """A programmed direction in work coordinates."""
+        """Return a programmed vector in work coordinates."""
         (ax, ay, az), (bx, by, bz) = self.applied(ZERO), self.applied(vector)
         return bx - ax, by - ay, bz - az
 
     def flips(self, plane: Plane) -> bool:
-        """Whether clockwise becomes counterclockwise in a plane."""
+        """True if clockwise becomes counterclockwise in a plane."""
         return sum(axis in self.mirror for axis in plane.axes[:2]) == 1
 
 
 class MacroMachine(Machine):
     """Runs the blocks of a Fanuc or Haas program.
 
-    `unknown` are the axes whose place is not known; `in_force` the code of each group; `last_words` the values of the
-    block before that variables read; `line` the line whose expressions are worked out; `start_unknown`: the block's
-    move starts at a place of the machine; `polar` the radius and the angle last programmed under G16, None without it.
-    `following` is the next block, where a corner before it is to be rounded, and `corner_point` that corner, once it
-    is.
+    `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
+    last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
+    `start_unknown`: the block's move starts at a machine position.  `polar` is the radius and angle last programmed
+    under G16, None without it.  `following` is the next block if the corner before it is to be rounded or chamfered;
+    `corner_point` is that corner afterward.
     """
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
@@ -170,7 +170,7 @@ class MacroMachine(Machine):
         self.corner_point: Point3 | None = None
 
     def step(self, block: Block) -> None:
-        """Runs one block; variables of the block before change only behind it."""
+        """Run one block, and only then update the words that variables read."""
         self.current, self.line, self.start_unknown, self.start_height_unknown = block, block.line, False, False
         super().step(block)
         for letter in _LAST_WORDS.values():
@@ -193,10 +193,10 @@ class MacroMachine(Machine):
     # points
 
     def target(self, words: Mapping[str, float]) -> Point3:
-        """Where a block's axis words lead, in millimeters of the work coordinates."""
+        """Return where a block's axis words lead, in millimeters in work coordinates."""
         corner, self.corner_point = self.corner_point, None
         if corner is not None:
-            # the tool stands where the rounding ended, and the program at the corner
+            # the tool is where the rounding ended, but the program is at the corner
             return self._target_from(corner, words)
         for axis, letter in enumerate("XYZ"):
             if letter in words and axis in self.unknown:
@@ -210,22 +210,22 @@ class MacroMachine(Machine):
             return self.transform.applied(self._polar_target(words))
         if not self.transform:
             return super().target(words)
-        standing, self.position = self.position, self.transform.undone(self.position)
+        position, self.position = self.position, self.transform.undone(self.position)
         try:
             return self.transform.applied(super().target(words))
         finally:
-            self.position = standing
+            self.position = position
 
     def _target_from(self, start: Point3, words: Mapping[str, float]) -> Point3:
-        """Where axis words lead from a point."""
-        standing, self.position = self.position, start
+        """Return where axis words lead from a point."""
+        position, self.position = self.position, start
         try:
             return self.target(words)
         finally:
-            self.position = standing
+            self.position = position
 
     def _polar_target(self, words: Mapping[str, float]) -> Point3:
-        """G16: the first axis of the plane is a radius, the second an angle in degrees."""
+        """Return the programmed point under G16: the plane's first axis is a radius, its second an angle in degrees."""
         assert self.polar is not None
         first, second, third = ("XYZ"[axis] for axis in self.plane.axes)
         here, origin = flat(self.transform.undone(self.position), self.plane), flat(self.shift, self.plane)
@@ -277,7 +277,7 @@ class MacroMachine(Machine):
         self._cut_corner(block, end, beyond)
 
     def _note_lost_height(self) -> None:
-        """Have the move that comes kept as one whose height is that of a place of the machine, if it is."""
+        """Tell the tape if the height of the next move is unknown, since Z is or starts at a machine position."""
         self.control.tape.lost = 2 in self.unknown or self.start_height_unknown
 
     def _goes_on_straight(self, block: Block) -> bool:
@@ -285,7 +285,7 @@ class MacroMachine(Machine):
         return {10, 900, 910}.issuperset(block.g) and not letters.isdisjoint(block.words)
 
     def _cut_corner(self, block: Block, corner: Point3, beyond: Point3) -> None:
-        """`,R` and `,C`: the line ends before the corner, and an arc or a line leads onto the next one."""
+        """Cut a corner with `,R` or `,C`: the line ends before it, and an arc or a line leads onto the next one."""
         assert block.corner is not None
         kind, value = block.corner[0], block.corner[1] * self.scale
         (ax, ay, low), (px, py, high) = flat(self.position, self.plane), flat(corner, self.plane)
@@ -358,19 +358,19 @@ class MacroMachine(Machine):
             return
         super()._act(code, block)
 
-    def _run_once(self, code: Code, block: Block) -> None:
-        if block.corner is not None and code.value not in _TURNED_OFF:
+    def _run_non_modal(self, code: Code, block: Block) -> None:
+        if block.corner is not None and code.value not in _CANCELS:
             self._stop_without_two_lines(block)
         if code.action is CodeAction.TRANSFORM:
             self._set_transform(code.value, block)
-            if code.value in _TURNED_OFF:
+            if code.value in _CANCELS:
                 self._motion(block)
         elif code.action is CodeAction.SKIP:
             text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
             self.log.tell(Severity.WARNING, "FN-SKIP", text, block.line, block.column("G", 310))
             self._straight(block, self.target(block.words), rapid=False)
         else:
-            super()._run_once(code, block)
+            super()._run_non_modal(code, block)
 
     def _set_transform(self, code: int, block: Block) -> None:
         words, state = block.words, self.transform
@@ -389,22 +389,22 @@ class MacroMachine(Machine):
                 kept = {axis: at for axis, at in state.mirror.items() if axis not in named}
                 self.transform = replace(state, mirror=MappingProxyType(kept))
             case 511:
-                places = {axis: self._absolute(axis, words) for axis in range(3) if "XYZ"[axis] in words}
-                self.transform = replace(state, mirror=MappingProxyType({**state.mirror, **places}))
+                coordinates = {axis: self._absolute(axis, words) for axis in range(3) if "XYZ"[axis] in words}
+                self.transform = replace(state, mirror=MappingProxyType({**state.mirror, **coordinates}))
             case 510:
                 self._scale(block)
             case 680:
                 self._rotate(block)
 
     def _absolute(self, axis: int, words: Mapping[str, float]) -> float:
-        """A coordinate of a transform's block, that of the tool where it has none, before the transforms in force."""
+        """Return a coordinate of a transform's block; without its word, the tool's before scaling and mirror image."""
         letter = "XYZ"[axis]
         if letter in words:
             return words[letter] * self.scale + self.shift[axis]
         return replace(self.transform, angle=0.0).undone(self.position)[axis]
 
     def _check_order(self, code: int, block: Block) -> None:
-        """Mirror image, scaling and rotation begin in this order and end in the other; what else does is not known."""
+        """Stop if a transform begins out of order: mirror, scaling, rotation; warn if one ends before the rotation."""
         state, name, column = self.transform, f"G{code / 10:g}", block.column("G", code)
         before = "G68" if state.angle else "G51" if code == 511 and state.factor != 1.0 else ""
         if before and code in (510, 511):
@@ -445,16 +445,16 @@ class MacroMachine(Machine):
         self.transform = replace(self.transform, angle=radians(words["R"]), center=center, plane=self.plane)
 
     def _warn_of_axes(self, block: Block) -> None:
-        """An axis that is not followed is told once."""
+        """Warn of axes that are not followed, when a new one appears."""
         new = {letter: block.words[letter] for letter in "ABCUVW" if letter in block.words} if block.words else {}
         if new.keys() - self.other_axes:
             self.other_axes |= new.keys()
             super()._warn_of_axes(block)
 
-    # origins and places of the machine
+    # origins and machine positions
 
     def _home(self, block: Block) -> None:
-        """G28, G30: by way of the block's point to a point that is not known here."""
+        """Run G28 or G30: move by way of the block's point to a machine position, which is not known here."""
         named = [axis for axis in range(3) if "XYZ"[axis] in block.words]
         if named:
             end = self.target(block.words)
@@ -462,14 +462,14 @@ class MacroMachine(Machine):
                 self._straight(block, end, rapid=True)
         elif self.dialect.homes_all:
             named = [0, 1, 2]
-        self._lose(named, block)
+        self._mark_unknown(named, block)
 
     def _move_in_machine(self, block: Block) -> None:
-        """G53: a move to a place of the machine, which is not known here."""
-        self._lose([axis for axis in range(3) if "XYZ"[axis] in block.words], block)
+        """Run G53: move to a machine position, which is not known here."""
+        self._mark_unknown([axis for axis in range(3) if "XYZ"[axis] in block.words], block)
 
-    def _lose(self, axes: list[int], block: Block) -> None:
-        """Axes go to a place of the machine; their next absolute words say where they are."""
+    def _mark_unknown(self, axes: list[int], block: Block) -> None:
+        """Mark axes as being at a machine position until their next absolute words."""
         self.unknown.update(axes)
         if axes:
             text = "The machine's points are not known to cutcomp; the move there is not shown."
@@ -492,7 +492,7 @@ class MacroMachine(Machine):
         self.set_origin(replace(self.origin, system=EXTENDED_SYSTEM + number))
 
     def _set_data(self, block: Block) -> None:
-        """G10: work offsets (L2, L20), tool offsets (L1, L10 to L13)."""
+        """Run G10: set work offsets (L2, L20) or tool offsets (L1, L10 to L13)."""
         if "L" not in block.words and "R" in block.words:
             text = "G10 with R and without L sets a tool's offset on old controls only. Write L10, L11, L12 or L13."
             self.log.stop("BEYOND", text, block.line, block.column("G", 100))
@@ -529,7 +529,7 @@ class MacroMachine(Machine):
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
     def _radii_in(self, kind: int) -> float:
-        """The radii in a value of this L; says once where they are two."""
+        """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
         if kind not in (12, 13) or not self.dialect.diameters_apart:
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
@@ -538,7 +538,7 @@ class MacroMachine(Machine):
         return 2.0
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
-        """A value in millimeters into the memory that an L stands for."""
+        """Write a value in millimeters, or add it, to the memory of an L, and to that of D while they share one."""
         offsets = self.offsets
         if kind in (12, 13):
             offsets.separate = True
@@ -552,20 +552,20 @@ class MacroMachine(Machine):
             memory[number] = value + (known if add else 0.0)
 
     def offset_radius(self, number: int) -> float | None:
-        """The radius under a D in millimeters, wear included; None where neither program nor table has it."""
+        """Return the radius of a D in millimeters, wear included; None if neither program nor table has it."""
         radius = self._geometry_radius(number)
         wear = self.offsets.radius_wear.get(number, 0.0)
         return wear if radius is None and wear else None if radius is None else radius + wear
 
     def _geometry_radius(self, number: int) -> float | None:
-        """The radius under a D without its wear: the program's, else that of the tool in the table."""
+        """Return the radius of a D without its wear: the program's, else that of the tool in the table."""
         radius, tool = self.offsets.radii.get(number), self.tools.get(number)
         return tool.diameter_mm(self.unit) / 2 if radius is None and tool is not None else radius
 
     # variables
 
     def value_of(self, key: int | str) -> float | str | None:
-        """A system variable; a sentence where it is not known before the control runs, None for no variable."""
+        """Return a system variable, a sentence if it is not known before the control runs, or None if there is none."""
         if not isinstance(key, int):
             return None
         self._refuse_unknown_memory(key)
@@ -588,7 +588,7 @@ class MacroMachine(Machine):
         return self._origin_variable(key)
 
     def _position_variable(self, key: int) -> float | str:
-        """#5001 to #5003: where the program stands; #5041 to #5043: where the tool's center does."""
+        """Return the programmed position (#5001 to #5003), the tool center's (#5041 to #5043), or why it is unknown."""
         axis, of_center = (key - 1) % 10, key >= 5041
         if axis in self.unknown:
             return f"Where {'XYZ'[axis]} stands after the move to the machine's point is not known. Move it first."
@@ -609,13 +609,13 @@ class MacroMachine(Machine):
         return (code - EXTENDED_SYSTEM) * 1.0 if code > EXTENDED_SYSTEM else code / 10
 
     def _is_offset(self, key: int) -> bool:
-        """Whether a variable is a place in the offset memory."""
+        """True if a variable reads the offset memory."""
         if self.dialect.diameters_apart:
             return 2001 <= key <= 2800
         return 2001 <= key <= 2400 or 10_001 <= key <= 13_999
 
     def _refuse_unknown_memory(self, key: int) -> None:
-        """What a variable of this number holds depends on the control's model or its parameters: not followed."""
+        """Refuse a variable whose meaning depends on the control's model or its parameters."""
         if self.dialect.diameters_apart and key >= 10_000:
             raise FaultError("BEYOND", f"cutcomp does not follow #{key} on this control. Use #100 to #199.", 0)
         if not self.dialect.diameters_apart and 2401 <= key <= 2499:
@@ -623,7 +623,7 @@ class MacroMachine(Machine):
             raise FaultError("BEYOND", text, 0)
 
     def _offset_of(self, key: int) -> tuple[int, int]:
-        """The L of G10 that writes a variable's memory, and the number in it."""
+        """Return the L of G10 that writes a variable's memory, and the offset's number in it."""
         if self.dialect.diameters_apart:
             return (10, 11, 12, 13)[(key - 2001) // 200], (key - 2001) % 200 + 1
         if key < 10_000:
@@ -631,7 +631,7 @@ class MacroMachine(Machine):
         return {10: 11, 11: 10, 12: 13, 13: 12}[key // 1000], key % 1000
 
     def _memory(self, kind: int) -> dict[int, float]:
-        """The memory that an L of G10 writes."""
+        """Return the memory that an L of G10 writes."""
         offsets = self.offsets
         kinds = {11: offsets.length_wear, 12: offsets.radii, 13: offsets.radius_wear}
         return kinds.get(kind, offsets.lengths)
@@ -653,7 +653,7 @@ class MacroMachine(Machine):
         return 0.0 if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999 else None
 
     def set_variable(self, key: int, value: float) -> bool:
-        """Sets a system variable; False where a program cannot."""
+        """Set a system variable; False if a program cannot."""
         millimeters = to_mm(value, self.unit)
         self._refuse_unknown_memory(key)
         if self._is_offset(key):
@@ -671,7 +671,7 @@ class MacroMachine(Machine):
 
 
 def _work_offset_place(key: int) -> tuple[int, int] | None:
-    """The work offset and the axis that a variable holds, from #5221, #7001 and #2500 on; None for any other."""
+    """Return the work offset and axis that a variable holds, from #5221, #7001 and #2500 on; None for any other."""
     number, axis = divmod(key - 5221, 20)
     if 0 <= number < 6 and axis <= 2:
         return 540 + 10 * number, axis
