@@ -1,8 +1,8 @@
-"""Macro: parameters and expressions as LinuxCNC and RosettaCNC evaluate them, to words that are numbers.
+"""This module evaluates parameters and expressions as LinuxCNC and RosettaCNC do, so that words have plain numbers.
 
-Expressions are numbers, #parameters, [brackets] and functions as LinuxCNC and RosettaCNC work them out: operators of
-one rank go from left to right, the power too; angles are degrees; two values are equal within 0.0001.  A name belongs
-to the subprogram that set it, unless it begins with an underscore.
+Expressions are numbers, #parameters, [brackets] and functions.  Operators of equal rank are applied from left to right,
+powers too; angles are in degrees; two values are equal within 0.0001.  A name belongs to the subprogram that set it,
+unless it begins with an underscore.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from core.controls.iso.code_support import FREE_ASSIGNMENT, HIGH_PARAMETERS, onl
 from core.controls.program_text import quoted
 from core.finding import Severity
 
-_KEPT: Final = """
+_CONTROL_NAMES: Final = """
 LINE MOTION_MODE PLANE CCOMP METRIC IMPERIAL ABSOLUTE INCREMENTAL INVERSE_TIME UNITS_PER_MINUTE UNITS_PER_REV
 COORD_SYSTEM TOOL_OFFSET RETRACT_R_PLANE RETRACT_OLD_Z SPINDLE_RPM_MODE SPINDLE_CSS_MODE IJK_ABSOLUTE_MODE
 LATHE_DIAMETER_MODE LATHE_RADIUS_MODE SPINDLE_ON SPINDLE_CW MIST FLOOD SPEED_OVERRIDE FEED_OVERRIDE ADAPTIVE_FEED
@@ -28,8 +28,8 @@ FEED_HOLD FEED RPM CURRENT_TOOL SELECTED_POCKET CURRENT_POCKET X Y Z A B C U V W
 VALUE CALL_LEVEL REMAP_LEVEL SELECTED_TOOL VALUE_RETURNED TASK VMAJOR VMINOR
 """
 
-NAMES: Final = frozenset(f"_{name}" for name in _KEPT.split())
-"""Names that the control keeps itself."""
+NAMES: Final = frozenset(f"_{name}" for name in _CONTROL_NAMES.split())
+"""Names whose values the control keeps itself."""
 
 _LOCALS: Final = 30
 _SYSTEM: Final = 5001
@@ -41,13 +41,13 @@ _HIGH: Final = 10_000
 
 
 def _no_parameter(index: int, last: int) -> str:
-    """Says that a control has no parameter of a number, and which control has."""
+    """Return the sentence that a control has no parameter with a number, and which controls have."""
     other = f" {only_on(HIGH_PARAMETERS)}" if index >= _HIGH else ""
     return f"#{index} is not a parameter; they go from 1 to {last}.{other}"
 
 
 class FaultError(Exception):
-    """What cannot be evaluated: the rule's id, a sentence, and where in the text being read."""
+    """Raised for what cannot be evaluated: the rule's id, a sentence, and its position in the text being read."""
 
     def __init__(self, code: str, text: str, at: int) -> None:
         super().__init__(text)
@@ -60,21 +60,21 @@ class ParameterStore(Enum):
     """How a control keeps parameters."""
 
     NGC = auto()
-    """As LinuxCNC: 1 to 30 are a subprogram's own; what was never set is 0."""
+    """As on LinuxCNC: #1 to #30 are local to a subprogram; a parameter that nothing set is 0."""
     FANUC = auto()
-    """As Fanuc: #1 to #33 are a macro's own; what was never set is vacant."""
+    """As on Fanuc: #1 to #33 are local to a macro; a variable that nothing set is vacant."""
     MACRO_B = auto()
-    """As RosettaCNC: what was never set is empty or in the control's own table; #0 always is empty."""
+    """As on RosettaCNC: a variable that nothing set is empty or in the control's own table; #0 is always empty."""
 
 
 MachineValue = Callable[[int | str], float | str | None]
-"""What a program reads of the machine by number or name: a value, a sentence why it has none, None if not known."""
+"""Returns a machine value by number or name: the value, a sentence why it has none, or None if it is not known."""
 
 
 class MacroParameters:
     """The values of one run; `machine_value` reads those that the control itself keeps.
 
-    `local` are the first numbers, which are a subprogram's own, and `numbered` the others.
+    `local` has the first numbers, which are local to a subprogram, and `numbered` the others.
     """
 
     def __init__(self, kept: ParameterStore, machine_value: MachineValue = lambda _: None) -> None:
@@ -88,7 +88,7 @@ class MacroParameters:
         self._outer: list[tuple[dict[int, float], dict[str, float]]] = []
 
     def number(self, index: int, at: int) -> float | None:
-        """A numbered value; None for one that counts as 0 because nothing set it."""
+        """Return a numbered value; None if it counts as 0 because nothing set it."""
         if self.kept is ParameterStore.MACRO_B:
             return self._variable(index, at)
         self._within(index, at)
@@ -124,7 +124,7 @@ class MacroParameters:
         raise FaultError("BEYOND", value or f"Only the control knows {subject} at run time. Program the number.", at)
 
     def named(self, name: str, at: int) -> float:
-        """A named value; one that has none is a fault."""
+        """Return a named value; one without a value is a fault."""
         if name in NAMES or name.startswith(("_HAL[", "_INI[")):
             if name == "_VALUE":
                 return self.returned or 0.0
@@ -140,14 +140,14 @@ class MacroParameters:
         return value
 
     def exists(self, name: str) -> bool:
-        """Whether a name has a value."""
+        """True if a name has a value, or the control keeps one for it."""
         return name in NAMES or name in self._scope(name)
 
     def _scope(self, name: str) -> dict[str, float]:
         return self.shared if name.startswith("_") else self.names
 
     def settable(self, key: int | str, at: int) -> None:
-        """Refuses what a program cannot set."""
+        """Refuse a number or name that a program cannot set."""
         if isinstance(key, str):
             if key in NAMES or key.startswith(("_HAL[", "_INI[")):
                 raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
@@ -165,25 +165,25 @@ class MacroParameters:
                 raise FaultError("BEYOND", text, at)
 
     def set(self, key: int | str, value: float) -> None:
-        """Gives a number or a name that is `settable` its value."""
+        """Give a `settable` number or name its value."""
         if isinstance(key, str):
             self._scope(key)[key] = value
         else:
             self._store(key)[key] = value
 
     def enter(self, arguments: Mapping[int, float]) -> None:
-        """A subprogram or a macro begins, with its own first numbers and its own names."""
+        """Begin a subprogram or macro, with local numbers and names of its own."""
         self._outer.append((self.local, self.names))
         self.local, self.names = dict(arguments), {}
 
     def leave(self, value: float | None = None) -> None:
-        """A subprogram or a macro ends, and may return a value."""
+        """End a subprogram or macro, which may return a value."""
         self.local, self.names = self._outer.pop()
         self.returned = value
 
 
 EQUAL: Final = 1e-4
-"""How far two values may be apart and still be equal."""
+"""How far apart two values may be and still be equal."""
 
 _WHOLE: Final = 1e-4
 _DEEPEST: Final = 50
@@ -244,10 +244,10 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
 
 
 class ExpressionReader:
-    """Reads values out of a text in capitals without blanks; `at` is where it stands.
+    """Reads values from a text in capitals without blanks; `at` is its position in the text.
 
-    `unset` are the numbers read that nothing had set, and where.  `ranks`: of operators those of a higher rank count
-    first.
+    `unset` has the numbers of the parameters read that nothing had set, and where they are read.  `ranks`: operators of
+    a higher rank are applied first.
     """
 
     ranks = _RANKS
@@ -260,7 +260,7 @@ class ExpressionReader:
         self._depth = 0
 
     def value(self) -> float:
-        """One value: a number, a parameter, brackets, a function, any of them with signs before."""
+        """Return one value: a number, a parameter, brackets or a function, with any signs before it."""
         sign, text = 1.0, self.text
         while text[self.at : self.at + 1] in ("+", "-"):
             sign = -sign if text[self.at] == "-" else sign
@@ -276,7 +276,7 @@ class ExpressionReader:
         number = _NUMBER.match(self.text, self.at)
         if number:
             self.at = number.end()
-            return self._worked(number.start(), "This number", float, number[0])
+            return self._computed(number.start(), "This number", float, number[0])
         first = self.text[self.at : self.at + 1]
         if first == "[":
             return self.brackets()
@@ -285,7 +285,7 @@ class ExpressionReader:
         return self._function()
 
     def brackets(self) -> float:
-        """An expression in square brackets."""
+        """Return the value of an expression in square brackets."""
         begin = self.at
         if self.text[begin : begin + 1] != "[":
             raise FaultError("MACRO", f"A value in square brackets is missing{self._before()}.", begin)
@@ -299,7 +299,7 @@ class ExpressionReader:
         return value
 
     def right_side(self) -> float:
-        """What stands right of an equal sign: an expression, on LinuxCNC one value."""
+        """Return the value right of an equal sign: that of an expression, on LinuxCNC of a single value."""
         if self.values.kept is ParameterStore.MACRO_B:
             return self._ranked(0)
         value, operator = self.value(), _OPERATOR.match(self.text, self.at)
@@ -311,24 +311,24 @@ class ExpressionReader:
     def _ranked(self, rank: int) -> float:
         value = self.value()
         while (name := self._operator()) and self.ranks[name][0] >= rank:
-            begin, (above, work) = self.at, self.ranks[name]
+            begin, (operator_rank, operation) = self.at, self.ranks[name]
             self.at += len(name)
-            value = self._operated(begin, name, work, value, self._ranked(above + 1))
+            value = self._apply_operator(begin, name, operation, value, self._ranked(operator_rank + 1))
         return value
 
     def _operator(self) -> str:
-        """The operator that comes next, "" where none of this control does."""
+        """Return the operator that comes next, "" if none that this control has does."""
         operator = _OPERATOR.match(self.text, self.at)
         if operator is None or (operator[0] in "&|^" and self.values.kept is not ParameterStore.MACRO_B):
             return ""
         return operator[0]
 
-    def _operated(self, at: int, name: str, work: Operation, left: float, right: float) -> float:
-        return self._worked(at, name, work, left, right)
+    def _apply_operator(self, at: int, name: str, operation: Operation, left: float, right: float) -> float:
+        return self._computed(at, name, operation, left, right)
 
-    def _worked(self, at: int, name: str, work: Callable[..., float], *values: float | str) -> float:
+    def _computed(self, at: int, name: str, function: Callable[..., float], *values: float | str) -> float:
         try:
-            value = work(*values)
+            value = function(*values)
         except (ValueError, ArithmeticError):
             value = float("nan")
         if not isfinite(value):
@@ -345,7 +345,7 @@ class ExpressionReader:
         return value or 0.0
 
     def key(self) -> int | str:
-        """The number or the name after a #."""
+        """Return the number or the name after a #."""
         begin = self.at
         self.at += 1
         if self.text[self.at : self.at + 1] == "<":
@@ -356,7 +356,7 @@ class ExpressionReader:
         return round(value)
 
     def name(self) -> str:
-        """A name between < and >."""
+        """Return the name between < and >."""
         name = _NAME.match(self.text, self.at)
         if name is None:
             raise FaultError("MACRO", "The name is not closed. Write > after it.", self.at)
@@ -374,7 +374,7 @@ class ExpressionReader:
             return self._atan(begin)
         if name not in _FUNCTIONS:
             raise FaultError("MACRO", f"This control has no function {name}.", begin)
-        return self._worked(begin, name, _FUNCTIONS[name], self.brackets())
+        return self._computed(begin, name, _FUNCTIONS[name], self.brackets())
 
     def _atan(self, begin: int) -> float:
         first = self.brackets()
@@ -402,34 +402,34 @@ class ExpressionReader:
 _POINT_ENDS: Final = re.compile(r"[0-9]+\.(?![0-9])")
 
 GAP: Final = "\x01"
-"""Marks where a comment was: it may separate words, not digits."""
+"""Marks where a comment was: it may be between words, but not between digits."""
 
 
 class CompactText(NamedTuple):
-    """A text in capitals without blanks, and the column less one of each of its characters."""
+    """A text in capitals without blanks, and the column less one of each character."""
 
     text: str
     columns: tuple[int, ...]
 
     @staticmethod
     def of(text: str, start: int = 0) -> CompactText:
-        """The text without blanks; `start` is where it begins on its line."""
-        kept = [(sign, start + index) for index, sign in enumerate(text) if sign not in " \t"]
-        return CompactText("".join(sign for sign, _ in kept), tuple(column for _, column in kept))
+        """Return a text without its blanks; `start` is where it begins on its line."""
+        kept = [(character, start + index) for index, character in enumerate(text) if character not in " \t"]
+        return CompactText("".join(character for character, _ in kept), tuple(column for _, column in kept))
 
     def column(self, at: int) -> int:
-        """The column of a place in the text, from 1; after its end that of its last character."""
+        """Return the column of a position in the text, from 1; past its end, that of its last character."""
         return self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1
 
 
 Setting = tuple[int | str, float]
-"""A parameter's number or name, and the value it gets."""
+"""A parameter's number or name, and its new value."""
 
 
 def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> tuple[str, tuple[int, ...]]:
-    """The words of a line as plain text, and the column of each; what the line sets is set.
+    """Return a line's words as plain text and the column of each; set the parameters that the line sets.
 
-    What cannot be evaluated stops the run at its place.
+    What cannot be evaluated stops the run.
     """
     reader = ExpressionReader(line.text, values)
     words: list[str] = []
@@ -449,30 +449,30 @@ def evaluated_line(line: CompactText, number: int, values: MacroParameters, log:
 def _item(
     reader: ExpressionReader, line: CompactText, words: list[str], columns: list[int], settings: list[Setting]
 ) -> None:  # fmt: skip
-    """One word, or one setting of a parameter."""
+    """Read one word, or one setting of a parameter."""
     begin, text = reader.at, line.text
-    sign = text[begin]
-    if sign == GAP:
+    first = text[begin]
+    if first == GAP:
         reader.at += 1
-    elif sign == "#":
+    elif first == "#":
         settings.append(_setting(reader))
-    elif sign == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
+    elif first == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
-    elif sign == "N" and reader.values.kept is ParameterStore.NGC and _POINT_ENDS.match(text, begin + 1):
+    elif first == "N" and reader.values.kept is ParameterStore.NGC and _POINT_ENDS.match(text, begin + 1):
         raise FaultError("WORD", "The number of a block has no point at its end.", begin)
-    elif sign == "N" and (words or settings) and reader.values.kept is ParameterStore.NGC:
+    elif first == "N" and (words or settings) and reader.values.kept is ParameterStore.NGC:
         raise FaultError("WORD", "N stands first in a line.", begin)
-    elif "A" <= sign <= "Z":
+    elif "A" <= first <= "Z":
         reader.at += 1
         value = reader.value()
-        words.append(f"{sign}{exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)}")
+        words.append(f"{first}{exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)}")
         columns.append(line.columns[begin] + 1)
     else:
         raise FaultError("WORD", not_a_word(text[begin:]), begin)
 
 
 def not_a_word(text: str) -> str:
-    """The sentence that a text begins no word; an invisible character is named by its number."""
+    """Return the sentence that no word begins with a text; an invisible character is named by its number."""
     if not text[0].isprintable():
         return f"An invisible character (U+{ord(text[0]):04X}) stands here. Delete it."
     return f"{quoted(text)} is not a word. Write a letter and a value."
@@ -488,17 +488,17 @@ def _setting(reader: ExpressionReader) -> Setting:
 
 
 def tell_unset(reader: ExpressionReader, line: CompactText, number: int, log: Log) -> None:
-    """Reports parameters that were read before anything set them."""
+    """Warn of parameters that were read before anything set them."""
     for index, at in reader.unset:
         text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."
         log.tell(Severity.WARNING, "PARAMETER", text, number, line.column(at))
 
 
 def exact(value: float) -> str:
-    """A value to its last digit, without exponent: LinuxCNC makes a move even of what rounding leaves."""
+    """Return a value to its last digit, without exponent: LinuxCNC makes a move even of a rounding error."""
     return f"{Decimal(repr(value)):f}"
 
 
 def plain(value: float) -> str:
-    """A value as a number without exponent."""
+    """Return a value as a number without exponent."""
     return f"{value:.12f}".rstrip("0").rstrip(".")

@@ -188,7 +188,7 @@ class Machine(ModalState):
                 self.log.stop("CODE", text, block.line, block.column("G", number))
 
     def _grouped(self, block: Block) -> list[Code]:
-        """Return a block's G codes in order of execution; stop at an unknown one or, on most controls, two of a group."""
+        """Return a block's G codes in execution order; stop at an unknown one or, on most controls, two of a group."""
         self.check_codes(block)
         known, groups = list[Code](), set[str]()
         for number in block.g:
@@ -456,7 +456,7 @@ class Machine(ModalState):
         self.set_origin(replace(self.origin, local=local, stored=local))
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
-        """Return the offset that, with the rest of the origin, makes the position read as written; old for other axes."""
+        """Return the offset that makes the position read as written on the rest of the origin; old for other axes."""
         words = self.axis_words(block, ZERO)
         x, y, z = (
             self.position[axis] - words[axis] - rest[axis] if "XYZ"[axis] in block.words else old[axis]

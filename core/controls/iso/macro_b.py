@@ -1,8 +1,8 @@
-"""Custom macro B: variables and expressions as Fanuc and Haas controls work them out.
+"""This module evaluates the variables and expressions of custom macro B as Fanuc and Haas controls do.
 
-Functions count before * / AND MOD, these before + - OR XOR, and these before relations; operators of one rank go from
-left to right.  AND, OR and XOR work on the bits of whole numbers.  A variable that nothing has set is vacant: a word
-with it is as if it were not written, in sums it is 0, and only EQ and NE tell it from 0.
+Functions are applied before * / AND MOD, these before + - OR XOR, and these before relations; operators of equal rank
+go from left to right.  AND, OR and XOR work on the bits of whole numbers.  A variable that nothing has set is vacant:
+a word with it counts as not written, in sums it is 0, and only EQ and NE distinguish it from 0.
 """
 
 from __future__ import annotations
@@ -30,26 +30,26 @@ from core.controls.program_text import quoted
 from core.finding import Severity
 
 EQUAL: Final = 1e-8
-"""How far two values may be apart, by the larger one, and still be equal."""
+"""How far apart two values may be, relative to the larger one, and still be equal."""
 
 MAX_BRACKETS: Final = 5
-"""Brackets that may lie inside each other, those of functions included."""
+"""How deep brackets may nest, those of functions included."""
 
 MAX_NESTED: Final = 40
-"""Factors that may lie inside each other, as in ####1."""
+"""How deep factors may nest, as in ####1."""
 
 LOCALS: Final = 33
 ARGUMENTS: Final = 26
 
 
 class Vacant(float):
-    """The value of a variable that nothing has set: 0 in sums.  `number` is that of a common one, else 0."""
+    """The value of a variable that nothing has set: 0 in sums.  `number` is a common variable's, 0 for any other."""
 
     number = 0
 
     @classmethod
     def of(cls, number: int) -> Vacant:
-        """The value of a common variable in which the control may keep another one."""
+        """Return the value of a common variable that nothing has set; the control may keep another value in it."""
         value = cls(0.0)
         value.number = number
         return value
@@ -59,7 +59,7 @@ VACANT: Final = Vacant(0.0)
 
 
 class AlarmByProgramError(Exception):
-    """#3000: the program stops itself with an alarm of its own number."""
+    """Raised by #3000: the program stops itself with an alarm number of its own."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -67,7 +67,7 @@ class AlarmByProgramError(Exception):
 
 
 SetSystem = Callable[[int, float], bool]
-"""Sets a variable of the control itself; False where there is no such variable, or it can only be read."""
+"""Sets a variable of the control itself; False if there is no such variable or it can only be read."""
 
 
 class Variables(MacroParameters):
@@ -85,7 +85,7 @@ class Variables(MacroParameters):
         self.unset: list[int] = []
 
     def number(self, index: int, at: int) -> float | None:
-        """A variable's value, `VACANT` where nothing has set it."""
+        """Return a variable's value, a `Vacant` if nothing has set it."""
         if index == 0:
             return VACANT
         if 1 <= index <= LOCALS:
@@ -103,11 +103,11 @@ class Variables(MacroParameters):
         return system
 
     def named(self, name: str, at: int) -> float:
-        """Names are refused."""
+        """Refuse a name."""
         raise FaultError("BEYOND", f"cutcomp does not follow named variables such as {quoted(name)}. Use numbers.", at)
 
     def settable(self, key: int | str, at: int) -> None:
-        """Refuses names and #0."""
+        """Refuse names, #0 and negative numbers."""
         if isinstance(key, str):
             self.named(key, at)
         if key == 0:
@@ -116,7 +116,7 @@ class Variables(MacroParameters):
             raise FaultError("PS0115", "The number of a variable cannot be negative.", at)
 
     def set(self, key: int | str, value: float) -> None:
-        """Gives a variable that is `settable` its value."""
+        """Give a `settable` variable its value."""
         assert isinstance(key, int)
         if 1 <= key <= LOCALS:
             self.local[key] = value
@@ -129,17 +129,17 @@ class Variables(MacroParameters):
 
 
 def is_common(index: int) -> bool:
-    """Whether a variable is common to all programs."""
+    """True if a variable is common to all programs."""
     return 100 <= index <= 199 or 500 <= index <= 999 or 98000 <= index <= 99999
 
 
-def bits(work: Callable[[int, int], int]) -> Operation:
-    """An operation on the bits of two whole numbers."""
-    return lambda left, right: float(work(round(left), round(right)))
+def bits(operation: Callable[[int, int], int]) -> Operation:
+    """Return an operation on the bits of two whole numbers."""
+    return lambda left, right: float(operation(round(left), round(right)))
 
 
 def equal(left: float, right: float) -> bool:
-    """EQ: vacant equals vacant only."""
+    """True if EQ is: vacant equals only vacant."""
     if isinstance(left, Vacant) or isinstance(right, Vacant):
         return isinstance(left, Vacant) and isinstance(right, Vacant)
     return abs(left - right) <= EQUAL * max(abs(left), abs(right), 1e-3)
@@ -167,12 +167,12 @@ _RANKS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
 
 
 def from_bcd(value: float) -> float:
-    """BIN: the number whose decimal digits are the groups of four bits."""
+    """Return BIN of a value: the number whose decimal digits are the value's groups of four bits."""
     return float(f"{round(value):x}")
 
 
 def to_bcd(value: float) -> float:
-    """BCD: the number whose groups of four bits are the decimal digits."""
+    """Return BCD of a value: the number whose groups of four bits are the value's decimal digits."""
     return float(int(str(round(value)), 16))
 
 
@@ -205,12 +205,12 @@ _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
 
 
 def _full_name(short: str) -> str | None:
-    """The function whose name begins so: two letters are enough."""
+    """Return the function whose name begins with some letters, of which two are enough; None if there is none."""
     return next((name for name in _FUNCTIONS if name.startswith(short)), None)
 
 
 class MacroReader(ExpressionReader):
-    """Reads values as a Fanuc control does; `increment` is what ROUND rounds a word to, 0 outside of words."""
+    """Reads values as a Fanuc control does; `increment` is what ROUND rounds a word to, 0 outside words."""
 
     increment = 0.0
     ranks = _RANKS
@@ -219,20 +219,20 @@ class MacroReader(ExpressionReader):
         super().__init__(text, values, at)
         self.variables = values
         self.differences: list[float] = []
-        """How far apart the values were that have been compared."""
+        """How far apart the values were in each comparison."""
         self._brackets = 0
 
     def expression(self) -> float:
-        """What stands on the right of =, without brackets around it."""
+        """Return the value of an expression without brackets around it, as right of =."""
         return self._ranked(0)
 
     def value(self) -> float:
-        """One factor; a vacant variable stays vacant unless a sign stands before it."""
-        sign, behind = self.text[self.at : self.at + 1], self.text[self.at + 1 : self.at + 2]
+        """Return one factor; a vacant variable stays vacant unless a minus precedes it."""
+        sign, second = self.text[self.at : self.at + 1], self.text[self.at + 1 : self.at + 2]
         negative = sign == "-"
         if sign in ("+", "-"):
             self.at += 1
-            if behind in ("+", "-"):
+            if second in ("+", "-"):
                 raise FaultError("PS0006", "Two signs stand before a value. Keep one.", self.at)
         self._depth += 1
         if self._depth > MAX_NESTED:
@@ -244,7 +244,7 @@ class MacroReader(ExpressionReader):
         return -value if negative else value
 
     def note_use(self, *values: float | None) -> None:
-        """Remember common variables that nothing has set and whose values count here."""
+        """Note common variables that nothing has set and whose values matter here."""
         self.variables.unset += [value.number for value in values if isinstance(value, Vacant) and value.number]
 
     def _parameter(self) -> float:
@@ -255,7 +255,7 @@ class MacroReader(ExpressionReader):
         return VACANT if value is None else value
 
     def brackets(self) -> float:
-        """An expression in square brackets, not too deep."""
+        """Return the value of an expression in square brackets; refuse brackets nested too deep."""
         self._enter_bracket()
         value = super().brackets()
         self._brackets -= 1
@@ -273,15 +273,15 @@ class MacroReader(ExpressionReader):
             raise FaultError("PS0114", "This control has no **. Write POW[a,b] or multiply.", self.at)
         return name
 
-    def _operated(self, at: int, name: str, work: Operation, left: float, right: float) -> float:
-        # to compare with #0 is to ask whether a variable is set
-        if name not in ("EQ", "NE") or not any(isinstance(one, Vacant) and not one.number for one in (left, right)):
+    def _apply_operator(self, at: int, name: str, operation: Operation, left: float, right: float) -> float:
+        # a comparison with #0 asks whether a variable is set
+        if name not in ("EQ", "NE") or not any(isinstance(side, Vacant) and not side.number for side in (left, right)):
             self.note_use(left, right)
         if _RANKS[name][0] == _RELATION:
             self.differences.append(abs(left - right))
         if name in "/MOD" and right == 0.0:
             raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
-        return float(self._worked(at, name, work, left, right))
+        return float(self._computed(at, name, operation, left, right))
 
     def _function(self) -> float:
         begin, function = self.at, _FUNCTION.match(self.text, self.at)
@@ -297,19 +297,19 @@ class MacroReader(ExpressionReader):
             self.at += 1
             second = self.brackets()
         if name == "POW" or second is not None:
-            return self._of_two(begin, name, first, second)
+            return self._apply_to_two(begin, name, first, second)
         if name == "ROUND" and self.increment:
             return _rounded(first / self.increment) * self.increment
-        return self._applied(begin, name, first)
+        return self._apply_function(begin, name, first)
 
-    def _applied(self, begin: int, name: str, value: float) -> float:
+    def _apply_function(self, begin: int, name: str, value: float) -> float:
         try:
-            return self._worked(begin, name, _FUNCTIONS[name], value)
+            return self._computed(begin, name, _FUNCTIONS[name], value)
         except FaultError as fault:
             raise FaultError("PS0119", fault.text, begin) from None
 
     def _arguments(self) -> tuple[float, float | None]:
-        """The value in a function's brackets, or two with a comma between them."""
+        """Return the value in a function's brackets, or the two that a comma separates."""
         begin = self.at
         self._enter_bracket()
         self.at += 1
@@ -323,16 +323,16 @@ class MacroReader(ExpressionReader):
         self._brackets -= 1
         return first, second
 
-    def _of_two(self, begin: int, name: str, first: float, second: float | None) -> float:
+    def _apply_to_two(self, begin: int, name: str, first: float, second: float | None) -> float:
         if second is None or name not in ("ATAN", "POW"):
             raise FaultError("PS0114", f"{name} takes {'two values' if name == 'POW' else 'one value'}.", begin)
         if name == "ATAN":
             return degrees(atan2(first, second)) % 360.0
-        return float(self._worked(begin, name, lambda base, power: float(base**power), first, second))
+        return float(self._computed(begin, name, lambda base, power: float(base**power), first, second))
 
 
 def set_variables(reader: MacroReader, line: CompactText, number: int, values: Variables, log: Log) -> None:
-    """Runs an assignment, `#1=...`; a second one in its block is taken too, and reported."""
+    """Run an assignment, `#1=...`; a second one in its block runs too, and is reported."""
     text = line.text
     for count in range(len(text)):
         if text[reader.at : reader.at + 1] == GAP:
@@ -345,8 +345,8 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
             rule = "PS0127" if text[begin].isalpha() else "PS0114"
             raise FaultError(rule, f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
         if count:
-            said = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
-            log.tell(Severity.WARNING, "PS0127", said, number, line.column(begin))
+            message = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
+            log.tell(Severity.WARNING, "PS0127", message, number, line.column(begin))
         key = reader.key()
         if text[reader.at : reader.at + 1] != "=":
             raise FaultError("PS0114", "A variable needs = and a value, or a letter before it.", begin)
@@ -358,9 +358,9 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
 def words_of(
     line: CompactText, values: Variables, increment: float, start: int = 0
 ) -> tuple[str, tuple[int, ...], tuple[str, float] | None, int]:
-    """The words of a block with the values of its variables as plain text, vacant ones left out.
+    """Return a block's words as plain text with the values of its variables, words with vacant ones left out.
 
-    With it the column of each, the block's `,R` or `,C`, and the column of its block skip, 0 without one.
+    Return also the column of each, the block's `,R` or `,C`, and the column of its block skip, 0 without one.
     """
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
@@ -368,22 +368,22 @@ def words_of(
         raise FaultError("PS0114", "A ) has no ( before it: a comment cannot hold another one.", text.index(")"))
     words, columns, corner, skip = list[str](), list[int](), None, 0
     while reader.at < len(text):
-        begin, sign = reader.at, text[reader.at]
+        begin, first = reader.at, text[reader.at]
         reader.at += 1
-        if sign == GAP:
+        if first == GAP:
             continue
-        if sign == "/":
+        if first == "/":
             reader.at += text[reader.at : reader.at + 1].isdigit()
             skip = line.columns[begin] + 1
-        elif sign == "," and text[reader.at : reader.at + 1] in ("R", "C"):
+        elif first == "," and text[reader.at : reader.at + 1] in ("R", "C"):
             reader.at += 1
             corner = text[begin + 1], reader.value()
             reader.note_use(corner[1])
-        elif "A" <= sign <= "Z":
-            value = _word_value(reader, sign, begin)
+        elif "A" <= first <= "Z":
+            value = _word_value(reader, first, begin)
             reader.note_use(value)
             if not isinstance(value, Vacant):
-                words.append(f"{sign}{plain(value)}")
+                words.append(f"{first}{plain(value)}")
                 columns.append(line.columns[begin] + 1)
         else:
             raise FaultError("WORD", not_a_word(text[begin:]), begin)
@@ -391,7 +391,7 @@ def words_of(
 
 
 def _word_value(reader: MacroReader, letter: str, begin: int) -> float:
-    """The value of a word; vacant with a sign before it too."""
+    """Return the value of a word; a vacant variable stays vacant with a sign before it too."""
     text = reader.text
     signed = text[reader.at : reader.at + 1] in ("+", "-") and text[reader.at + 1 : reader.at + 2] == "#"
     if text[reader.at : reader.at + 1] in ("", GAP) or (
