@@ -1,1 +1,1 @@
-"""Word-address programs: text to words, words to modal state, modal state to programmed moves."""
+"""This package runs word-address programs: text to words, words to modal state, modal state to programmed moves."""

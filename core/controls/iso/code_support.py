@@ -1,4 +1,4 @@
-"""Elsewhere: which controls have a code or a way of writing that the one at work lacks, for its alarm."""
+"""This module says which controls have a code or a syntax that the current one lacks, for that one's alarm."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ CODES: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
         **dict.fromkeys((700, 710), (THREEBLOCK, NINE_SERIES)),
     }
 )
-"""G codes in tenths that not every control has, and controls that have them."""
+"""G codes in tenths that not every control has, and the controls that have them."""
 
 TOOL_DATA: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
     {**dict.fromkeys((1, 10, 11), (LINUXCNC, FANUC, HAAS)), **dict.fromkeys((12, 13), (FANUC, HAAS))}
 )
-"""The controls on which G10 sets the data of a tool, by its L."""
+"""The controls on which G10 sets a tool's data, by the L of the block."""
 
 EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)
 """The controls with parameters and expressions."""
 
 FREE_ASSIGNMENT: Final = (ROSETTACNC, FANUC, HAAS)
-"""The controls on which no brackets are needed right of the equal sign."""
+"""The controls that need no brackets right of the equal sign."""
 
 HIGH_PARAMETERS: Final = (FANUC,)
 """The controls with parameters from #10000 on."""
@@ -46,22 +46,22 @@ JUMPS: Final = (FANUC, HAAS)
 """The controls with IF, GOTO, WHILE and DO."""
 
 OFFSETS_ANYWHERE: Final = (NINE_SERIES, FANUC, HAAS)
-"""The controls that take D, and H, in any block, also with T."""
+"""The controls that take D and H in any block, also with T."""
 
 
 LATHE_CYCLES: Final = frozenset((700, 710, 720, 730, 740, 750, 760))
-"""G codes that call a cycle of lathes where U, W, or P and Q stand with them."""
+"""G codes that call a lathe cycle if the block has U, W, or both P and Q."""
 
 
 def lathe_cycle(number: int, letters: Container[str]) -> str:
-    """The sentence that says that a code with these words is a lathe's, "" where it need not be."""
+    """Return the sentence that a code with these words is a lathe's, "" if it need not be."""
     if number in LATHE_CYCLES and ("U" in letters or "W" in letters or ("P" in letters and "Q" in letters)):
         return f"G{number / 10:g} is a cycle of lathes. cutcomp checks programs of mills."
     return ""
 
 
 def only_on(controls: tuple[str, ...]) -> str:
-    """The sentence that names the controls with something, "" without any."""
+    """Return the sentence that names the controls that have something, "" without any."""
     if not controls:
         return ""
     names = " and ".join((", ".join(controls[:-1]), controls[-1])) if len(controls) > 1 else controls[0]

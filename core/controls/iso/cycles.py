@@ -1,8 +1,8 @@
-"""Drilling cycles, G73, G74 and G81 to G89: every hole as the moves that make it.
+"""This module turns drilling cycles, G73, G74 and G81 to G89, into the moves that make each hole.
 
-Depth, R and the peck stay until another cycle.  Under G91 R counts from the height at which the row of holes began,
-and the depth from R; on Fanuc's family where they are written, elsewhere wherever they hold.  G98 comes back to that
-height, G99 to R.
+R, depth and peck stay in force until another cycle.  Under G91, R counts from the height at which the row of holes
+began, and the depth from R: on Fanuc's family in the block that has them, elsewhere in every block that uses them.
+G98 retracts to that height, G99 to R.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 
 CHIP_CLEARANCE: Final = 0.254
-"""Millimeters (0.010 in) by which a peck comes back, or stays off the bottom at its return."""
+"""Millimeters (0.010 in) by which G73 retracts after a peck, and G83's return stops short of the last depth."""
 
 MAX_REPEATS: Final = 10_000
 
@@ -35,23 +35,23 @@ DrillMove = tuple[Point3, bool]
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """One hole: its place in the plane, the heights of approach, R, bottom and return."""
+    """One hole: its position in the plane, and the heights of approach, R, bottom and retract."""
 
     first: float
     second: float
-    over: float
+    approach: float
     r: float
-    ground: float
-    back: float
+    bottom: float
+    retract: float
     plane: Plane
 
     def at(self, height: float) -> Point3:
-        """The point of the hole's axis at a height."""
+        """Return the point on the hole's axis at a height."""
         return solid(self.first, self.second, height, self.plane)
 
 
 def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
-    """The moves of a block of the cycle in force; what it lacks stops the run."""
+    """Yield the moves of a block of the cycle in force; a block that lacks a word stops the run."""
     code = state.mode or 0
     if not state.dialect.cycles or code in _NOT_FOLLOWED:
         text = "cutcomp follows this cycle's hole positions but not its depth."
@@ -63,9 +63,9 @@ def drill(state: ModalState, block: Block) -> Iterator[DrillMove]:
         _stop(state, "A drilling cycle does not go with G93; write G94.", block)
     if not state.feed:
         state.no_feed(block)
-    fresh = state.cycle.code != code
+    is_first = state.cycle.code != code
     _take_values(state, code, block)
-    yield from _row(state, code, block, fresh=fresh)
+    yield from _holes(state, code, block, is_first=is_first)
 
 
 def _stop(state: ModalState, text: str, block: Block, letters: str = "G") -> NoReturn:
@@ -73,7 +73,7 @@ def _stop(state: ModalState, text: str, block: Block, letters: str = "G") -> NoR
 
 
 def _take_values(state: ModalState, code: int, block: Block) -> None:
-    """Takes R, depth and peck of a block; what the first block of a cycle lacks stops the run."""
+    """Take R, depth and peck from a block; a first block of a cycle that lacks a word stops the run."""
     cycle, words, scale = state.cycle, block.words, state.scale
     letter = _AXES[state.plane][2]
     if cycle.code is None:
@@ -85,23 +85,23 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
             state.log.tell(Severity.INFO, "CYCLE", text, block.line, block.column("G"))
         elif needed not in words:
             _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
-    written_from_here = state.incremental and state.dialect.fanuc_cycles
+    to_heights = state.incremental and state.dialect.fanuc_cycles
     if "R" in words:
-        cycle.r = words["R"] * scale + (cycle.began if written_from_here else 0.0)
+        cycle.r = words["R"] * scale + (cycle.began if to_heights else 0.0)
     if letter in words:
-        cycle.depth = words[letter] * scale + (cycle.r if written_from_here else 0.0)
+        cycle.depth = words[letter] * scale + (cycle.r if to_heights else 0.0)
     if "Q" in words:
         cycle.peck = words["Q"] * scale
     cycle.code = code
 
 
 def _counts_from_here(state: ModalState) -> bool:
-    """Whether R and the depth in force count from where the row began and from R."""
+    """True if R in force counts from the height where the row began, and the depth from R."""
     return state.incremental and not state.dialect.fanuc_cycles
 
 
-def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator[DrillMove]:
-    """All holes of a block; `fresh` in the first one of a cycle."""
+def _holes(state: ModalState, code: int, block: Block, *, is_first: bool) -> Iterator[DrillMove]:
+    """Yield the moves of all holes of a block; `is_first` for the first block of a cycle."""
     cycle, plane = state.cycle, state.plane
     repeats = _repeats(state, block)
     if not repeats:
@@ -109,24 +109,24 @@ def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator
     here = flat(state.position, plane)
     origin = flat(state.shift, plane)[2]
     r = cycle.r + origin + (cycle.began if _counts_from_here(state) else 0.0)
-    ground = cycle.depth + (r if _counts_from_here(state) else origin)
-    if r < ground:
+    bottom = cycle.depth + (r if _counts_from_here(state) else origin)
+    if r < bottom:
         _stop(state, "R is below the bottom of the hole. Correct R or the depth.", block, "RXYZG")
-    over, level = here[2], cycle.began + origin
+    height, level = here[2], cycle.began + origin
     if level < r:
         yield solid(here[0], here[1], r, plane), True
-        over = level = r
-    if fresh:
+        height = level = r
+    if is_first:
         _check_first(state, code, block)
     back = r if cycle.to_r else level
-    over = over if over > r else back
+    height = height if height > r else back
     for index in range(repeats):
         first, second, _ = flat(state.target(block.words), plane)
-        yield from _hole(state, code, block, Hole(first, second, back if index else over, r, ground, back, plane))
+        yield from _hole(state, code, block, Hole(first, second, back if index else height, r, bottom, back, plane))
 
 
 def _check_first(state: ModalState, code: int, block: Block) -> None:
-    """What the first block of some cycles needs besides: the peck, the time at the bottom."""
+    """Check for what some cycles also need in their first block: the peck, or the time at the bottom."""
     needed = "Q" if code in _PECKS else "P" if code in _DWELLS and state.dialect.table_needed else ""
     if needed and needed not in block.words:
         _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
@@ -143,22 +143,22 @@ def _repeats(state: ModalState, block: Block) -> int:
 
 
 def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:
-    yield hole.at(hole.over), True
-    if hole.over != hole.r:
+    yield hole.at(hole.approach), True
+    if hole.approach != hole.r:
         yield hole.at(hole.r), True
     _check_spindle(state, code, block)
     if code in _PECKS:
         yield from _pecks(state, code, block, hole)
     else:
-        yield hole.at(hole.ground), False
+        yield hole.at(hole.bottom), False
     if code in _FEEDS_OUT:
-        yield hole.at(hole.r if code == _BORE else hole.back), False
+        yield hole.at(hole.r if code == _BORE else hole.retract), False
     if code not in _FEEDS_OUT or code == _BORE:
-        yield hole.at(hole.back), True
+        yield hole.at(hole.retract), True
 
 
 def _check_spindle(state: ModalState, code: int, block: Block) -> None:
-    """Tapping needs its direction, G86 a spindle that turns; known only where the program's start is."""
+    """Check that tapping has its spindle direction, and G86 a turning spindle, if the state at the start is known."""
     if not state.dialect.table_needed:
         return
     if code in _TAPS and state.plane is not Plane.XY:
@@ -166,22 +166,22 @@ def _check_spindle(state: ModalState, code: int, block: Block) -> None:
     wanted = {740: -1, 840: 1}.get(code)
     turning = state.turning
     if turning != wanted if wanted else code == 860 and not turning:
-        way = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
-        _stop(state, f"G{code // 10} needs a spindle that turns; start it {way}.", block)
+        start_command = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
+        _stop(state, f"G{code // 10} needs a spindle that turns; start it {start_command}.", block)
 
 
 def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:
-    """G83 comes out to R between pecks, G73 only a little back."""
+    """Yield the pecks of a hole: between them G83 retracts to R, and G73 only a little."""
     peck = state.cycle.peck
     if peck <= 0.0:
         _stop(state, "Q, the depth of a peck, must be larger than 0.", block, "QG")
-    if (hole.r - hole.ground) / peck > MAX_REPEATS:
+    if (hole.r - hole.bottom) / peck > MAX_REPEATS:
         _stop(state, f"That is more than {MAX_REPEATS} pecks; correct Q.", block, "QG")
     depth = hole.r - peck
-    while depth > hole.ground:
+    while depth > hole.bottom:
         yield hole.at(depth), False
         if code == 830:
             yield hole.at(hole.r), True
         yield hole.at(depth + CHIP_CLEARANCE), True
         depth -= peck
-    yield hole.at(hole.ground), False
+    yield hole.at(hole.bottom), False

@@ -1,6 +1,6 @@
-"""Dialects: what the G and M codes of a word-address control are, as frozen data.
+"""A dialect says, as frozen data, which G and M codes a word-address control has and how it reads them.
 
-Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block takes one.
+Codes are in tenths (G41.1 is 411).  A block takes one code of each group.
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ class CodeAction(Enum):
     MODE = auto()
     DATA = auto()
     LENGTH = auto()
-    """A tool length offset on a control that shifts the position by it; its axis words are the offset."""
+    """A tool length offset on a control that shifts the position by it; the axis words of G43.1 are the offset."""
     SKIP = auto()
     TRANSFORM = auto()
-    """Scaling, mirror image, rotation and polar coordinates, on and off."""
+    """Scaling, mirror image, rotation or polar coordinates, on or off."""
     UNAVAILABLE = auto()
-    """A code that the control does not have and whose meaning is in force anyway: a warning."""
+    """A code that the control does not have but whose meaning is in force anyway: a warning."""
     UNSUPPORTED = auto()
-    """A code that the control has and cutcomp does not support: the run stops."""
+    """A code that the control has but cutcomp does not support: the run stops."""
     OF_THIS_CONTROL = auto()
     """A code of this control alone, which its `Control` handles."""
 
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """A G code: its modal group, what it does, and its value for that."""
+    """A G code: its modal group, its action, and the action's value."""
 
     group: str
     action: CodeAction
@@ -67,7 +67,7 @@ def _group(group: str, action: CodeAction, *codes: int) -> dict[int, Code]:
 
 
 PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
-"""The codes of the planes."""
+"""The plane that each plane code selects."""
 
 COMMON_CODES: Final[Mapping[int, Code]] = MappingProxyType(
     {
@@ -85,18 +85,18 @@ COMMON_CODES: Final[Mapping[int, Code]] = MappingProxyType(
         **_group("once", CodeAction.PRESET, 920),
     }
 )
-"""What G codes are on every word-address control in cutcomp."""
+"""The G codes of every word-address control in cutcomp."""
 
 
 CYCLES_APART: Final = (("cycle", CodeAction.CYCLE, tuple(range(810, 900, 10))), ("cycle", CodeAction.MOTION, (800,)))
-"""G80 to G89 as a group of their own: G80 then ends the cycle and leaves the motion that stood before it.
+"""G80 to G89 as a group of their own: G80 then ends the cycle and restores the motion in force before it.
 
-In the group of the motions G80 leaves no motion in force, and counts for nothing next to another code of that group.
+In the motion group, G80 leaves no motion in force, and is ignored next to another code of that group.
 """
 
 
 def codes(*groups: tuple[str, CodeAction, tuple[int, ...]]) -> Mapping[int, Code]:
-    """The common codes with those of a control over them."""
+    """Return the common codes with a control's own added; its own replace common ones."""
     added = {
         code: entry for group, action, numbers in groups for code, entry in _group(group, action, *numbers).items()
     }
@@ -105,28 +105,28 @@ def codes(*groups: tuple[str, CodeAction, tuple[int, ...]]) -> Mapping[int, Code
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """A control's way of reading: everything that is data rather than a rule of compensation.
+    """How a control reads programs: everything that is data rather than a rule of compensation.
 
-    `mode` is the motion in force at the start, None where the control refuses axis words without one.
-    `absolute_centers`: I, J, K count from the origin while positions do (G90), otherwise always from the arc's start.
-    `moves_alone`: G0 or G1 without any axis is a move of no length.  `feed_needed`: an error without a feed.
+    `mode` is the motion in force at the start, None if the control refuses axis words without one.
+    `absolute_centers`: under G90, I, J, K count from the origin, not from the arc's start.
+    `moves_alone`: G0 or G1 without an axis is a move of no length.  `feed_needed`: a move at feed needs an F.
     `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
-    the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
-    `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
-    `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
-    nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
-    compensation; `returns_to_r`: G99 is in force at the start.
-    `cycle_r_needed`: a cycle's first block must have R.  `d_anywhere`: D, and H, may stand in any block.
-    `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
-    where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
-    nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
-    of one group the last counts, with a warning.  `repeat_letters`: how often a drilling cycle runs.
-    `fanuc_cycles`: R and the depth of a cycle stay heights where G90 and G91 change, and 0 repeats only store them.
+    the table cannot be selected.  `unit_first`: the F of a block is in the unit that the block sets.
+    `percent_ends`: a second line of % ends the program.  `end_needed`: the program must end with M2, M30 or that line.
+    `group_rule`: the id of the rule against two G codes of one group.  `parameters`: how the control keeps a program's
+    parameters, None if nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule`: the id of
+    the rule against them under compensation; `returns_to_r`: G99 is in force at the start.
+    `cycle_r_needed`: a cycle's first block must have R.  `d_anywhere`: any block may have D and H.
+    `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: G94 and G95 clear the feed even if already
+    in force.  `tool_data_kinds`: the values of L with which G10 sets a tool's data.  `tells_unused`: words that nothing
+    uses are reported.  `rule_names`: the control's own alarm numbers.  `last_code_counts`: of two codes of one group
+    the last counts, with a warning.  `repeat_letters`: the letters for how often a drilling cycle runs.
+    `fanuc_cycles`: a cycle's R and depth stay heights when G90 and G91 change, and 0 repeats only store them.
     `homes_all`: G28 without an axis moves all axes.  `m97_calls`: M97 calls a block of the program, and the P of M98
-    is a program's number alone.  `program_names`: a name in angle brackets may stand for O and its number.
+    is only a program's number.  `program_names`: a name in angle brackets may replace O and its number.
     `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
     `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P is G54.1 P.
-    `max_repeated_blocks`: how many blocks subprograms and loops may run again before the run is given up.
+    `max_repeated_blocks`: how many blocks subprograms and loops may repeat before cutcomp gives up the run.
     """
 
     codes: Mapping[int, Code]
@@ -168,47 +168,47 @@ class Dialect:
     max_repeated_blocks: int = 400_000
 
 
-_ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")
-"""Words that have a meaning in any block; other axes than X, Y and Z are reported as axes."""
+_ALWAYS_USED: Final = frozenset("NOXYZFSTABCUVW")
+"""Words that have a meaning in any block; axes other than X, Y and Z are reported as axes."""
 
-_TAKEN_BY_G: Final[Mapping[int, str]] = MappingProxyType(
+_USED_BY_G: Final[Mapping[int, str]] = MappingProxyType(
     {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}
     | {430: "H", 490: "H", 640: "P", 960: "D", 440: "H", 541: "P", 1540: "P"}
     | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "PIJK", 680: "R", 1030: "P", 1870: "PE"}
 )
-_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"})
-_TAKEN_BY_ARC: Final = "IJKR"
-_TAKEN_BY_CYCLE: Final = "RQPLIJK"
+_USED_BY_M: Final[Mapping[int, str]] = MappingProxyType({960: "PQL", 970: "PL", 980: "PL", 990: "P", 1980: "PL"})
+_USED_BY_ARC: Final = "IJKR"
+_USED_BY_CYCLE: Final = "RQPLIJK"
 
 
 def p_is_of_g54(block: Block, mode: int | None) -> bool:
-    """Whether a block's P stands with G54 alone: no other code in it, and no cycle in force, takes a P."""
+    """True if a block's P belongs to its G54: no other code in the block, and no cycle in force, uses a P."""
     others = [code for code in block.g if code != 540]
-    taken = any("P" in _TAKEN_BY_G.get(code, "") or code in (300, 650, 660) for code in others)
-    by_m = any("P" in _TAKEN_BY_M.get(code, "") for code in block.m)
+    by_g = any("P" in _USED_BY_G.get(code, "") or code in (300, 650, 660) for code in others)
+    by_m = any("P" in _USED_BY_M.get(code, "") for code in block.m)
     cycle = mode not in (0, 10, 20, 30, 800, None) or any(730 <= code <= 890 and code != 800 for code in others)
-    return 540 in block.g and "P" in block.words and not (taken or by_m or cycle)
+    return 540 in block.g and "P" in block.words and not (by_g or by_m or cycle)
 
 
 def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
-    """The words of a block that nothing in it takes, the motion in force being `mode`."""
-    if _ALWAYS_TAKEN.issuperset(block.words):
+    """Return the words of a block that nothing in it uses; `mode` is the motion in force."""
+    if _ALWAYS_USED.issuperset(block.words):
         return []
-    taken = set(_ALWAYS_TAKEN)
+    used = set(_ALWAYS_USED)
     for code in block.g:
-        taken.update(_TAKEN_BY_G.get(code, ""))
+        used.update(_USED_BY_G.get(code, ""))
     homes = 300 in block.g and dialect.parameters is ParameterStore.FANUC
     if homes or (dialect.g54_takes_p and p_is_of_g54(block, mode)):
-        taken.add("P")
+        used.add("P")
     for code in block.m:
         if code != 970 or dialect.m97_calls:
-            taken.update(_TAKEN_BY_M.get(code, ""))
+            used.update(_USED_BY_M.get(code, ""))
     if mode in (20, 30):
-        taken.update(_TAKEN_BY_ARC)
+        used.update(_USED_BY_ARC)
     elif mode not in (0, 10, 800, None):
-        taken.update(_TAKEN_BY_CYCLE)
+        used.update(_USED_BY_CYCLE)
     if dialect.d_anywhere:
-        taken.update("DH")
+        used.update("DH")
     elif not SWITCHES.isdisjoint(block.g):
-        taken.add("D")
-    return [letter for letter in block.words if letter not in taken]
+        used.add("D")
+    return [letter for letter in block.words if letter not in used]

@@ -1,4 +1,4 @@
-"""Execute: runs a word-address program on a control, row by row, up to its end or an alarm."""
+"""This module runs a word-address program on a control, row by row, up to its end or an alarm."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from core.controls.program_text import BYTE_ORDER_MARKS, lines_of
 from core.progress import Progress, silent
 
 LINES_BETWEEN: Final = 200
-"""Lines between two words on how far the run is."""
+"""Lines between two reports of progress."""
 
 
 def no_library(_: int | str) -> None:
-    """A library without programs."""
+    """Return None: a library without programs."""
 
 
 _CR_ALONE: Final = re.compile(rb"\r(?!\n)")
@@ -42,7 +42,7 @@ def execute(
     library: ProgramLibrary = NO_LIBRARY,
     progress: Progress = silent,
 ) -> ControlRun:
-    """A program on the control of this name that `make` gives; never raises for any text."""
+    """Run a program on the control with this name that `make` makes; never raises, whatever the text."""
     log = Log(rule_names=dialect.rule_names)
     control = make(log)
     lines = lines_of(text)
@@ -55,11 +55,11 @@ def execute(
     stopped_at = None
     try:
         if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):
-            said = "The file begins with a byte order mark, which this control does not read. Save it as plain ASCII."
-            log.stop("WORD", said, 1, 1)
-        if dialect.syntax.strict and (alone := _CR_ALONE.search(text)):
-            said = "This line ends with CR alone, which this control does not take for its end. Save the file with LF."
-            log.stop("WORD", said, text.count(b"\n", 0, alone.start()) + 1, 1)
+            fault = "The file begins with a byte order mark, which this control does not read. Save it as plain ASCII."
+            log.stop("WORD", fault, 1, 1)
+        if dialect.syntax.strict and (cr_alone := _CR_ALONE.search(text)):
+            fault = "This line ends with CR alone, which this control does not take for its end. Save the file with LF."
+            log.stop("WORD", fault, text.count(b"\n", 0, cr_alone.start()) + 1, 1)
         _run(flow, machine, progress)
     except AlarmError as alarm:
         log.add(alarm.finding)
@@ -68,12 +68,12 @@ def execute(
     flow.finish(alarmed=stopped_at is not None)
     unit = machine.first_unit or machine.unit
     tape, stretches = control.tape, tuple(control.stretches)
-    made = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced))
-    return _by_main_lines(made, flow)
+    run = ControlRun(name, unit, tape.moves(), log.closed(), stopped_at, stretches, frozenset(tape.unplaced))
+    return _by_main_lines(run, flow)
 
 
 def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
-    """Runs lines until the program ends."""
+    """Run lines until the program ends."""
     run_lines = 0
     while flow.at < len(flow.lines):
         line = flow.at = flow.at + 1
@@ -92,25 +92,25 @@ def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
     machine.control.close()
 
 
-def _by_main_lines(made: ControlRun, flow: Flow) -> ControlRun:
-    """The run with the lines of called files told as the lines that call them, and its variables."""
+def _by_main_lines(run: ControlRun, flow: Flow) -> ControlRun:
+    """Return the run with its variables, and with each line of a called file replaced by the line that calls it."""
     if isinstance(flow, MacroFlow):
-        made = replace(made, variables=dict(flow.variables.common))
+        run = replace(run, variables=dict(flow.variables.common))
     if not flow.called_from:
-        return made
+        return run
     findings = []
-    for finding in made.findings:
+    for finding in run.findings:
         line, place = flow.origin_of(finding.line or 0)
         text = f"{place}: {finding.text}" if place else finding.text
         findings.append(replace(finding, text=text, line=line or None, column=1 if place else finding.column))
     stretches = tuple(
-        replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow)) for stretch in made.stretches
+        replace(stretch, programmed=_moves_by_main_lines(stretch.programmed, flow)) for stretch in run.stretches
     )
-    stopped_at = None if made.stopped_at is None else flow.origin_of(made.stopped_at)[0]
+    stopped_at = None if run.stopped_at is None else flow.origin_of(run.stopped_at)[0]
     return replace(
-        made,
+        run,
         findings=tuple(findings),
-        moves=_moves_by_main_lines(made.moves, flow),
+        moves=_moves_by_main_lines(run.moves, flow),
         stretches=stretches,
         stopped_at=stopped_at,
     )

@@ -1,6 +1,6 @@
-"""Modal state of a word-address control: what is in force between blocks.
+"""The modal state of a word-address control is what stays in force between blocks.
 
-All positions are millimeters from the machine's zero as the program shifts it; work offsets nobody gave are zero.
+All positions are in millimeters from machine zero; work offsets that the program does not set are zero.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ EXTERNAL: Final = 0
 """The key of the offset that shifts all work offsets, on controls that have one."""
 
 OUTLINE_JUDGED: Final = "The programmed path is judged as the part's outline, not as a center path with a wear offset."
-"""What a negative radius is not taken for."""
+"""Says what a negative radius is not taken to mean."""
 
 TAKEN_AS_ZERO: Final = "is not in the program; it is taken as zero."
-"""What is told of a work offset that the program does not set: places under it compare with no other's."""
+"""Ends the finding on a work offset that the program does not set: its positions compare with no other offset's."""
 
 INVERSE: Final = 930
 PER_MINUTE: Final = 940
 
 RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0", "FN-D0"))
-"""Rules that report compensation that is asked for and moves nothing."""
+"""Rules that report compensation that is turned on but offsets nothing."""
 
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
 
 
 def system_code(number: int) -> int:
-    """The code in tenths of the work offset of a number from 1 to 9: G54 to G59, G59.1 to G59.3."""
+    """Return the code in tenths of work offset 1 to 9: G54 to G59, G59.1 to G59.3."""
     return 530 + 10 * number if number <= 6 else 584 + number
 
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """The work offsets by code in tenths, the one in force, and the shift of G52 or G92 on top, millimeters.
+    """The work offsets by code in tenths, the one in force, and the shift of G52 or G92 on top, in millimeters.
 
-    `stored` is the shift that G92.3 takes up again.
+    `stored` is the shift that G92.3 restores.
     """
 
     systems: Mapping[int, Point3] = field(default_factory=lambda: MappingProxyType({}))
@@ -59,7 +59,7 @@ class Origin:
 
     @property
     def base(self) -> Point3:
-        """The work offset in force, with the one that shifts all of them."""
+        """The work offset in force plus the one that shifts all work offsets."""
         x, y, z = self.systems.get(self.system, ZERO)
         dx, dy, dz = self.systems.get(EXTERNAL, ZERO)
         return x + dx, y + dy, z + dz
@@ -73,10 +73,10 @@ class Origin:
 
 @dataclass(slots=True)
 class Cycle:
-    """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
+    """What stays from hole to hole: the cycle, the height at which its row began, R, depth and peck, in millimeters.
 
-    `r` and `depth` are as written, on Fanuc's family heights also under G91; `to_r` is G99; `mode_before` is the motion
-    in force before the cycle.
+    `r` and `depth` are as written, but on Fanuc's family they are heights even under G91; `to_r` is G99; `mode_before`
+    is the motion in force before the cycle.
     """
 
     code: int | None = None
@@ -89,12 +89,12 @@ class Cycle:
 
 
 class ModalState:
-    """What is in force.
+    """The modal state and the operations on it.
 
-    `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimeters; `tool`
-    the number in force for compensation, 0 for none; `unit` that of the words, `first_unit` that of the first motion;
-    `feed` in millimeters per minute, unless `rate` (G93, G94, G95) gives F another meaning; `speed` in rpm, under
-    `surface_speed` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for none.
+    `position` is the programmed point and `shift` the program's origin, x, y, z in millimeters; `tool` is the number in
+    force for compensation, 0 for none; `unit` is that of the words, `first_unit` that of the first motion; `feed` is in
+    millimeters per minute, unless `rate` (G93, G94, G95) gives F another meaning; `speed` is in rpm, or under
+    `surface_speed` (G96) that of the cutting edge; `turning` is +1 for M3, -1 for M4, 0 for neither.
     """
 
     def __init__(self, dialect: Dialect, tools: ToolTable, log: Log) -> None:
@@ -125,7 +125,7 @@ class ModalState:
         self.ended = False
 
     def target(self, words: Mapping[str, float]) -> Point3:
-        """Where a block's axis words lead, in millimeters."""
+        """Return where a block's axis words lead, in millimeters."""
         (x, y, z), scale = self.position, self.scale
         base = self.position if self.incremental else self.shift
         if "X" in words:
@@ -137,7 +137,7 @@ class ModalState:
         return x, y, z
 
     def axis_words(self, block: Block, old: Point3) -> Point3:
-        """A block's axis words in millimeters, the old coordinate where there is none."""
+        """Return a block's axis words in millimeters, the old coordinate for an axis without one."""
         x, y, z = (
             block.words[letter] * self.scale if letter in block.words else before
             for letter, before in zip("XYZ", old, strict=True)
@@ -146,38 +146,38 @@ class ModalState:
 
     @property
     def centers_from_origin(self) -> bool:
-        """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
+        """True if I, J, K count from the program's origin, False if they count from the arc's start."""
         return self.absolute_centers and not (self.incremental and self.dialect.absolute_centers)
 
     def set_origin(self, origin: Origin) -> None:
-        """The program counts from another origin."""
+        """Make the program count from another origin."""
         self.origin, self.shift = origin, origin.shift
 
     def set_system(self, code: int, offset: Point3) -> None:
-        """A work offset of this code, millimeters."""
+        """Set the work offset of a code, in millimeters."""
         systems = MappingProxyType({**self.origin.systems, code: offset})
         self.set_origin(replace(self.origin, systems=systems))
 
     def set_length_offset(self, offset: Point3) -> None:
-        """Another tool length offset: the axes stand still, and the point that they stand for is another one."""
+        """Set the tool length offset: the axes do not move, but the programmed point that they stand for changes."""
         x, y, z = (now - new + old for now, new, old in zip(self.position, offset, self.length_offset, strict=True))
         self.position, self.length_offset = (x, y, z), offset
 
     def set_rate(self, code: int) -> None:
-        """G93, G94 or G95; where the meaning of F changes there is no feed any more."""
+        """Set G93, G94 or G95; clear the feed if the meaning of F changes, or if the control always clears it."""
         if code != self.rate or (self.dialect.rate_clears_feed and code != INVERSE):
             self.feed = 0.0
         self.rate = code
 
     def take_spindle(self, block: Block) -> None:
-        """S, M3, M4 and M5."""
+        """Take a block's S, M3, M4, M5 and M19."""
         if "S" in block.words:
             self.speed = abs(block.words["S"])
         for code in block.m:
             self.turning = _SPINDLE.get(code, self.turning)
 
     def feed_over(self, block: Block, length: float) -> float:
-        """The feed of a move of this length, millimeters per minute; 0 where it is not known."""
+        """Return the feed of a move of this length, in millimeters per minute; 0 if it is not known."""
         column = block.column("FXYZIJ")
         if self.rate == INVERSE:
             if "F" not in block.words:
@@ -195,14 +195,14 @@ class ModalState:
         return 0.0 if self.surface_speed else self.feed * self.speed
 
     def no_feed(self, block: Block) -> None:
-        """A move at feed without a feed."""
+        """Report a move at feed without a feed; stop the run on a control that needs one."""
         text = "There is no feed; write F before the first move at feed."
         if self.dialect.feed_needed:
             self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
         self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
 
     def tool_number(self, block: Block) -> int | None:
-        """The number of a block's tool data or T word, None without them."""
+        """Return the number of a block's tool data or T word, None without either."""
         if block.data:
             return block.data.number
         if "T" not in block.words:
@@ -213,17 +213,17 @@ class ModalState:
         return number
 
     def select_tool(self, number: int, block: Block) -> None:
-        """A T word, with tool data where the control takes them."""
+        """Select the tool of a T word, and enter its tool data, if there are any."""
         if block.data is not None:
-            self._enter(block.data, block)
+            self._enter_tool_data(block.data, block)
         if number and self.dialect.table_needed and self.tools.get(number) is None:
             self.log.stop("TOOL", missing_tool(number), block.line, block.column("T"))
         self.next_tool = number
         if self.dialect.loads_at_t:
             self.tool = number
 
-    def _enter(self, data: ToolData, block: Block) -> None:
-        """Tool data in the text: what is left out stays as it is."""
+    def _enter_tool_data(self, data: ToolData, block: Block) -> None:
+        """Enter tool data into the tool table; what they leave out stays as it is."""
         old = self.tools.get(data.number) or CutterTool(data.number, 0.0)
         diameter = old.diameter if data.diameter is None else data.diameter
         unit = old.unit if data.diameter is None else self.unit
@@ -236,30 +236,30 @@ class ModalState:
     def nothing_compensated(
         self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
     ) -> None:
-        """Reports that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
-        known = self.tools.tools
-        tool = known.get(self.tool or (next(iter(known)) if len(known) == 1 else 0))
+        """Report that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
+        tools = self.tools.tools
+        tool = tools.get(self.tool or (next(iter(tools)) if len(tools) == 1 else 0))
         cut, lengths = "a cutter cuts its own radius too deep", tuple[float, ...]()
         if tool is not None and tool.diameter != 0.0:
-            across = abs(tool.diameter_mm(self.unit))
-            cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (across, across / 2)
+            diameter = abs(tool.diameter_mm(self.unit))
+            cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (diameter, diameter / 2)
         text = f"Nothing is compensated: {cut} along the contour, unless the program is the tool's center path. {why}"
         self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
 
     def compare_offset(self, radius: float, offset: str, line: int, column: int) -> None:
-        """Reports an offset's radius (millimeters) that is not the radius of the tool in the spindle, once for each."""
+        """Report an offset's radius (millimeters) that differs from that of the tool in the spindle, once for each."""
         tool = self.tools.get(self.tool)
-        across = 0.0 if tool is None else abs(tool.diameter_mm(self.unit)) / 2
-        difference = radius - across
-        if radius <= 0.0 or across == 0.0 or abs(difference) <= GOUGE or (self.tool, radius) in self.compared_offsets:
+        actual = 0.0 if tool is None else abs(tool.diameter_mm(self.unit)) / 2
+        difference = radius - actual
+        if radius <= 0.0 or actual == 0.0 or abs(difference) <= GOUGE or (self.tool, radius) in self.compared_offsets:
             return
         self.compared_offsets.add((self.tool, radius))
-        does = "leaves {value} of stock"
+        effect = "leaves {value} of stock"
         if difference < 0.0:
-            does = "cuts {value} too deep, unless the program is the tool's center path"
-        text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {does}."
+            effect = "cuts {value} too deep, unless the program is the tool's center path"
+        text = f"{offset} has the radius {{0}}, tool {self.tool} has {{1}}: the cutter {effect}."
         severity = Severity.WARNING if difference < 0.0 else Severity.INFO
-        lengths = (radius, across)
+        lengths = (radius, actual)
         self.log.add(
             Finding("OFFSET", severity, text, value=abs(difference), lengths=lengths, line=line, column=column)
         )

@@ -1,7 +1,7 @@
-"""Reader: one line of a word-address program into blocks of words and numbers, each with its column.
+"""This module reads a line of a word-address program into blocks of words and numbers, each with its column.
 
-G and M codes are counted in tenths, so that G41.1 is 411 and M6 is 60.  A line that holds nothing but words is read
-by two expressions; only a line with comments or with something wrong in it is looked at closer.
+G and M codes are counted in tenths, so that G41.1 is 411 and M6 is 60.  Two regular expressions read a line of nothing
+but words; only a line with anything else, such as comments or errors, is examined more closely.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from core.finding import Severity
 from core.tolerance import LARGEST
 
 NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
-"""A number as a word has it."""
+"""The pattern of a word's number."""
 
 _CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*[ \t]*+")
 _PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({NUMBER})")
@@ -35,7 +35,7 @@ _EXPRESSION: Final = re.compile(r"[#\[]|[-+][ \t]*+[-+]")
 _NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
 
 INTEGER_TOLERANCE: Final = 1e-4
-"""How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
+"""How far a code, in tenths, or a tool number may be from a whole number and still be one."""
 
 
 LONGEST_STRICT: Final = 252
@@ -49,11 +49,11 @@ SWITCHES: Final = frozenset((410, 420, 411, 421))
 class Syntax:
     """How a control writes blocks.
 
-    `semicolon_ends`: a semicolon is the end of a block, not the beginning of a comment.  `tool_data`: a slash stands in
-    tool data as in T4/.75/.2, not before a block that a switch can skip.  `blanks`: a blank parts words, rather than
-    being nothing anywhere.  `last_counts`: of two words of one letter the last counts, with a warning.  `corners`: the
-    control has `,R` and `,C`, which are not followed.  `strict`: N stands first, with a number without sign and without
-    a point at its end; a line has at most `LONGEST_STRICT` characters, and the file no byte order mark.
+    `semicolon_ends`: a semicolon ends a block instead of beginning a comment.  `tool_data`: slashes separate tool data,
+    as in T4/.75/.2.  `blanks`: a blank separates words; otherwise blanks have no meaning anywhere.  `last_counts`: of
+    two words with the same letter the last counts, with a warning.  `corners`: the control has `,R` and `,C`, which
+    cutcomp does not follow.  `strict`: N comes first, and its number has no point at its end; a line has at most
+    `LONGEST_STRICT` characters, and the file has no byte order mark.
     """
 
     semicolon_ends: bool = False
@@ -66,7 +66,7 @@ class Syntax:
 
 @dataclass(frozen=True, slots=True)
 class ToolData:
-    """Tool data in the text: T number / length / diameter; what is left out stays as it is."""
+    """Tool data in the program: T number / length / diameter; what is left out stays as it is."""
 
     number: int
     length: float | None
@@ -75,10 +75,10 @@ class ToolData:
 
 @dataclass(eq=False, slots=True)
 class Block:
-    """One block: the values of its words by letter, its G and M codes in tenths, as written.
+    """One block: its words' values by letter, and its G and M codes in tenths, as written.
 
-    `start` is the column, less one, at which the block begins on its line; `columns` are those of its words where the
-    text is worked out of expressions.  `corner` is its `,R` or `,C` with the value.
+    `start` is the column, less one, at which the block begins on its line; `columns` are those of its words if the text
+    is evaluated from expressions.  `corner` is its `,R` or `,C` with the value.
     """
 
     line: int
@@ -92,30 +92,30 @@ class Block:
     corner: tuple[str, float] | None = None
 
     def in_order(self) -> Iterator[tuple[str, float]]:
-        """The block's words as written, those of one letter too."""
-        return ((letter, float(number)) for letter, number, _ in self._placed())
+        """Return the block's words in the order written, repeated letters included."""
+        return ((letter, float(number)) for letter, number, _ in self._words_with_columns())
 
     def written_without_point(self, letter: str) -> bool:
-        """Whether the number of a word has no decimal point."""
-        return any(name == letter and "." not in number for name, number, _ in self._placed())
+        """True if the number of a letter's word has no decimal point."""
+        return any(name == letter and "." not in number for name, number, _ in self._words_with_columns())
 
     def column(self, letters: str, code: int | None = None) -> int:
-        """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
-        for letter, number, at in self._placed():
+        """Return the column, from 1, of the first word with one of these letters and, if given, `code` in tenths."""
+        for letter, number, at in self._words_with_columns():
             if letter in letters and (code is None or tenths(float(number)) == code):
                 return at
         return self.start + 1
 
     def side_column(self) -> int:
-        """Where the code that turns compensation on stands."""
+        """Return the column of the code that turns compensation on."""
         return self.column("G", next((code for code in self.g if code in SWITCHES), None))
 
     def second(self, letter: str) -> int:
-        """Where the second word of a letter stands."""
-        columns = [at for name, _, at in self._placed() if name == letter]
+        """Return the column of the second word of a letter."""
+        columns = [at for name, _, at in self._words_with_columns() if name == letter]
         return columns[1] if len(columns) > 1 else self.start + 1
 
-    def _placed(self) -> Iterator[tuple[str, str, int]]:
+    def _words_with_columns(self) -> Iterator[tuple[str, str, int]]:
         if self.columns:
             pairs = _PAIR.findall(self.text)
             yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
@@ -125,7 +125,7 @@ class Block:
 
 
 def tenths(value: float) -> int | None:
-    """A code in tenths, None for a number that is not a code."""
+    """Return a code in tenths, None if the number is not a code."""
     if not 0.0 <= value < 1e5:
         return None
     code = round(value * 10)
@@ -133,18 +133,18 @@ def tenths(value: float) -> int | None:
 
 
 def whole(value: float) -> int | None:
-    """A whole number, None for one that is not."""
+    """Return a value as a whole number, None if it is not one."""
     number = round(value)
     return number if abs(number - value) < INTEGER_TOLERANCE else None
 
 
 def is_plain(line: str) -> bool:
-    """Whether a line holds nothing but the words of moves."""
+    """True if a line has nothing but the words of moves."""
     return _MOVE_WORDS.fullmatch(line) is not None
 
 
 def is_words(bare: str) -> bool:
-    """Whether a line in capitals and without comments holds nothing but letters with numbers."""
+    """True if a line, in capitals and without comments, has nothing but letters with numbers."""
     return _CLEAN.fullmatch(bare) is not None
 
 
@@ -154,9 +154,9 @@ PLAIN_SYNTAX: Final = Syntax()
 def read_line(
     text: str, line: int, log: Log, syntax: Syntax = PLAIN_SYNTAX, values: MacroParameters | None = None
 ) -> list[Block]:  # fmt: skip
-    """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
+    """Return the blocks of one line, none of an empty one; what cannot be read stops the run at its column.
 
-    With `values` parameters and expressions are evaluated and set.
+    With `values`, expressions are evaluated and parameters are set.
     """
     upper = capitals(text)
     if GAP in text:
@@ -167,18 +167,18 @@ def read_line(
         return [fill_words(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon_ends and ";" in upper:
         return list(_pieces(text, line, log, syntax))
-    return _closer(Block(line, text), without_comments(upper), log, syntax, values)
+    return _read_closely(Block(line, text), without_comments(upper), log, syntax, values)
 
 
 def check_length(text: str, line: int, log: Log) -> None:
-    """Stops the run at a line that is too long for a strict control."""
+    """Stop the run at a line that is too long for a strict control."""
     if len(text) > LONGEST_STRICT:
-        said = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
-        log.stop("WORD", said, line, LONGEST_STRICT + 1)
+        message = f"The line has more than {LONGEST_STRICT} characters, which this control does not read. Shorten it."
+        log.stop("WORD", message, line, LONGEST_STRICT + 1)
 
 
 def _check_strictly(upper: str, line: int, log: Log) -> None:
-    """Stops the run at a line whose N does not stand first with a plain number."""
+    """Stop the run at a line whose N does not come first, or whose block number ends with a point."""
     bare = without_comments(upper)
     words = bare.removeprefix("/").replace(" ", "").replace("\t", "")
     if "N" not in words or not _CLEAN.fullmatch(words):
@@ -186,18 +186,18 @@ def _check_strictly(upper: str, line: int, log: Log) -> None:
     pairs = _PAIR.findall(words)
     first, count = pairs[0][0], sum(letter == "N" for letter, _ in pairs)
     if count == 1 and (first != "N" or pairs[0][1].endswith(".")):
-        said = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
-        log.stop("WORD", said, line, bare.index("N") + 1)
+        message = "N stands first in a line, and its number has no point at its end. Write it so, or delete it."
+        log.stop("WORD", message, line, bare.index("N") + 1)
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
-    """The blocks between semicolons; text after the last semicolon that is not a block is reported and skipped."""
+    """Yield the blocks between semicolons; report and skip text after the last semicolon that is not a block."""
     start, parts = 0, text.split(";")
     for index, part in enumerate(parts):
         bare = without_comments(capitals(part))
         plain = _CLEAN.fullmatch(bare) is not None
         if plain or index < len(parts) - 1:
-            yield from _closer(Block(line, part, start), bare, log, syntax)
+            yield from _read_closely(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
             text = f"Text after the end of the block is ignored: {quoted(part)}"
@@ -205,16 +205,16 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
         start += len(part) + 1
 
 
-def _closer(
+def _read_closely(
     block: Block, bare: str, log: Log, syntax: Syntax, values: MacroParameters | None = None
 ) -> list[Block]:  # fmt: skip
-    """The block of a line that has characters besides words: tool data, block skip, the percent sign."""
+    """Return the block of a line with more than words, such as tool data, a block skip, a percent sign, expressions."""
     if syntax.tool_data and (data := _DATA.search(bare)):
         length, diameter = (None if part is None else float(part) for part in (data[2], data[3]))
         block.data = ToolData(int(data[1][:9]), length, diameter)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
     if not syntax.blanks and block.text.count("(") > 1:
-        _squeezed(block, log)
+        _without_blanks(block, log)
     if bare.lstrip().startswith("/"):
         log.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block.line, 1)
         bare = bare.replace("/", " ", 1)
@@ -224,17 +224,17 @@ def _closer(
         text = f"cutcomp follows no {branch[1]} on this control. Write the blocks out as they run. {only_on(JUMPS)}"
         log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
     if values is not None and _EXPRESSION.search(bare):
-        return _worked_out(block, log, values)
+        return _evaluated_block(block, log, values)
     if _CLEAN.fullmatch(bare) is None:
-        squeezed = "" if syntax.blanks else _squeezed(block, log)
+        squeezed = "" if syntax.blanks else _without_blanks(block, log)
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
             _fault(block, bare, log, syntax)
         block.text = bare = squeezed
     return [fill_words(block, bare, log)]
 
 
-def _worked_out(block: Block, log: Log, values: MacroParameters) -> list[Block]:
-    """The block of a line with parameters or expressions; none of one that only sets them."""
+def _evaluated_block(block: Block, log: Log, values: MacroParameters) -> list[Block]:
+    """Return the block of a line with parameters or expressions; none if the line only sets parameters."""
     marked = without_comments(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
     block.text, block.columns = evaluated_line(
@@ -243,8 +243,8 @@ def _worked_out(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     return [fill_words(block, block.text, log)] if block.columns else []
 
 
-def _squeezed(block: Block, log: Log) -> str:
-    """The block without its blanks; only a comment still separates words."""
+def _without_blanks(block: Block, log: Log) -> str:
+    """Return the text of a block without its blanks; only a comment still separates words."""
     nested = _NESTED.search(block.text)
     if nested:
         text = "A comment begins inside a comment; close the first one."
@@ -254,7 +254,7 @@ def _squeezed(block: Block, log: Log) -> str:
 
 
 def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN_SYNTAX) -> Block:
-    """The block with the words of a text in capitals that holds nothing else."""
+    """Fill a block with the words of a text in capitals that has nothing else, and return it."""
     words = block.words
     for letter, number in _PAIR.findall(upper):
         if letter in "GM":
@@ -281,7 +281,7 @@ def _tell_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
 
 
 def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
-    """Stops the run at the first character that belongs to no word."""
+    """Stop the run at the first character that belongs to no word."""
     clean = _CLEAN.match(bare)
     at = clean.end() if clean else 0
     at += len(bare[at:]) - len(bare[at:].lstrip(" \t"))
@@ -302,7 +302,7 @@ def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
     if block.text.lstrip().startswith("/") and rest[:1].isdigit():
         text = "cutcomp knows no block skip with a number on this control. Write / alone."
         log.stop("WORD", text, block.line, column)
-    if any(sign in rest[:80] for sign in "#[<="):
+    if any(character in rest[:80] for character in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
         text = f"{text} {only_on(EXPRESSIONS)}"
         log.stop("MACRO", text, block.line, column)
@@ -313,12 +313,12 @@ _WORD_ANYWHERE: Final = re.compile(r"[A-Za-z][ \t]*+[-+]?[0-9.#\[<]")
 
 
 def has_words(line: str) -> bool:
-    """Whether a line has words besides its comments: a letter with a number."""
+    """True if a line has a word, a letter with a number, outside its comments."""
     return _WORD_ANYWHERE.search(without_comments(line)) is not None
 
 
 def without_comments(upper: str, fill: str = " ") -> str:
-    """A line with its comments blanked out and every other character where it was."""
+    """Return a line with its comments blanked out and every other character in its place."""
     if "(" not in upper and ";" not in upper:
         return upper
     out, at = [], 0
