@@ -82,7 +82,7 @@ _LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
 class Offsets:
     """The offset memory as the program wrote it, in millimeters by number: radii of D, lengths of H, and their wear.
 
-    `separate`: D and H have memories of their own, always or since the program wrote to one; until then they share it.
+    `separate`: D has a memory apart from that of H, always or once the program writes to it; until then they share one.
     """
 
     radii: dict[int, float]
