@@ -1,7 +1,7 @@
-"""Fanuc mills with cutter compensation C: `fanuc:a`, `:b`, `:c`, each also with `-arc` where sharp corners are arcs.
+"""Fanuc mills with cutter compensation C are `fanuc:a`, `:b` and `:c`; with `-arc` sharp outside corners are arcs.
 
 D is an offset number and may stand in any block.  The first movement in the plane under G41 or G42 is the start-up.
-One block without movement is looked across; after more the tool stands square and the next move runs slanting.
+The control looks across one block without movement; after more, the last move ends square and the next runs at a slant.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ GROUPS: Final = (
     ("once", CodeAction.DATA, (100,)),
     ("once", CodeAction.UNSUPPORTED, (70, 71, 290, 370, 450, 460, 470, 480, 121, 131)),
 )
-"""Codes besides those that all word-address controls share."""
+"""Codes in addition to those that all word-address controls share."""
 
 CODES: Final = codes(*GROUPS)
 
@@ -79,7 +79,7 @@ RULE_NAMES: Final[Mapping[str, str]] = MappingProxyType(
         "FEED": "PS0011",
     }
 )
-"""Fanuc's alarms by the ids of the rules that all word-address controls share."""
+"""Fanuc's alarm for each rule that all word-address controls share, by the rule's id."""
 
 DIALECT: Final = Dialect(
     CODES,
@@ -103,7 +103,7 @@ DIALECT: Final = Dialect(
 ALARMS: Final = Alarms(arc="PS0034", arc_off="PS0034", no_meeting="PS0033", crossing="PS0041", point="PS0038")
 
 SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
-"""What shops add to a tool's number for its D where lengths and radii share one memory."""
+"""Numbers that shops add to a tool's number to get its D if lengths and radii share one memory."""
 
 _PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
 _NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 1540, *HAAS_SYSTEMS))
@@ -118,11 +118,11 @@ _ARC_MODES: Final = (20, 30)
 class Fanuc(VectorQueue, Control):
     """Compensation of a Fanuc mill.
 
-    `side` is that of G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.  `exiting`:
-    this block turns compensation off, with a vector where it has I, J or K.  `in_plane`: the block moved in the plane,
-    or is not to be counted as one without movement; `too_many`: it counts as too many of those.  `calls_counted`: a
-    call or a return is among the blocks that are.  `away`: a new origin or a move to the machine's point has turned
-    compensation off for a while.
+    `side` is the side of the G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.
+    `exiting`: this block turns compensation off, with `exit_vector` if it has I, J or K.  `in_plane`: the block moved
+    in the plane, or must not count as one without movement; `too_many`: it alone counts as too many of these.
+    `calls_counted`: a call or a return is among the blocks counted.  `away`: a new origin or a move to the machine's
+    point has turned compensation off for a while.
     """
 
     alarms = ALARMS
@@ -143,7 +143,7 @@ class Fanuc(VectorQueue, Control):
         self.away = False
 
     def watch(self, block: Block) -> None:
-        """What a block says besides its motion; the block before it is counted first."""
+        """Count the block before, then check this one, read its D, and suspend compensation if the block does."""
         self._count()
         self.block, self.in_plane, self.exiting = block, False, False
         self.too_many = not (_UNBUFFERED_G.isdisjoint(block.g) and _UNBUFFERED_M.isdisjoint(block.m))
@@ -155,12 +155,12 @@ class Fanuc(VectorQueue, Control):
             self._leave_for_a_while(block)
 
     def _is_known(self, block: Block) -> bool:
-        """Whether the control has a block's codes: in another control's cycle D is no offset number."""
+        """True if the control supports all G codes of a block: in another control's cycle D is not an offset number."""
         codes = (self.machine.dialect.codes.get(number) for number in block.g)
         return all(code is not None and code.action is not CodeAction.UNSUPPORTED for code in codes)
 
     def _refuse(self, block: Block) -> None:
-        """What compensation does not allow."""
+        """Stop the run at codes that compensation does not allow."""
         for code in block.g:
             column = block.column("G", code)
             if code in PLANES and PLANES[code] is not self.plane:
@@ -188,7 +188,7 @@ class Fanuc(VectorQueue, Control):
                 self.coming = self.radius * self.side.sign
 
     def _offset_value(self, line: int, column: int) -> float:
-        """The radius under the D in force, millimeters."""
+        """Return the radius stored under the D in force, millimeters."""
         if self.number == 0:
             return 0.0
         machine, number = self.machine, self.number
@@ -210,7 +210,7 @@ class Fanuc(VectorQueue, Control):
         return radius
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 and G42: the start, a change of side, or the same side again."""
+        """G41 and G42: start compensation, change the side, or repeat it."""
         old, self.side = self.side, side
         if not self.active:
             self.warned_of_zero = False
@@ -232,7 +232,7 @@ class Fanuc(VectorQueue, Control):
             self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
 
     def _shift_on(self, block: Block) -> None:
-        """Type C: the block moves the tool square to the next element."""
+        """Type C: let a block without movement move the tool square to the next element."""
         self._read_radius(block.line, block.column("DG"))
         if self.coming:
             self.in_plane = True
@@ -240,18 +240,18 @@ class Fanuc(VectorQueue, Control):
             self.start_up(self._standing_element(block))
 
     def _standing_element(self, block: Block) -> Element:
-        """A line of no length where the programmed point is."""
+        """Return a line of no length at the programmed point."""
         machine = self.machine
         x, y, height = flat(machine.position, self.plane)
         return line_element((x, y), (x, y), height, height, machine.mode == 0, machine.feed, block.line)
 
     def _read_radius(self, line: int, column: int) -> None:
-        """The offset counts as it is when compensation starts."""
+        """Read the offset under D, as it is when compensation starts."""
         self.radius = self._offset_value(line, column)
         self.coming = self.radius * (self.side.sign if self.side else 0)
 
     def finish(self, block: Block) -> None:
-        """G40."""
+        """G40: turn compensation off, with the block's I, J or K as exit vector."""
         self.side = None
         if self.active:
             first, second, _ = IN_PLANE[self.plane]
@@ -260,7 +260,7 @@ class Fanuc(VectorQueue, Control):
             self._cancel_in(block, (words.get(first, 0.0) * scale, words.get(second, 0.0) * scale) if given else None)
 
     def _cancel_in(self, block: Block, vector: Point | None) -> None:
-        """This block turns compensation off: with its move in the plane, or by itself."""
+        """Turn compensation off in this block: with its move in the plane, or at once if it has none."""
         self.exit_vector = vector
         if self._moves_in_plane(block):
             self.exiting = True
@@ -276,7 +276,7 @@ class Fanuc(VectorQueue, Control):
             self.close_stretch()
 
     def _moves_in_plane(self, block: Block) -> bool:
-        """Whether a block has a move in the plane."""
+        """True if a block has a move in the plane."""
         codes = self.machine.dialect.codes
         if any(code in codes and codes[code].action in NON_MODAL_ACTIONS for code in block.g):
             return False
@@ -285,7 +285,7 @@ class Fanuc(VectorQueue, Control):
         return letters[0] in block.words or letters[1] in block.words or turns
 
     def own_code(self, code: int, block: Block) -> None:
-        """G39: an arc around the corner, square to a vector where it has one."""
+        """G39: request an arc around the corner, which ends square to the block's vector if it has one."""
         if not self.active:
             text = "G39 goes with compensation only. Write G41 or G42 before it."
             self.log.stop("PS0035", text, block.line, block.column("G", code))
@@ -294,7 +294,7 @@ class Fanuc(VectorQueue, Control):
         self.in_plane = True
 
     def travel(self, element: Element) -> None:
-        """One element: start-up, compensated, cancel or none of them."""
+        """Run one element: as start-up, compensated, as cancel, or without compensation."""
         self.in_plane = self.in_plane or element.moves
         if not self.active:
             self._without_compensation(element)
@@ -307,7 +307,7 @@ class Fanuc(VectorQueue, Control):
 
     def _without_compensation(self, element: Element) -> None:
         if not element.moves and not (self.block and self._moves_in_plane(self.block)):
-            # after G40 by itself the tool still stands beside the programmed point
+            # after a G40 without movement the tool is still off the programmed point
             self.straight(element, self.here)
             return
         if self.side is None or not element.moves:
@@ -327,7 +327,7 @@ class Fanuc(VectorQueue, Control):
         self.start_up(element)
 
     def _start_from_the_machine(self, line: int) -> None:
-        """The start-up comes from a place of the machine: type B needs to know it, the others do not."""
+        """Report a start-up from an unknown machine point; type B needs the point and stops, the others do not."""
         text = "Where this move starts is not known after the move to the machine's point."
         if not self.vector_rules.type_a:
             self.log.stop("FN-WHERE", f"{text} Write a rapid to a point before it.", line, 1)
@@ -335,7 +335,7 @@ class Fanuc(VectorQueue, Control):
         self.log.tell(Severity.WARNING, "FN-WHERE", text, line, 1)
 
     def _in_place(self, element: Element) -> None:
-        """A move across the plane, or one of no length."""
+        """Run a move across the plane, or one of no length."""
         if self.exiting:
             self.end_square()
             self.stop_compensation()
@@ -345,12 +345,12 @@ class Fanuc(VectorQueue, Control):
         self.across(element)
 
     def _tell_parameters(self, line: int) -> None:
-        """Names the parameters that are assumed, once."""
+        """Report once which parameters are assumed."""
         if not self.log.has("FN-PARAM"):
             self.log.tell(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
 
     def assumed_parameters(self) -> str:
-        """What the machine builder or the shop sets, and how it is taken here."""
+        """Return the sentence about what the machine builder or the shop sets, and what cutcomp assumes."""
         read = self.vector_rules.blocks_read
         return (
             "cutcomp assumes parameters 5003, 5008 and 19607 as this control's name says, 19625 = "
@@ -358,7 +358,7 @@ class Fanuc(VectorQueue, Control):
         )
 
     def _count(self) -> None:
-        """Counts the last block where it did not move in the plane; after too many of them the tool stands square."""
+        """Count the last block if it did not move in the plane, and act on too many such blocks."""
         block = self.block
         if block is None or not self.active or self.in_plane or self.held is None or _is_bare(block):
             return
@@ -368,7 +368,7 @@ class Fanuc(VectorQueue, Control):
             self.after_too_many(block)
 
     def after_too_many(self, block: Block) -> None:
-        """More blocks without movement than the control looks across."""
+        """Warn of more blocks without movement than the control looks across, and end the held element square."""
         read = self.vector_rules.blocks_read
         why = f"Too many blocks without movement in the plane follow (19625 = {read} looks past {read - 2})"
         remedy = "Remove some."
@@ -383,7 +383,7 @@ class Fanuc(VectorQueue, Control):
         self.end_square()
 
     def _leave_for_a_while(self, block: Block) -> None:
-        """A new origin or a move to a machine point: compensation is off up to the next move in the plane."""
+        """At a new origin or a move to a machine point, turn compensation off until the next move in the plane."""
         moved = any(letter in block.words for letter in _PLANE_LETTERS[self.plane])
         away = moved and not _TO_MACHINE.isdisjoint(block.g)
         new_origin = not _NEW_ORIGIN.isdisjoint(block.g) or (100 in block.g and block.words.get("L") in (2.0, 20.0))
@@ -401,7 +401,7 @@ class Fanuc(VectorQueue, Control):
         self.away = True
 
     def close(self) -> None:
-        """The program ends; under compensation its last move ends square."""
+        """End of the program: under compensation the last move ends square."""
         line = self.block.line if self.block else 1
         if self.active:
             self.end_square()
@@ -409,13 +409,13 @@ class Fanuc(VectorQueue, Control):
             self.left_open(line)
 
     def left_open(self, line: int) -> None:
-        """The program ends under compensation."""
+        """Report a program that ends under compensation."""
         text = "The program ends under compensation. Write G40 and a move away from the part."
         self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
 
 
 def _is_bare(block: Block) -> bool:
-    """Whether a block has nothing but its number or the program's."""
+    """True if a block has only its own number or the program's."""
     return not block.g and not block.m and {"N", "O"}.issuperset(block.words)
 
 
@@ -426,7 +426,7 @@ RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
         for corners, outside in (("", Outside.LINES), ("-arc", Outside.MITER_OR_ANY_ARC))
     }
 )
-"""Start-up type, and how sharp outside corners are rounded."""
+"""The start-up type of each variant, and how it rounds sharp outside corners."""
 
 VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
     {name: partial(Fanuc, rules=rules) for name, rules in RULES.items()}

@@ -1,9 +1,9 @@
-"""Vectors of cutter compensation C, as Fanuc and Haas mills make them: start-up, corners, interference and cancel.
+"""This module makes the vectors of cutter compensation C as Fanuc and Haas mills do, from start-up to cancel.
 
-Every corner gives one or more vectors, here the points at which they end.  The element before the corner ends at the
-first one, with what moves across the plane; the element after it runs over the others, and starts at the last one.  An
-element runs only when both its ends are known, for only then the control sees whether its vectors cross.  It then
-drops the pair of vectors nearest to each other, and the next pair, before it gives an alarm.
+Every corner has one or more vectors, given here by their end points.  The element before the corner ends at the first
+one, and moves across the plane follow there; the element after it runs over the others and starts at the last one.  An
+element runs only when both its ends are known, because only then can the control see whether its vectors cross.  If
+they do, it drops the pair of vectors nearest to each other, then the next pair, before it gives an alarm.
 """
 
 from __future__ import annotations
@@ -43,20 +43,20 @@ from core.finding import Severity
 from core.geometry.piece import Point, Side
 
 TANGENT: Final = radians(0.05)
-"""Inside corners under this angle whose offsets do not meet are tangent: centers are rounded to three digits."""
+"""Inside corners under this angle whose offsets do not meet count as tangent: centers are rounded to three digits."""
 
 POINT_ARC: Final = 1e-6
-"""Millimeters: an inside arc whose radius is that of the tool within this is a point to the tool's center."""
+"""Millimeters: an inside arc whose radius differs from the tool's by at most this is a point of the center path."""
 
 
 @dataclass(frozen=True, slots=True)
 class VectorRules:
-    """What parameters and the kind of control set.
+    """The rules that parameters and the kind of control set.
 
     `type_a`: the start-up and the cancel go straight.  `at_once`: a G41 or G40 without movement moves the tool by
-    itself (type C).  `outside`: how outside corners are rounded.  `blocks_read`: blocks without movement that are
-    looked across, and two.  `checks`: vectors that cross are an alarm.  `point_arcs`: an inside arc of the tool's own
-    radius is a point of the path and no alarm.
+    itself (type C).  `outside`: how outside corners are rounded.  `blocks_read`: two more than the blocks without
+    movement that the control looks across.  `checks`: crossing vectors are an alarm.  `point_arcs`: an inside arc of
+    the tool's own radius is a point of the path, not an alarm.
     """
 
     type_a: bool = True
@@ -69,7 +69,7 @@ class VectorRules:
 
 @dataclass(frozen=True, slots=True)
 class Alarms:
-    """A control's alarms for the same faults, each with what to do."""
+    """A control's alarm numbers for the faults that Fanuc and Haas mills share."""
 
     arc: str
     arc_off: str
@@ -80,11 +80,11 @@ class Alarms:
 
 @dataclass(slots=True)
 class Held:
-    """An element that waits for its end.
+    """An element whose end is not known yet; `standing` are moves across the plane that wait with it.
 
-    `vectors` are the points at its start: the tool stands at the first one.  `center` is that of the arc to the last of
-    them, None for straight moves.  `offset` counts at its end.  `startup`: it turns compensation on.  `straightened`:
-    it has lost vectors; an arc then runs as a line.
+    `vectors` are the points at its start; the tool stands at the first one.  `center` is the center of the arc to the
+    last one, None for straight moves.  `offset` applies at its end.  `startup`: it turns compensation on.
+    `straightened`: it has lost vectors, so an arc runs as a line.
     """
 
     element: Element
@@ -99,9 +99,9 @@ class Held:
 class VectorQueue(Recorder):
     """Compensation C of a run.
 
-    `coming` is the signed radius for the next corner, positive with the tool on the left.  `held` waits for its end;
-    without it, and compensation on, the next element starts square where the tool stands.  `motionless` counts blocks
-    without movement since `held`.  `round_corner` is a pending G39: with its vector, or (0, 0) for one without.
+    `coming` is the signed radius for the next corner, positive with the tool on the left.  `held` waits for its end; if
+    it is None under compensation, the next element starts where the tool stands.  `motionless` counts blocks without
+    movement since `held`.  `round_corner` is the vector of a pending G39, (0, 0) if it has none.
     """
 
     alarms: Alarms
@@ -119,7 +119,7 @@ class VectorQueue(Recorder):
     # what elements do
 
     def start_up(self, element: Element) -> None:
-        """The first movement under G41 or G42: it ends where the next element wants it."""
+        """Hold the first movement under G41 or G42; the next element determines its end."""
         if element.turn:
             self._no_arc(element, self.alarms.arc)
         self.active, self.motionless, self.before = True, 0, None
@@ -133,7 +133,7 @@ class VectorQueue(Recorder):
         self.log.stop(code, text, element.line, 1)
 
     def across(self, element: Element) -> None:
-        """A move that does not lie in the plane: it runs where the element before it ends."""
+        """Take in a move across the plane, which runs at the end of the element before it."""
         self.note(element)
         if self.held is None:
             self.straight(element, self.here)
@@ -141,7 +141,7 @@ class VectorQueue(Recorder):
             self.held.standing.append(element)
 
     def compensate(self, element: Element) -> None:
-        """A further element in the plane; the one before it can run now."""
+        """Hold the next element in the plane, and run the one before it, whose end is now known."""
         self._check_center(element)
         self.motionless = 0
         held = self.held
@@ -168,7 +168,7 @@ class VectorQueue(Recorder):
             self.log.stop("FN-DARC", text, element.line, 1)
 
     def _go_on(self, element: Element) -> None:
-        """The element before ended square: this one starts there and runs slanting to its own end."""
+        """Hold an element after a square end: it starts there and runs at a slant to its own end."""
         self.note(element)
         vectors = [self.here]
         if element.turn:
@@ -179,7 +179,7 @@ class VectorQueue(Recorder):
         self.held = Held(element, vectors, self.coming)
 
     def _corner(self, held: Held, element: Element, start: float) -> tuple[Joint, bool]:
-        """How two elements are joined; and whether the second is an arc the tool does not fit into."""
+        """Return the joint of two elements, and True if the second is an arc the tool does not fit into."""
         first, offset = held.element, held.offset
         rounded, self.round_corner = self.round_corner, None
         least = -POINT_ARC if self.vector_rules.point_arcs else POINT_ARC
@@ -197,14 +197,14 @@ class VectorQueue(Recorder):
         return self._joined(first, element, offset), tight
 
     def _joined(self, first: Element, second: Element, offset: float) -> Joint:
-        """A corner with one radius on both sides."""
-        if _is_loose(first, offset) or _is_loose(second, offset):
+        """Return the joint of a corner with the same radius before and after it."""
+        if _reaches_center(first, offset) or _reaches_center(second, offset):
             return self._with_point(first, second, offset)
         joint = join(first, second, offset, self.rules)
         return self._without_meeting(first, second, offset) if joint.missed else joint
 
     def _with_point(self, first: Element, second: Element, offset: float) -> Joint:
-        """A corner at an arc that is no larger than the tool, so that its offset is a point or runs back."""
+        """Return the joint at an arc no larger than the tool, whose offset is a point or runs backwards."""
         if corner_kind(first, second, offset, self.rules) is not CornerKind.INSIDE:
             return join(first, second, offset, self.rules)
         point = meeting(first, second, offset, beyond_center=True)
@@ -217,7 +217,7 @@ class VectorQueue(Recorder):
         return Joint(offset_end(first, offset), offset_start(second, offset))
 
     def _rounded(self, first: Element, second: Element, offset: float, vector: Point) -> Joint:
-        """G39: an arc about the corner, to the start of the next element or square to a vector."""
+        """Return the joint of G39: an arc about the corner, to the start of the next element or square to a vector."""
         start = offset_start(second, offset)
         if vector != (0.0, 0.0):
             size = hypot(*vector)
@@ -225,13 +225,13 @@ class VectorQueue(Recorder):
         return Joint(offset_end(first, offset), start, center=second.start, corner=CornerKind.OUTSIDE)
 
     def _follow(self, element: Element, vectors: list[Point], center: Point | None) -> None:
-        """The next element waits; from its start on, the stretch may have another side or radius."""
+        """Hold the next element; from its start on, the stretch may have another side or radius."""
         last = self.held
         self.note(element)
         if last is not None and last.startup:
             self.begin_stretch(Side.LEFT if last.offset > 0.0 else Side.RIGHT, last.offset)
         elif last is not None and self.stretch_open:
-            # a smaller radius counts from the slanting element on, a larger one only behind it
+            # a smaller radius applies from the slanting element on, a larger one only after it
             offset = min((last.offset, self.coming), key=abs)
             side = Side.LEFT if self.coming > 0.0 else Side.RIGHT
             self.change_stretch(side, offset, 0, len(vectors) - 1)
@@ -240,7 +240,7 @@ class VectorQueue(Recorder):
     # how elements run
 
     def _release(self, held: Held, ahead: list[Point]) -> None:
-        """Runs an element from the last vector at its start to the first one at its end, and moves across there."""
+        """Run an element from the last vector at its start to the first one at its end, and the moves across there."""
         if not held.startup:
             self._uncross(held, ahead)
         self.before = (len(self.tape), held)
@@ -253,7 +253,7 @@ class VectorQueue(Recorder):
             self.straight(standing, self.here)
 
     def _run_around(self, held: Held) -> None:
-        """The way around the corner at an element's start."""
+        """Move around the corner at an element's start."""
         *between, start = held.vectors[1:] or held.vectors
         for point in between:
             self._line(held.element, point, at_start_height=True)
@@ -263,7 +263,7 @@ class VectorQueue(Recorder):
             self._line(held.element, start, at_start_height=True)
 
     def _round(self, element: Element, end: Point, center: Point, turn: int) -> None:
-        """The arc around a corner, a rapid where the element after it is one."""
+        """Make the arc around a corner, as a rapid if the element after it is one."""
         height = element.start_height
         target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
         self.tape.arc(target, middle, turn, self.plane, element.feed, element.line, rapid=element.rapid)
@@ -280,7 +280,7 @@ class VectorQueue(Recorder):
         self.arc(element._replace(feed=feed), end, element.center)
 
     def _line(self, element: Element, end: Point, *, at_start_height: bool = False) -> None:
-        """A straight move, unless the tool stands there already."""
+        """Make a straight move, unless the tool is there already."""
         height = element.start_height if at_start_height else element.end_height
         target, now = solid(*end, height, self.plane), self.tape.last
         if any(abs(a - b) > SAME_POINT for a, b in zip(target, now, strict=True)):
@@ -289,7 +289,7 @@ class VectorQueue(Recorder):
     # interference
 
     def _uncross(self, held: Held, ahead: list[Point]) -> None:
-        """Drops vectors that cross, from the middle of the element outward; an alarm where too few are left."""
+        """Drop crossing vectors, from the middle of the element outward; stop with an alarm if none can be dropped."""
         if not self.vector_rules.checks:
             return
         dropped = False
@@ -314,7 +314,7 @@ class VectorQueue(Recorder):
         self.log.stop(self.alarms.crossing, text, element.line, 1, at=element.end)
 
     def _check_inside(self, element: Element) -> None:
-        """An arc smaller than the tool is an alarm as soon as it is read."""
+        """Stop with an alarm at an arc smaller than the tool, as soon as the arc is read."""
         if self.vector_rules.checks:
             least = "smaller" if self.vector_rules.point_arcs else "no larger"
             text = f"The arc radius {{0}} is {least} than the cutter radius {{1}}. Use a smaller cutter."
@@ -324,19 +324,19 @@ class VectorQueue(Recorder):
     # square ends and the cancel
 
     def end_square(self) -> None:
-        """What is held ends square to itself; the next element goes on from there."""
+        """Run the held element to its square end; the next element starts there."""
         held, self.held = self.held, None
         if held is not None:
             self._release(held, [offset_end(held.element, held.offset)])
 
     def end_at(self, point: Point) -> None:
-        """What is held ends at a point."""
+        """Run the held element to a point."""
         held, self.held = self.held, None
         if held is not None:
             self._release(held, [point])
 
     def cancel_with(self, element: Element, vector: Point | None) -> None:
-        """A straight move that turns compensation off; a vector of I, J, K bends the last element's end."""
+        """Run a straight move that turns compensation off; a vector of I, J, K shifts the last element's end."""
         if element.turn:
             self._no_arc(element, self.alarms.arc_off)
         held = self.held
@@ -365,12 +365,12 @@ class VectorQueue(Recorder):
         self._run_around(Held(element, vectors, held.offset, center=joint.center if len(vectors) > 1 else None))
 
     def stop_compensation(self) -> None:
-        """Compensation is off; the next move in the plane still belongs to the stretch."""
+        """Turn compensation off; the next move in the plane still belongs to the stretch."""
         self.active, self.held, self.before, self.round_corner = False, None, None, None
         self.leave()
 
     def leave_straight(self) -> None:
-        """The last element becomes the move that turns compensation off, as after a change of origin."""
+        """Let the last element turn compensation off, as at a change of origin."""
         last, self.held = self.held, None
         if last is None:
             return
@@ -383,12 +383,12 @@ class VectorQueue(Recorder):
 
 
 def element_moves(element: Element) -> bool:
-    """Whether an element has a direction."""
+    """True if an element has a direction."""
     return element.turn != 0 or element.start_direction != (0.0, 0.0)
 
 
 def _points(joint: Joint, element: Element | None) -> list[Point]:
-    """The vectors of a joint; a line does not need one more on its own way."""
+    """Return the vectors of a joint, without the last one if the move to it only extends the line that follows."""
     points = [joint.end]
     for point in (*joint.through, joint.start):
         if hypot(point[0] - points[-1][0], point[1] - points[-1][1]) > SAME_POINT:
@@ -400,19 +400,19 @@ def _points(joint: Joint, element: Element | None) -> list[Point]:
     return points
 
 
-def _is_loose(element: Element, offset: float) -> bool:
-    """Whether an arc's offset is a point, or lies beyond its center."""
+def _reaches_center(element: Element, offset: float) -> bool:
+    """True if an arc's offset is a point or lies beyond its center."""
     return element.turn != 0 and offset_radius(element, offset) <= POINT_ARC
 
 
 def _crosses(element: Element, start: Point, end: Point) -> bool:
-    """Whether an element from one vector to another runs 90 degrees or more off what is programmed."""
+    """True if an element from one vector to another runs against its programmed direction."""
     at_one_point = element.turn != 0 and hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT
     return not at_one_point and runs_back(element, start, end)
 
 
 def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
-    """Where the last element's offset meets that of the line along a vector through its end; square without one."""
+    """Return where the last element's offset meets that of the line along a vector through its end, else its E1."""
     size = hypot(*vector)
     if not size:
         return offset_end(last, offset)

@@ -1,7 +1,7 @@
-"""Haas mills: `haas:a` and `:b` by setting 43, each also with `-yasnac` (setting 58), where every corner is an arc.
+"""Haas mills are `haas:a` and `:b`, by setting 43; with `-yasnac` (setting 58) every outside corner is an arc.
 
-They compensate as Fanuc's mills do, with alarms of their own.  They look across many more blocks without movement, and
-a program that ends under compensation is an alarm.
+They compensate as Fanuc mills do, with their own alarms.  They look across many more blocks without movement, and a
+program that ends under compensation is an alarm.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ DIALECT: Final[Dialect] = replace(
 )
 
 BLOCKS_READ: Final = 80
-"""Blocks without movement that the control looks across, and two: its manuals do not give the number."""
+"""Two more than the blocks without movement that the control looks across; its manuals do not give the number."""
 
 
 class Haas(fanuc.Fanuc):
@@ -52,21 +52,21 @@ class Haas(fanuc.Fanuc):
     alarms = Alarms(arc="H340", arc_off="H341", no_meeting="H342", crossing="H342", point="H342")
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 and G42; older controls know them in G17 only."""
+        """G41 and G42: start compensation; warn outside G17, where older controls have none."""
         if self.plane is not Plane.XY:
             text = "Older Haas controls compensate in G17 only (alarm 344)."
             self.log.tell(Severity.WARNING, "H344", text, block.line, block.side_column())
         super().begin(side, block)
 
     def assumed_parameters(self) -> str:
-        """The settings, and what the manuals do not say."""
+        """Return the sentence about the settings and about what the manuals do not say."""
         return (
             "cutcomp assumes settings 43 and 58 as this control's name says, 40 DIAMETER and 44 = 0; that the control "
             f"looks across {BLOCKS_READ - 2} blocks without movement; and D0 as a cancel, as on older controls."
         )
 
     def after_too_many(self, block: Block) -> None:
-        """The control cannot see the next move; what hides it from a Fanuc in one block, Haas does not say."""
+        """Stop at too many blocks; only warn of one that ends a Fanuc's look-ahead by itself, as Haas does not say."""
         if self.motionless <= BLOCKS_READ - 2:
             text = (
                 "The manuals do not say whether the control looks past a stop, a move of no length or a move to the "
@@ -81,7 +81,7 @@ class Haas(fanuc.Fanuc):
         self.log.stop("H350", text, block.line, 1)
 
     def left_open(self, line: int) -> None:
-        """The program ends under compensation."""
+        """Stop the run: the program ends under compensation."""
         text = "The program ends under compensation. Write G40 and a move away from the part."
         self.log.stop("H349", text, line, 1)
 

@@ -1,9 +1,9 @@
-"""LinuxCNC 2.9: compensation with one move of look-ahead.
+"""LinuxCNC 2.9 compensates with one move of look-ahead.
 
-The first move ends square to itself.  After that one move in the plane is held back until the next one is known; Z
-moves may stand after it in the queue.  An outside corner gets an arc, an inside corner moves the ends of what is held,
-and anything under 0.05 radians is taken as tangent.  G40 lets the held move end square; the next move goes straight
-from there to its own point.
+The first move ends square to itself.  After it, the queue holds one move in the plane until the next one is known; Z
+moves may wait behind it.  An outside corner gets an arc, an inside corner trims both moves, and a corner under 0.05
+radians counts as tangent.  At G40 the held move ends square; the next move goes straight from there to its own end
+point.
 """
 
 from __future__ import annotations
@@ -74,31 +74,31 @@ REFUSED: Final = {
     **dict.fromkeys((610, 611, 640), ("N-MODE", "changes the path mode")),
     **dict.fromkeys((980, 990), ("N-MODE", "changes the retract mode")),
 }
-"""What G codes are refused while compensation is on: rule and reason."""
+"""G codes that are refused while compensation is on, each with rule and reason."""
 
 REFUSED_M: Final = {
     **dict.fromkeys((60, 610), ("N-TOOL", "changes the tool")),
     **dict.fromkeys((480, 490, 500, 510, 520, 530), ("N-OVERRIDE", "switches an override")),
     **dict.fromkeys((620, 630, 640, 650, 660, 670, 680), ("N-OUTPUT", "sets an output or waits for an input")),
 }
-"""What M codes are refused while compensation is on, also in the block of G40, before which they run."""
+"""M codes that are refused while compensation is on, also in the block of G40, because they run before it."""
 
 
 def _lacks(tools: ToolTable, value: float) -> bool:
-    """Whether an H word names a tool that is not there; 0 is none."""
+    """True if the table lacks the tool of an H word; 0 means no tool."""
     number = whole(value)
     return number is None or (number != 0 and tools.get(number) is None)
 
 
 class LinuxCnc(OneMoveQueue, Control):
-    """What turns LinuxCNC's compensation on, and what it refuses meanwhile; `diameters` under G7."""
+    """What turns LinuxCNC's compensation on, and what it refuses while on; `diameters`: G7 is in force."""
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
         self.diameters = False
 
     def watch(self, block: Block) -> None:
-        """Words without a code that takes them, and codes that compensation does not allow."""
+        """Stop the run at words that no code in their block uses, and at codes that are not allowed."""
         self.machine.check_codes(block)
         if any(DIALECT.codes[code].action is CodeAction.UNSUPPORTED for code in block.g if code in DIALECT.codes):
             # the run stops at the code itself
@@ -124,14 +124,14 @@ class LinuxCnc(OneMoveQueue, Control):
         self._take_diameters(block)
 
     def _take_diameters(self, block: Block) -> None:
-        """G7 and G8: under G7 every X is a diameter, that of the same block too."""
+        """G7 and G8: under G7 every X is a diameter, also in the block of G7."""
         if not _LATHE.isdisjoint(block.g):
             self.diameters = 70 in block.g
         if self.diameters and "X" in block.words:
             block.words["X"] /= 2.0
 
     def _check_m_groups(self, block: Block) -> None:
-        """A block has at most four M codes, and one of a group."""
+        """Stop the run if a block has more than four M codes, or two of one group."""
         if len(block.m) > MAX_M_CODES:
             text = f"A block can have {MAX_M_CODES} M codes. Write the others in another block."
             self.log.stop("GROUP", text, block.line, block.column("M", block.m[MAX_M_CODES]))
@@ -142,7 +142,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 self.log.stop("GROUP", text, block.line, block.column("M", taken[1]))
 
     def _m_codes(self, block: Block) -> None:
-        """M codes that compensation refuses, that are not followed, or that the machine's builder gives a meaning."""
+        """Handle M codes that compensation or cutcomp refuses, that the machine's builder defines, and M61."""
         for code in block.m:
             column = block.column("M", code)
             if self.active and code in REFUSED_M:
@@ -161,7 +161,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 self.log.tell(Severity.INFO, "M", text, block.line, column)
 
     def _other_words(self, block: Block) -> None:
-        """M codes that exist; words that need a code in their block; the tool of an H."""
+        """Check that M codes exist, that words have the code they need, and that the table has the tool of an H."""
         self._alone(block)
         for code in block.m:
             if code not in _KNOWN_M:
@@ -183,7 +183,7 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.stop("TOOL", missing_tool(whole(block.words["H"])), block.line, block.column("H"))
 
     def _alone(self, block: Block) -> None:
-        """What must stand alone: calls and numbers of subprograms, one code that takes the axis words."""
+        """Check that calls and numbers of subprograms stand alone, and that only one G code takes the axis words."""
         if 980 in block.m or "O" in block.words:
             if block.g or len(block.m) > 1 or not _CALL.issuperset(block.words):
                 text = "A call or a number of a subprogram must be alone in its block. Write the rest in another block."
@@ -193,12 +193,12 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.stop("N-TWOG", text, block.line, block.column("G"))
 
     def _motion(self, block: Block) -> int | None:
-        """The motion that a block's words belong to."""
+        """Return the motion code that a block's words belong to."""
         given = [code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion"]
         return next((code for code in given if code != _G80), given[0] if given else self.machine.mode)
 
     def _set_tool(self, block: Block) -> None:
-        """M61 Q: the tool that is in the spindle, without a change."""
+        """M61 Q: set the number of the tool in the spindle, without a tool change."""
         number = whole(block.words.get("Q", -1.0))
         if number is None or number < 0:
             text = "M61 needs Q and the number of the tool that is in the spindle."
@@ -209,19 +209,19 @@ class LinuxCnc(OneMoveQueue, Control):
         self.tool_changed()
 
     def tool_changed(self) -> None:
-        """M6 and M61 make the control read anew where the axes stand: after G40 that may be an offset point."""
+        """M6 and M61: take the position from the axes; after G40 that may be an offset point."""
         first, second = self.here
         self.machine.position = solid(first, second, flat(self.machine.position, self.plane)[2], self.plane)
 
     def _arc_words(self, block: Block) -> None:
-        """I, J, K and R go with arcs, and with codes that take no part in compensation."""
+        """Stop the run at I, J, K or R in a straight move, unless G10, G64 or M19 uses them."""
         if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT not in block.m:
             column = block.column("IJKR")
             text = "I, J, K and R go with G2 and G3 only. Remove them."
             self.log.stop("N-WORDALONE", text, block.line, column)
 
     def takes_effect(self, code: int, block: Block) -> bool:
-        """What compensation refuses; G92.1 to G92.3 do nothing meanwhile."""
+        """Stop the run at what compensation refuses; return False for G92.1 to G92.3, which then do nothing."""
         if code in _UNSHIFTS:
             text = f"The control ignores G{code / 10:g} under compensation; write G40 before it."
             self.log.tell(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
@@ -236,18 +236,18 @@ class LinuxCnc(OneMoveQueue, Control):
         return True
 
     def _sets_system_in_force(self, block: Block) -> bool:
-        """Whether G10 L2 or L20 changes the work offset in force."""
+        """True if G10 L2 or L20 changes the work offset in force."""
         number = whole(block.words.get("P", -1.0))
         if whole(block.words.get("L", -1.0)) not in (2, 20) or number is None:
             return False
         return number == 0 or system_code(number) == self.machine.origin.system
 
     def program_stop(self) -> None:
-        """M0, M1 and M60: what is held runs to its own end at once."""
+        """M0, M1 and M60: run the held move to its own end at once."""
         self.run_out_at_stop()
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41, G42, G41.1 and G42.1."""
+        """G41, G42, G41.1 and G42.1: turn compensation on."""
         if self.machine.plane is Plane.YZ:
             text = "Compensation works in the planes G17 and G18 only; write one of them before it."
             self.log.stop("N-XZYZ", text, block.line, block.side_column())
@@ -265,11 +265,11 @@ class LinuxCnc(OneMoveQueue, Control):
         self.turn_on(radius * side.sign, orientation)
 
     def finish(self, block: Block) -> None:
-        """G40."""
+        """G40: turn compensation off."""
         self.turn_off(block.line)
 
     def radius(self, block: Block) -> tuple[float, int]:
-        """The radius asked for, millimeters, negative flips the side; and a lathe tool's orientation."""
+        """Return the programmed radius, millimeters, negative to flip the side; and a lathe tool's orientation."""
         if not {411, 421}.isdisjoint(block.g):
             if "D" not in block.words:
                 text = "G41.1 and G42.1 need D and the cutter's diameter."
@@ -325,7 +325,7 @@ WORDS_NEED_CODES: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
         "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
     }
 )
-"""Words that a block takes only with one of these codes."""
+"""Words that a block may have only together with one of these codes."""
 
 _OTHERS: Final = frozenset((*WORDS_NEED_CODES, "O"))
 _CALL: Final = frozenset("OPLN")
@@ -346,5 +346,5 @@ _M_GROUPS: Final = tuple(
         range(100, 200),
     )
 )
-"""Stops, spindle, tool, coolant, overrides, outputs and the machine's own: as the interpreter refuses them in pairs."""
+"""Stops, spindle, tool, coolant, overrides, outputs, user codes: the interpreter refuses two of a group in a block."""
 _CENTERS: Final = frozenset("IJKR")

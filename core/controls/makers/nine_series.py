@@ -1,9 +1,9 @@
-"""Rockwell / Allen-Bradley 9/Series mill: `nine-series:a` and `:b`, with `-g39.1` where arcs are the default corners.
+"""Rockwell / Allen-Bradley 9/Series mills are `nine-series:a` and `:b`; `-g39.1` makes arcs the default at corners.
 
-D is an offset number and may stand before, in or after the block with G41 or G42.  The first straight move of the
-plane is the entry.  The side and the radius may change meanwhile; a vector I, J, K with G40 bends the exit.
-Backwards moves, inside arcs under the radius and crossing vectors are alarms.  Generated blocks of any length are made:
-the least length that the machine builder can set is taken as 0, and so is the least feed inside arcs.
+D is an offset number and may stand before, in or after the block with G41 or G42.  The first straight move in the plane
+is the entry.  The side and the radius may change under compensation; a vector I, J, K with G40 shifts the start of the
+exit.  Backwards moves, inside arcs no larger than the radius, and crossing vectors are alarms.  Generated blocks have
+any length: cutcomp takes the machine builder's least length as 0, and the least feed inside arcs too.
 """
 
 from __future__ import annotations
@@ -62,17 +62,17 @@ DIALECT: Final = Dialect(
 )
 
 TANGENT: Final = radians(0.05)
-"""Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
+"""Inside corners under this angle whose offsets do not meet count as tangent; the control's own limit is not known."""
 
 NON_MOTION: Final = 10
-"""Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
+"""Most blocks without motion in the plane that compensation looks across: assumed, as the machine builder sets it."""
 
 _MACHINE: Final = frozenset((280, 300, 530))
 _CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
 
 
 class Before(NamedTuple):
-    """What stood before the last element was taken in: rows on the tape, the element then held, its start, Z moves."""
+    """The state before the last element came in: rows on the tape, the element held then, its start, its Z moves."""
 
     rows: int
     held: Element | None
@@ -83,9 +83,9 @@ class Before(NamedTuple):
 class NineSeries(ElementQueue, Control):
     """The compensation of the 9/Series.
 
-    `coming` is the next element's signed radius, `offset` that of what is held, in millimeters; `written_side` the side
-    of the word in force; `entering` until the entry has ended; `exit_block` the block with G40 until the exit move;
-    `motionless` counts blocks without motion in the plane.
+    `coming` is the next element's signed radius, `offset` that of the held one, in millimeters; `written_side` is the
+    side of the G41 or G42 in force.  `entering`: the entry has not ended yet.  `exit_block` is the block with G40, kept
+    until the exit move; `motionless` counts blocks without motion in the plane.
     """
 
     def __init__(self, log: Log, *, type_a: bool, outside: Outside) -> None:
@@ -102,7 +102,7 @@ class NineSeries(ElementQueue, Control):
         self.before = Before(0, None, None, ())
 
     def watch(self, block: Block) -> None:
-        """What a block says besides its motion: D, M800 and M801, a change of origin."""
+        """Act on everything in a block but its motion: D, M800 and M801, stops, and changes of origin or plane."""
         if "D" in block.words:
             self._take_number(block)
         for code, on in ((8000, False), (8010, True)):
@@ -137,7 +137,7 @@ class NineSeries(ElementQueue, Control):
             self.coming = self._offset_radius(block) * self.written_side.sign
 
     def _offset_radius(self, block: Block) -> float:
-        """Half the diameter of the offset in force, millimeters."""
+        """Return half the diameter of the offset in force, millimeters."""
         if self.number == 0:
             return 0.0
         tool = self.machine.tools.get(self.number)
@@ -153,29 +153,29 @@ class NineSeries(ElementQueue, Control):
 
     @property
     def _tool_side(self) -> Side:
-        """The side on which the tool runs: a negative radius is on the other one, offset 0 on the one written."""
+        """The side on which the tool runs: a negative radius flips the programmed side, radius 0 keeps it."""
         sign = self.coming or (self.written_side.sign if self.written_side else 0)
         return Side.LEFT if sign > 0.0 else Side.RIGHT
 
     def own_code(self, code: int, _: Block) -> None:
-        """G39 and G39.1."""
+        """G39 and G39.1: round sharp outside corners by lines or by an arc."""
         self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
 
     def _continue_stretch(self, joint: Joint) -> None:
-        """From this joint on the stretch has the next side and radius; right after the entry, from its start."""
+        """Give the stretch the next side and radius from this joint on; right after the entry, from its start on."""
         if self.elements == 1:
             self.begin_stretch(self._tool_side, self.coming)
         else:
             self.change_stretch(self._tool_side, self.coming, 1 + len(self.standing), joint.moves)
 
-    def _assumed(self, rule: str, text: str, line: int) -> None:
-        """Reports a value that the machine builder sets, once."""
+    def _tell_assumed(self, rule: str, text: str, line: int) -> None:
+        """Report once that the path depends on a value that the machine builder sets."""
         if not self.log.has(rule):
             words = f"This depends on a value the machine builder sets (first at this line): {text}"
             self.log.tell(Severity.INFO, rule, words, line, 1)
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 and G42: the start, or a change of side."""
+        """G41 and G42: start compensation or change the side."""
         if self.exit_block is not None:
             self.release_at_end()
             self._cancel()
@@ -192,7 +192,7 @@ class NineSeries(ElementQueue, Control):
         self.log.stop("R1", text, line, column)
 
     def finish(self, block: Block) -> None:
-        """G40: the next straight move of the plane is the exit."""
+        """G40: make the next straight move in the plane the exit, or cancel at once if no move is held."""
         if self.entering and self.held is not None:
             self._without_offset(self.held)
         if self.active and (self.held is None or (self.entering and self.elements == 0)):
@@ -201,7 +201,7 @@ class NineSeries(ElementQueue, Control):
             self.exit_block = block
 
     def idle(self, block: Block) -> None:
-        """A block without motion in the plane."""
+        """Count a block without motion in the plane; after too many, the held move ends square."""
         self.motionless += 1
         if self.motionless <= NON_MOTION or self.held is None or self.exit_block is not None:
             return
@@ -214,7 +214,7 @@ class NineSeries(ElementQueue, Control):
         self.entering = True
 
     def travel(self, element: Element) -> None:
-        """One element: entry, compensated, exit or none of them."""
+        """Run one element: as entry, compensated, as exit, or without compensation."""
         if not self.active:
             if self.leaving and element.turn:
                 self._circular_exit(element.line)
@@ -227,7 +227,7 @@ class NineSeries(ElementQueue, Control):
             self._compensated(element)
 
     def _across(self, element: Element) -> None:
-        """A move that does not lie in the plane."""
+        """Run a move across the plane, or let it wait with the held element."""
         self.motionless += 1
         if self.held is None or self.exit_block is not None:
             what = "start" if self.exit_block is None else "end"
@@ -258,12 +258,12 @@ class NineSeries(ElementQueue, Control):
             self.machine.nothing_compensated("The offset is 0; write D and an offset's number.", element.line, 1)
 
     def joint(self, first: Element, second: Element) -> Joint:
-        """How this control joins: the entry, a change, inside and outside corners."""
+        """Return this control's joint: at the entry, at a change, or at an inside or outside corner."""
         if self.entering:
-            self._without_offset(first)  # until here D may stand in a block of its own
+            self._without_offset(first)  # up to here a D may come in a block of its own
             self.entering = False
             self.offset = self.coming
-            self._interpreted(first, second)
+            self._tell_type_b(first, second)
             joint = entry_joint(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
@@ -279,19 +279,19 @@ class NineSeries(ElementQueue, Control):
         return self._with_notice(joint, second) if joint.corner is CornerKind.OUTSIDE else joint
 
     def _with_notice(self, joint: Joint, element: Element) -> Joint:
-        """The joint; reports that generated blocks are made at any length."""
+        """Return the joint, and report that its generated blocks may have any length."""
         if joint.through or joint.center is not None or joint.end != joint.start:
             text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
-            self._assumed("AMP", text, element.line)
+            self._tell_assumed("AMP", text, element.line)
         return joint
 
-    def _interpreted(self, first: Element, second: Element) -> None:
+    def _tell_type_b(self, first: Element, second: Element) -> None:
         if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
             text = "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
             self.log.tell(Severity.INFO, "TYPE-B", text, first.line, 1)
 
     def _missed(self, first: Element, second: Element) -> Joint:
-        """The offsets of an inside corner do not meet: tangent, or an alarm."""
+        """Return the joint of an inside corner whose offsets do not meet: it is tangent, or an alarm."""
         end = offset_end(first, self.offset)
         if inward_turn(first, second, self.offset) < TANGENT:
             return Joint(end, end)
@@ -300,7 +300,7 @@ class NineSeries(ElementQueue, Control):
         return Joint(end, offset_start(second, self.offset))
 
     def backwards(self, element: Element) -> None:
-        """A line that would run backwards, or an arc whose ends have crossed."""
+        """Report a line that would run backwards, or an arc whose ends have crossed."""
         if element.turn:
             text = "The compensation vectors of this arc cross: the cutter is too large for it."
             self._interference("R10", text, element.line)
@@ -314,11 +314,11 @@ class NineSeries(ElementQueue, Control):
         self.log.tell(Severity.WARNING, rule, f"{text} The alarm is switched off by M800.", line, 1)
 
     def feed_of(self, element: Element) -> float:
-        """Inside an arc the surface keeps the feed; outside the center does."""
+        """Return the feed of the center: inside an arc the surface keeps the programmed feed, outside the center."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
         text = "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster."
-        self._assumed("MFR", text, element.line)
+        self._tell_assumed("MFR", text, element.line)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:
@@ -326,7 +326,7 @@ class NineSeries(ElementQueue, Control):
         self.log.stop("R2", text, line, 1)
 
     def _exit(self, element: Element) -> None:
-        """The exit move: from the square end, type B's way around the corner, or as the vector bends it."""
+        """Run the exit move: from the square end, around the corner (type B), or from the end that a vector sets."""
         if element.turn:
             self._circular_exit(element.line)
         held, block = self.held, self.exit_block
@@ -352,7 +352,7 @@ class NineSeries(ElementQueue, Control):
         self.leave()
 
     def _interrupt(self, block: Block) -> None:
-        """A change of origin: the last move becomes an exit move, the next one an entry move."""
+        """At a change of origin, make the last move an exit move and the next one an entry move."""
         text = "The origin changes under compensation: the last move leaves it and the next one enters it again."
         self.log.tell(Severity.WARNING, "R7", text, block.line, block.column("G"))
         before, last, standing = self.before, self.held, self.standing
@@ -367,7 +367,7 @@ class NineSeries(ElementQueue, Control):
         self.held, self.start, self.standing, self.entering = None, None, [], True
 
     def close(self) -> None:
-        """The end of the program cancels compensation."""
+        """End of the program: cancel compensation; the held move ends square."""
         if self.entering and self.held is not None:
             self._without_offset(self.held)
         self.release_at_end()
@@ -380,4 +380,4 @@ VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
         for corners, outside in (("", Outside.LINES), ("-g39", Outside.LINES), ("-g39.1", Outside.MITER_OR_ARC))
     }
 )
-"""Type A or B, and how sharp outside corners are rounded at the start: by lines (G39) or an arc (G39.1)."""
+"""Type A or B, and what rounds sharp outside corners when the program starts: lines (G39) or an arc (G39.1)."""

@@ -1,9 +1,9 @@
-"""RosettaCNC with its three entries: `nist` (the default), `easy` and `normal`.
+"""RosettaCNC has three entries: `nist` (the default), `easy` and `normal`.
 
-nist: every move ends at once where it can; the first one along the tangent from its end to the tool where it stands.
-Every inside corner is an error, also that between the first two moves.  easy: the first move waits for the second one
-and ends square to its start; later inside corners are errors.  normal: inside corners are where the offsets meet; that
-the rest follows LinuxCNC is assumed; the manual does not say.
+nist: every move runs without look-ahead; the first one follows the tangent from its end to the tool at its start.
+Every inside corner is an error, even the one between the first two moves.  easy: the first move waits for the second
+one and ends square to its start; later inside corners are errors.  normal: inside corners are where the offsets meet;
+cutcomp assumes that the rest follows LinuxCNC, as the manual does not say.
 """
 
 from __future__ import annotations
@@ -51,22 +51,22 @@ DIALECT: Final = Dialect(
 )
 
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
-"""The corners of NIST: corners under 0.01 rad are treated as tangent."""
+"""NIST's corner rules: corners under 0.01 rad are treated as tangent."""
 
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
 
 
 class RosettaCnc(Control):
-    """What G41, G42, G41.1 and G42.1 ask for on this control, and what is refused while they are in force."""
+    """The radius that G41, G42, G41.1 and G42.1 program on this control, and what is refused under compensation."""
 
     def asked_offset(self, side: Side, block: Block) -> float:
-        """The signed radius asked for, in millimeters; trouble stops the run."""
+        """Return the programmed signed radius, in millimeters; stop the run if it is wrong or missing."""
         column = block.side_column()
         if self.active:
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("C2", text, block.line, column)
-        point_one = not {411, 421}.isdisjoint(block.g)
-        radius = self._diameter(block) / 2 if point_one else self._table(block)
+        by_diameter = not {411, 421}.isdisjoint(block.g)
+        radius = self._diameter(block) / 2 if by_diameter else self._table_radius(block)
         if radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, column)
         if radius < 0.0:
@@ -102,7 +102,7 @@ class RosettaCnc(Control):
             text = "The moves are those of the tool nose center; cutcomp does not shift them by the orientation."
             self.log.tell(Severity.WARNING, "ORIENTATION", text, block.line, column)
 
-    def _table(self, block: Block) -> float:
+    def _table_radius(self, block: Block) -> float:
         machine, log = self.machine, self.log
         number = machine.tool
         if "D" in block.words:
@@ -124,7 +124,7 @@ class RosettaCnc(Control):
         return radius - block.words.pop("I", 0.0) * machine.scale
 
     def watch(self, block: Block) -> None:
-        """NIST's list of what compensation does not allow; that it holds on this control is assumed."""
+        """Stop the run at what NIST's list forbids under compensation; cutcomp assumes that the list holds here."""
         self.machine.check_codes(block)
         if "D" in block.words and SWITCHES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
@@ -144,18 +144,18 @@ class NormalEntry(OneMoveQueue, RosettaCnc):
     alarms = AlarmCodes("C8", "C7", "C6", "C8")
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 and its kin."""
+        """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.turn_on(self.asked_offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
         self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
     def finish(self, block: Block) -> None:
-        """G40."""
+        """G40: turn compensation off."""
         self.turn_off(block.line)
 
 
 class NistEntry(ElementQueue, RosettaCnc):
-    """The entry `nist`: no look-ahead at all; `before` is the element that ran last, `first` until one has."""
+    """The entry `nist`, without look-ahead; `before` is the element that ran last, `first`: none has run yet."""
 
     rules = CORNERS
 
@@ -165,25 +165,25 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.first = True
 
     def watch(self, block: Block) -> None:
-        """What is refused, a change of unit included."""
+        """Stop the run at what is refused, which includes a change of unit."""
         super().watch(block)
         if self.active and not {200, 210}.isdisjoint(block.g):
             text = "The unit cannot change under compensation. cutcomp assumes this from NIST's list."
             self.log.stop("C8", text, block.line, block.side_column())
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41 and its kin."""
+        """G41, G42, G41.1 and G42.1: turn compensation on."""
         self.offset = self.asked_offset(side, block)
         self.active, self.first, self.before = True, True, None
 
     def finish(self, _: Block) -> None:
-        """G40: no move; the next one starts where the tool is."""
+        """G40: make no move; the next one starts where the tool is."""
         if self.active and self.offset and not self.first:
             self.leave()
         self.active = False
 
     def travel(self, element: Element) -> None:
-        """One element, at once."""
+        """Run one element at once."""
         if self.leaving and element.turn:
             self._refuse_arc(element, "The first move after G40 must be straight")
         if not self.active or not self.offset:
@@ -198,7 +198,7 @@ class NistEntry(ElementQueue, RosettaCnc):
             self.straight(element, self.here)
 
     def enter(self, element: Element) -> None:
-        """The first move ends so that it runs along the tangent from its end to the tool where it stands."""
+        """Run the first move with the tool along the tangent from the move's end to the tool at its start."""
         (sx, sy), (px, py) = element.start, element.end
         length, radius, sign = hypot(px - sx, py - sy), abs(self.offset), self.side.sign
         if element.turn:
@@ -227,7 +227,7 @@ class NistEntry(ElementQueue, RosettaCnc):
         self.run_joint(joint, element, self.offset)
 
     def follow(self, element: Element) -> None:
-        """A move on its offset, to the offset point at its end."""
+        """Run a move on its offset, to the offset point at its end."""
         if not fits(element, self.offset):
             text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
             self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
@@ -237,10 +237,10 @@ class NistEntry(ElementQueue, RosettaCnc):
 
 
 class EasyEntry(NistEntry):
-    """The entry `easy`: the first move waits for the second one, in `held`."""
+    """The entry `easy`: the first move waits in `held` for the second one."""
 
     def enter(self, element: Element) -> None:
-        """Holds the first move; with the second one it ends at the offset point of that one's start."""
+        """Hold the first move, then end it at the offset point of the second one's start."""
         if self.held is None:
             if element.turn:
                 self._refuse_arc(element, "The first move must be straight")
@@ -259,12 +259,12 @@ class EasyEntry(NistEntry):
         self.first = False
 
     def finish(self, block: Block) -> None:
-        """G40; a first move that still waits ends at its own offset point."""
+        """G40: end a first move that still waits at its own offset point."""
         self.close()
         super().finish(block)
 
     def close(self) -> None:
-        """The end of the program."""
+        """End of the program: end a first move that still waits at its own offset point."""
         if self.held is not None:
             self._end_entry(offset_end(self.held, self.offset))
 

@@ -1,9 +1,9 @@
-"""Three-block control: an older US mill control that compensates with three blocks in view (`threeblock`).
+"""The three-block control is an older US mill control that compensates with three blocks in view (`threeblock`).
 
 The block with G41 or G42 runs without compensation to the turn-on point.  The next one, the approach, is straight and
-ends square to the first compensated element.  Inside corners are where the offsets meet, outside corners arcs about the
-corner, and nothing further ahead is looked at: what does not fit is gouged without an alarm.  The block with G40 goes
-straight from the square end of the last element to its point.
+ends square to the first compensated element.  Inside corners are where the offsets meet, and outside corners are arcs
+about the corner.  The control looks no further ahead: what does not fit is gouged without an alarm.  The block with G40
+goes straight from the square end of the last element to its own end point.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ DIALECT: Final = Dialect(
 )
 
 TANGENT: Final = radians(0.05)
-"""Corners under this angle are tangent; the control's own limit is not known."""
+"""Corners under this angle count as tangent; the control's own limit is not known."""
 
 QUICK: Final = 0.25
 """Seconds: a block that takes less makes the control dwell."""
@@ -53,10 +53,10 @@ _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.
 
 
 class ThreeBlock(ElementQueue, Control):
-    """Compensation with the next element only, and the rules on the blocks under it.
+    """Compensation that sees only the next element, and the rules for blocks under compensation.
 
-    `opening` in the block with G41 or G42; `blocks` what came after it: line, Z moved, X or Y moved; `ratio` under
-    G45.
+    `opening`: this is the block with G41 or G42; `blocks` lists those after it: line, Z moved, X or Y moved.  `ratio`:
+    G45 is in force.
     """
 
     rules = CornerRules(tangent=TANGENT, reversal=TANGENT)
@@ -71,7 +71,7 @@ class ThreeBlock(ElementQueue, Control):
         self.inserted = False
 
     def watch(self, block: Block) -> None:
-        """The rules that hold for any block, and those for a block under compensation."""
+        """Check the rules for any block, and those for a block under compensation."""
         self.opening = False
         self.machine.check_codes(block)
         self._decimals(block)
@@ -100,11 +100,11 @@ class ThreeBlock(ElementQueue, Control):
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
 
     def _same_tool(self, block: Block) -> bool:
-        """Whether D in a block with G41 or G42 means the tool that is called, as on other controls."""
+        """True if D in a block with G41 or G42 names the tool that is called, as on other controls."""
         return not SWITCHES.isdisjoint(block.g) and self.machine.tool in (0, block.words["D"])
 
     def wrong_plane(self, block: Block) -> NoReturn:
-        """Stops the run: compensation in another plane than XY."""
+        """Stop the run: compensation works in the XY plane only."""
         text = "Compensation works in the XY plane only; write G17."
         self.log.stop("B1-PLANE", text, block.line, block.column("G"))
 
@@ -115,7 +115,7 @@ class ThreeBlock(ElementQueue, Control):
             self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
 
     def tool_called(self, number: int, block: Block) -> None:
-        """Tool numbers are 1 to 24, and stay while compensation is on."""
+        """Stop the run at a tool number outside 1 to 24, and at any tool call under compensation."""
         if self.active:
             text = "The tool and its diameter stay while compensation is on; write G40 before."
             self.log.stop("B9-AMOUNT", text, block.line, block.column("T"))
@@ -124,14 +124,14 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("B19-TRANGE", text, block.line, block.column("T"))
 
     def own_code(self, code: int, block: Block) -> None:
-        """G45 and the G44 that ends it; G99 does nothing to the path."""
+        """G45 and the G44 that ends it; G99 does not change the path."""
         if code == 450 and not self.ratio:
             text = "cutcomp assumes that G45 holds until G44; the manual does not say."
             self.log.tell(Severity.INFO, "G45", text, block.line, block.column("G", 450))
         self.ratio = code == 450 if code in (440, 450) else self.ratio
 
     def begin(self, side: Side, block: Block) -> None:
-        """G41, G42: the conditions, and the offset in force from the next block on."""
+        """G41, G42: check the conditions, and apply the offset from the next block on."""
         column = block.side_column()
         if self.active:
             self._again(side, block)
@@ -158,7 +158,7 @@ class ThreeBlock(ElementQueue, Control):
         self.log.tell(Severity.WARNING, "B8-SIDE", text, block.line, column)
 
     def _radius(self, block: Block) -> float:
-        """Half the diameter in force, in millimeters."""
+        """Return half the diameter in force, in millimeters."""
         tool = self.machine.tools.get(self.machine.tool)
         if self.machine.tool == 0 or tool is None:
             text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
@@ -173,13 +173,13 @@ class ThreeBlock(ElementQueue, Control):
         return diameter / 2
 
     def idle(self, block: Block) -> None:
-        """A block that moves nothing."""
+        """Stop the run at a block that moves nothing, unless it is the one with G41 or G42."""
         if not self.opening:
             text = "Under compensation every block must move the tool. Remove this one."
             self.log.stop("B10-NOMOVE", text, block.line, block.start + 1)
 
     def travel(self, element: Element) -> None:
-        """The turn-on block and moves without compensation as programmed, all others on the offset."""
+        """Run the turn-on block and moves without compensation as programmed, all others on the offset."""
         if not self.active or self.opening:
             if self.leaving and element.turn:
                 self._arc_exit(element.line, 1)
@@ -198,7 +198,7 @@ class ThreeBlock(ElementQueue, Control):
         self.hold(element)
 
     def _height(self, element: Element) -> None:
-        """The rules on Z: not at the beginning, not with an arc, not twice without two moves between."""
+        """Check the rules on Z: not at the beginning, not with an arc, not twice without two moves between."""
         rises = element.start_height != element.end_height
         self.blocks.append((element.line, rises, element.moves))
         if rises and len(self.blocks) <= 3:
@@ -207,7 +207,7 @@ class ThreeBlock(ElementQueue, Control):
         if rises and element.turn:
             text = "Under compensation Z goes with straight moves only. How an arc with Z runs is an assumption."
             self.log.tell(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
-        if not element.moves and any(moved and not flat for _, moved, flat in self.blocks[-3:-1]):
+        if not element.moves and any(rose and not moved for _, rose, moved in self.blocks[-3:-1]):
             text = "Program two blocks with X or Y between two Z-only blocks."
             self.log.stop("B13-ZSEP", text, element.line, 1)
 
@@ -229,23 +229,23 @@ class ThreeBlock(ElementQueue, Control):
             self.log.stop("B11-COLLINEAR", text, element.line, 1)
 
     def joint(self, first: Element, second: Element) -> Joint:
-        """The approach ends square to the next; then offsets meet inside, an arc goes around outside."""
+        """Return the approach's square end, then the meeting of the offsets inside, or an arc outside."""
         if self.elements == 1:
             start = offset_start(second, self.offset)
             return Joint(start, start)
         joint = super().joint(first, second)
         if joint.corner is CornerKind.TANGENT:
-            self._override(second)
+            self._tell_g99(second)
         return joint
 
-    def _override(self, element: Element) -> None:
+    def _tell_g99(self, element: Element) -> None:
         if not self.inserted:
             text = "Between tangent moves, first at this line, the control puts its own G99: it does not slow down."
             self.log.tell(Severity.INFO, "G99", text, element.line, 1)
         self.inserted = True
 
     def backwards(self, element: Element) -> None:
-        """The element is too short for the cutter; the control does not notice."""
+        """Report an element that is too short for the cutter, which the control does not notice."""
         narrow = self.narrow
         rule = "B16-NARROW" if narrow else "B17-STEP"
         what = "The feature is narrower than the cutter" if narrow else "The step is smaller than the cutter's radius"
@@ -253,7 +253,7 @@ class ThreeBlock(ElementQueue, Control):
         self.log.tell(Severity.WARNING, rule, text, element.line, 1)
 
     def release(self, end: Point) -> None:
-        """Runs the held element; whether its two ends were trimmed tells a narrow feature from a step."""
+        """Run the held element to a point; trims at both its ends mean a narrow feature, else it is a step."""
         held = self.held
         if held is not None and self.start is not None:
             square = offset_start(held, self.offset), offset_end(held, self.offset)
@@ -271,13 +271,13 @@ class ThreeBlock(ElementQueue, Control):
             self.log.tell(Severity.INFO, "B18-SHORT", text, element.line, 1)
 
     def feed_of(self, element: Element) -> float:
-        """With G45 the feed of an arc goes with the radius of the tool's path."""
+        """Return the feed; under G45 an arc's feed scales with the radius of the tool's path."""
         if not self.ratio or not element.turn or not self.active:
             return element.feed
         return element.feed * abs(offset_radius(element, self.offset)) / element.radius
 
     def finish(self, block: Block) -> None:
-        """G40: the last element ends square; the block's own move follows without compensation."""
+        """G40: end the last element square; the block's own move follows without compensation."""
         if not self.active:
             return
         column = block.column("G", 400)
@@ -300,7 +300,7 @@ class ThreeBlock(ElementQueue, Control):
         self.log.stop("B20-G40ARC", text, line, column)
 
     def close(self) -> None:
-        """The program ends; compensation still on is reported."""
+        """End of the program: report compensation that is still on, and end the last element square."""
         if self.active:
             text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."
             line = self.blocks[-1][0] if self.blocks else self.turned_on
