@@ -1,1 +1,1 @@
-"""HEIDENHAIN conversational programs: read, rounded and chamfered, compensated with RL and RR."""
+"""This package runs HEIDENHAIN conversational programs: it reads, rounds and chamfers, and compensates (RL, RR)."""

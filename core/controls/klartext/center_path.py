@@ -1,7 +1,7 @@
-"""Center path: the steps of a Klartext program offset by the tool radius and joined at their corners.
+"""The center path is a Klartext program's steps, offset by the tool radius and joined at their corners.
 
 An outside corner gets an arc about the corner, an inside corner the meeting of the two offsets.  A contour element
-waits until the next one is known.  A contour's first point and its last are reached square to it.
+waits until the next one is known.  The path starts and ends square to the contour's first and last points.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from core.tolerance import JOINED
 
 KLARTEXT_CORNERS: Final = CornerRules(tangent=0.0, touching=JOINED)
 M97: Final = KLARTEXT_CORNERS._replace(outside=Outside.MEETING)
-"""An outside corner by the meeting of the two offsets instead of an arc."""
+"""An outside corner goes to the meeting of the two offsets, not around an arc."""
 M98: Final = KLARTEXT_CORNERS._replace(inside=Inside.OPEN)
-"""An inside corner run out to the ends of both elements."""
+"""An inside corner is not trimmed: both elements run their full length."""
 
 ROUNDED: Final = 1e-11
-"""Millimeters by which rounding moves a line meters from the origin; its meeting with one that hardly turns, by this
-over the angle in radians."""
+"""Millimeters by which rounding moves a line that is meters from the origin; it moves the meeting with a nearly
+parallel line by this over the angle in radians."""
 
 NO_CONTOUR: Final = "No contour element follows the start of compensation. Write the contour before its end."
 DEPTH_FIRST: Final = "cutcomp assumes the tool axis moves before this corner arc."
@@ -42,7 +42,7 @@ INSIDE_CIRCLE: Final = "PS or PN lies inside the circle of radius {0} of the lea
 
 
 class Role(Enum):
-    """What a step is to the compensation."""
+    """The role of a step in compensation."""
 
     FREE = auto()
     """Moved as programmed, without compensation."""
@@ -59,7 +59,7 @@ class Role(Enum):
 
 
 class FeedAt(Enum):
-    """Where on an arc the programmed feed holds."""
+    """The point of an arc move at which the programmed feed applies."""
 
     CENTER = auto()
     """M111: at the tool's center."""
@@ -73,9 +73,9 @@ class ProgrammedStep(NamedTuple):
     """One programmed element: `offset` is the tool radius, positive with the tool on the left, 0 without compensation.
 
     `element` starts at the programmed point before it.  Approaches and departures have a `lead`; their `hand` is the
-    side of the word RL (+1), RR (-1) or R0 (0), turned over by a negative radius; `before` is rapid and feed of the
-    block before.  A departure's element is straight, `leaving` in the contour's last direction.  `corner` are the rules
-    at its end, `ahead` is the LA of M120, 0 without.  `lost`: its height only the machine knows.
+    side of RL (+1), RR (-1) or R0 (0), flipped by a negative radius; `before` is the rapid flag and the feed of the
+    block before.  A departure's element is straight but starts in the contour's last direction.  `corner` holds the
+    rules at its end, `ahead` the LA of M120, 0 without.  `lost`: only the machine knows its height.
     """
 
     role: Role
@@ -92,7 +92,7 @@ class ProgrammedStep(NamedTuple):
 
     @property
     def arc_feed(self) -> float:
-        """The feed of the center along the step's offset arc."""
+        """The feed of the tool center along the step's offset arc."""
         share = elements.offset_radius(self.element, self.offset) / self.element.radius
         at_edge = self.feed_at is FeedAt.EDGE or (self.feed_at is FeedAt.INSIDE_EDGE and share < 1.0)
         return self.element.feed * share if at_edge else self.element.feed
@@ -100,9 +100,9 @@ class ProgrammedStep(NamedTuple):
 
 @dataclass(slots=True)
 class Record:
-    """Center moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`.
+    """Center moves on `tape`, the compensated `stretches` of them, and the open stretch's surface on `programmed`.
 
-    `share` is the share of the tool's radius that is run with.
+    `share` is the fraction of the tool radius that the run uses.
     """
 
     share: float = 1.0
@@ -115,11 +115,11 @@ class Record:
     led_out: bool = False
 
     def at(self, step: ProgrammedStep) -> Point3:
-        """Where the center stands, in the coordinates of the step's plane."""
+        """Return the position of the center, in the coordinates of the step's plane."""
         return flat(self.tape.last, step.plane)
 
     def line(self, end: Point, height: float, step: ProgrammedStep, *, lead: bool = False) -> None:
-        """A straight move at the step's feed, or at that of the block before it."""
+        """Record a straight move at the step's feed, or for a `lead` at that of the block before it."""
         target = solid(end[0], end[1], height, step.plane)
         rapid, feed = step.before if lead else (step.element.rapid, step.element.feed)
         self.tape.lost = step.lost
@@ -128,7 +128,7 @@ class Record:
     def arc(
         self, end: Point, height: float, center: Point, turn: int, step: ProgrammedStep, feed: float | None = None
     ) -> None:
-        """An arc in the step's plane, at the step's feed unless given."""
+        """Record an arc in the step's plane, at the step's feed unless another is given."""
         target, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
@@ -136,17 +136,17 @@ class Record:
         self.tape.arc(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
 
     def plain(self, step: ProgrammedStep, end: Point) -> None:
-        """The step's element as programmed, but ending at `end`."""
+        """Record the step's element as programmed, but ending at `end`."""
         self.tape.lost = step.lost
         record_programmed(self.tape, step.element._replace(end=end), step.plane)
 
     def sink(self, step: ProgrammedStep) -> None:
-        """The tool axis alone, where the center stands."""
+        """Record a move of the tool axis alone, at the position of the center."""
         x, y, _ = self.at(step)
         self.line((x, y), step.element.end_height, step)
 
     def open(self, step: ProgrammedStep) -> None:
-        """Compensation begins: the next moves are a stretch."""
+        """Compensation begins: make the next moves a stretch."""
         self.programmed, self.entry = Tape(self.tape.last), step
         self.first, self.leaving = len(self.tape) - 1, 0
         self.note(step)
@@ -160,7 +160,7 @@ class Record:
         self.led_out = step.role is Role.DEPARTURE
 
     def close(self) -> None:
-        """Compensation ends: keep the stretch, unless it is the path itself or only its entry."""
+        """Compensation ends: keep the stretch, unless it has no offset or no moves yet."""
         entry, programmed = self.entry, self.programmed
         self.entry, self.programmed = None, None
         if entry is None or programmed is None or not entry.offset or len(self.tape) <= self.first + 1:
@@ -175,9 +175,9 @@ class Record:
 class CenterPathRecorder:
     """Takes steps in their order and records the center's moves.
 
-    `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts;
-    `entry` a start of compensation that waits for its first element; `depths` tool-axis moves that wait with either.
-    `ahead` are the elements that M120 looks over, `stands` where the path is on the first one's offset already.
+    `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts; `entry` is a
+    start of compensation that waits for its first element; `depths` are tool-axis moves that wait with either.  `ahead`
+    are the elements gathered under M120, `stands` is the point already reached on the first one's offset, if any.
     """
 
     log: Log
@@ -190,7 +190,7 @@ class CenterPathRecorder:
     stands: Point | None = None
 
     def push(self, step: ProgrammedStep) -> None:
-        """The next step; raises the alarm where the control would stop."""
+        """Take the next step; raise the alarm if the control would stop."""
         match step.role:
             case Role.CONTOUR:
                 self._contour(step)
@@ -215,7 +215,7 @@ class CenterPathRecorder:
                 self._leave(step)
 
     def finish(self) -> None:
-        """Nothing follows under compensation: the last element ends square to the contour, compensated or not."""
+        """Run what waits; the last element ends square to the contour, compensated or not."""
         self._run_out()
         self.record.close()
 
@@ -235,7 +235,7 @@ class CenterPathRecorder:
         self.record.close()
 
     def _run_out(self) -> None:
-        """Finish what waits: nothing follows it."""
+        """Finish what waits, because nothing follows it."""
         self._run_ahead(goes_on=False)
         if self.held:
             self._finish(self.held, elements.offset_end(self.held.element, self.held.offset))
@@ -243,7 +243,7 @@ class CenterPathRecorder:
             self._stop("HE7", NO_CONTOUR, self.entry)
 
     def _arrive(self, entry: ProgrammedStep, goal: Point, way: Point) -> None:
-        """Run the entry to the point square to the first element's start, where that sets off in direction `way`."""
+        """Run the entry to the point square to the first element's start; `way` is the element's direction there."""
         if entry.lead is None:
             self.record.plain(entry, goal)
         else:
@@ -300,7 +300,7 @@ class CenterPathRecorder:
         self.held, self.begin = step, begin
 
     def _corner(self, before: ProgrammedStep, after: ProgrammedStep) -> Point:
-        """Finish the held element at its corner with the next; the point at which that one's offset starts."""
+        """Finish the held element at its corner with the next, and return the start of the next one's offset."""
         first, offset = _at_its_end(before.element), before.offset
         joint = join(first, after.element, offset, before.corner)
         if joint.missed or (joint.corner is CornerKind.INSIDE and self._overruns(first, after.element, offset, joint)):
@@ -318,7 +318,7 @@ class CenterPathRecorder:
 
     @staticmethod
     def _overruns(first: Element, second: Element, offset: float, joint: Joint) -> bool:
-        """Whether two offsets meet beyond what there is of them."""
+        """True if two offsets meet only beyond their ends at the corner."""
         if joint.start != joint.end:
             return False
         slack = max(JOINED, ROUNDED / max(abs(elements.turn_angle(first, second)), elements.SAME_DIRECTION))
@@ -348,7 +348,7 @@ class CenterPathRecorder:
         self.depths.clear()
 
     def _gather(self, step: ProgrammedStep) -> None:
-        """An element under M120: its path is known once the last one is."""
+        """Gather an element under M120; its path is known once the last element is."""
         if step.corner is not KLARTEXT_CORNERS or step.element.start_height != step.element.end_height:
             self._stop_m120(step)
         if self.depths and not self.entry:
@@ -359,7 +359,7 @@ class CenterPathRecorder:
         self.ahead.append(step)
 
     def _run_ahead(self, *, goes_on: bool) -> None:
-        """Run along the elements gathered under M120; `goes_on`: the last one waits for a corner with the next."""
+        """Run along the elements gathered under M120; `goes_on`: the last one waits for its corner with the next."""
         steps, stands = self.ahead, self.stands
         self.ahead, self.stands = [], None
         if not steps:
@@ -379,7 +379,7 @@ class CenterPathRecorder:
             self.held, self.begin = steps[-1], last[0].end if last else path.start
 
     def _run_along(self, steps: list[ProgrammedStep], path: PathAhead, runs: tuple[CenterPathPiece, ...]) -> None:
-        """The move to a path computed ahead, and pieces of it."""
+        """Run any entry to a path computed ahead, then pieces of the path."""
         if self.entry:
             self._arrive(self.entry, path.start, path.way)
         for run in runs:
@@ -408,12 +408,12 @@ class CenterPathRecorder:
 
 
 def _at_its_end(element: Element) -> Element:
-    """The element as it is at its end: an arc's radius there may differ a little from that at its start."""
+    """Return the element as it is at its end: an arc's radius there may differ a little from that at its start."""
     return element._replace(start=element.end) if element.turn else element
 
 
 def advance(element: Element, start: Point, end: Point) -> float:
-    """Millimeters along an element from one point of its offset to another, negative backwards, at most half an arc."""
+    """Return the millimeters along an offset between two of its points, negative backwards, at most half a circle."""
     if not element.turn:
         (x, y), (ex, ey), way = start, end, element.start_direction
         return (ex - x) * way[0] + (ey - y) * way[1]
@@ -422,7 +422,7 @@ def advance(element: Element, start: Point, end: Point) -> float:
 
 
 def remaining(element: Element, begin: Point, end: Point, offset: float) -> float:
-    """Millimeters left of an element's offset between the points its corners trim it to; negative if they cross."""
+    """Return the millimeters left of an element's offset between its trimmed ends; negative if these cross."""
     if not element.turn:
         return advance(element, begin, end)
     whole = elements.element_sweep(element) * elements.offset_radius(element, offset)

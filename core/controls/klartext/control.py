@@ -1,4 +1,4 @@
-"""The Klartext control: runs a program block by block, with its labels, repeats, Q parameters and conditions."""
+"""The Klartext control runs a program block by block, with its labels, repeats, Q parameters and conditions."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from core.finding import Severity
 from core.progress import Progress, silent
 
 MAX_REPEATED_BLOCKS: Final = 50_000
-"""Blocks that jumps and repeats may run again before the run is given up."""
+"""Most blocks that jumps and repeats may run again before the run is given up."""
 
 BLOCKS_BETWEEN: Final = 200
-"""Blocks between two words on how far the run is."""
+"""Blocks between two reports of progress."""
 
 MAX_CALL_DEPTH: Final = 19
-"""Subprograms that may call one another."""
+"""Most calls of subprograms within one another."""
 
 _LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$', re.ASCII)
 _CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$', re.ASCII)
@@ -43,9 +43,9 @@ _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
 def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0, progress: Progress = silent) -> ControlRun:
-    """A program in Klartext with these tools, run with a share of each tool's radius; never raises for any text.
+    """Run a Klartext program with these tools, at a share of each tool's radius; no text makes it raise.
 
-    Tools of the table count before TOOL DEF of the same number.
+    Tools of the table take precedence over TOOL DEF of the same number.
     """
     log = Log()
     center = CenterPathRecorder(log, Record(share))
@@ -86,7 +86,7 @@ def _run_blocks(state: State, progress: Progress) -> None:
 
 
 def _check_end(state: State) -> None:
-    """What is missing at the end of the program."""
+    """Warn of what is missing at the end of the program, or follows it."""
     last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
     if not state.begun:
         text = "BEGIN PGM is missing; millimeters are assumed. Write BEGIN PGM PART MM as the first block."
@@ -94,16 +94,16 @@ def _check_end(state: State) -> None:
     elif not any(block.head == "END" for block in reversed(state.blocks)):
         state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
     end = next((index for index, block in enumerate(state.blocks) if block.head == "END"), len(state.blocks))
-    behind = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
-    if behind is not None:
-        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, behind)
+    not_run = next((block for block in state.blocks[end + 1 :] if block.head.isalpha()), None)
+    if not_run is not None:
+        state.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, not_run)
     if state.applied and state.side:
         text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
         state.tell(Severity.WARNING, "PROGRAM", text, last)
 
 
 def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
-    """Label to the block after it, the first where one appears twice; LBL 0 is the end of a subprogram, no label."""
+    """Return for each label the index of the block after its first LBL; LBL 0 ends a subprogram and is no label."""
     labels: dict[str, int] = {}
     for index, block in enumerate(blocks):
         if block.head == "LBL" and (name := _LABEL.match(block.body)) and name[1] != "0":
@@ -112,7 +112,7 @@ def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
 
 
 def _label(state: State, block: Block) -> None:
-    """LBL n: a place to jump to; LBL 0 ends a subprogram."""
+    """LBL n marks where to jump to; LBL 0 ends a subprogram."""
     name = _LABEL.match(block.body)
     if name is None:
         state.stop("LABEL", "LBL needs a number or a name in quotes.", block)
@@ -121,7 +121,7 @@ def _label(state: State, block: Block) -> None:
 
 
 def _call(state: State, block: Block) -> None:
-    """CALL LBL n runs a subprogram; with REP m the part from LBL n to here is run m times more."""
+    """CALL LBL n runs a subprogram; with REP m it runs the part from LBL n to here m more times."""
     call = _CALL.match(block.body)
     if call is None:
         setup_blocks.unknown(state, block)
@@ -145,7 +145,7 @@ def _jump(state: State, block: Block, name: str) -> None:
 
 
 def _parameter(state: State, block: Block) -> None:
-    """Q1 = formula."""
+    """Q1 = formula sets a Q parameter."""
     assignment = _SET.match(block.body)
     if assignment is None:
         state.stop("Q", "A Q parameter needs = and a formula.", block)
@@ -153,7 +153,7 @@ def _parameter(state: State, block: Block) -> None:
 
 
 def _function(state: State, block: Block) -> None:
-    """FN 0 to FN 13: assignments, and jumps on a condition; what only reads or prints is passed over."""
+    """FN 0 to FN 13: assignments, and jumps on a condition; functions that move nothing are skipped."""
     function = _FUNCTION.match(block.body)
     number = int(function[1][:4]) if function else -1
     rest = function[2] if function else ""
@@ -170,7 +170,7 @@ def _function(state: State, block: Block) -> None:
 
 
 def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
-    """A function that moves nothing; what it reads has no value here, and stops the run where it is used."""
+    """Skip a function that moves nothing; what it reads has no value here, and stops the run when it is used."""
     names = _READ.findall(rest.partition("=")[0])
     for name in names:
         state.parameters.pop(name, None)
@@ -181,7 +181,7 @@ def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
 
 
 def _condition(state: State, block: Block) -> None:
-    """IF a EQU, NE, GT or LT b GOTO LBL n."""
+    """IF a EQU, NE, GT or LT b GOTO LBL n: jump if the condition holds."""
     question, _, goal = block.body.strip().removeprefix("IF").partition("GOTO")
     sign, label = _COMPARISON.search(question), _GOAL.match(goal)
     if sign is None or label is None:
@@ -231,4 +231,4 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
         "QR": _parameter,
     }
 )
-"""What runs a block, by its head word."""
+"""The function that runs a block, by its head word."""

@@ -1,4 +1,4 @@
-"""Corner rounding: RND and CHF put an arc or a line between two programmed elements, which wait until it is known."""
+"""Corner rounding puts the arc of an RND or the line of a CHF between two programmed elements."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NO_LEAD: Final = "cutcomp follows RND only directly between two contour elements
 
 @dataclass(frozen=True, slots=True)
 class PendingCorner:
-    """An RND (`size` its radius) or CHF (its leg) that waits for the element after it."""
+    """An RND or CHF that waits for the element after it; `size` is the radius or the leg."""
 
     line: int
     column: int
@@ -36,7 +36,7 @@ class CornerBuffer:
     pending: PendingCorner | None = None
 
     def push(self, step: ProgrammedStep) -> None:
-        """The next step."""
+        """Take the next step."""
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
             if self.pending and self.pending.rounded:
                 self._stop("BEYOND", self.pending, NO_LEAD)
@@ -50,7 +50,7 @@ class CornerBuffer:
         self.step = step
 
     def flush(self) -> None:
-        """Hand on the element that waits: what follows does not round it."""
+        """Hand on the waiting element, because no RND or CHF follows it."""
         if self.pending:
             self._stop("CORNER", self.pending, NOT_BETWEEN)
         step, self.step = self.step, None
@@ -58,7 +58,7 @@ class CornerBuffer:
             self.center.push(step)
 
     def _blended(self, pending: PendingCorner, second: ProgrammedStep) -> ProgrammedStep:
-        """Hand on the waiting element and what joins it to the next; the next one cut short."""
+        """Hand on the waiting element and its rounding or chamfer; return the next element, cut short."""
         first, self.step, self.pending = self.step, None, None
         if first is None or first.role is not second.role or first.plane is not second.plane:
             self._stop("CORNER", pending, NOT_BETWEEN)
@@ -75,11 +75,11 @@ class CornerBuffer:
 
 
 Blended = tuple[Element, Element, Element]
-"""The first element cut short, what is between, and the second element cut short."""
+"""The first element cut short, the rounding or chamfer, and the second element cut short."""
 
 
 def rounding(first: Element, second: Element, radius: float) -> Blended | str:
-    """An arc of `radius` millimeters tangent to both elements; or the sentence that says why there is none."""
+    """Return two elements with a tangent arc of `radius` millimeters, or the sentence that says why there is none."""
     angle = elements.turn_angle(first, second)
     if abs(angle) < elements.SAME_DIRECTION or not _level(first, second):
         return "There is no corner to round. Both blocks must lie in the working plane and meet at an angle."
@@ -89,7 +89,7 @@ def rounding(first: Element, second: Element, radius: float) -> Blended | str:
     if center is None:
         return "No arc of this radius touches both blocks. Write a smaller R."
     start, end = _touch(ending, center, offset), _touch(second, center, offset)
-    if not _on(first, start) or not _on(second, end):
+    if not _lies_on(first, start) or not _lies_on(second, end):
         return "The rounding is longer than the blocks it joins. Write a smaller R."
     turn = 1 if angle > 0.0 else -1
     arc = arc_element(start, end, center, turn, first.end_height, first.end_height, first.feed, first.line)
@@ -97,14 +97,14 @@ def rounding(first: Element, second: Element, radius: float) -> Blended | str:
 
 
 def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
-    """A line that cuts `leg` millimeters off both straight elements; or the sentence that says why there is none."""
+    """Return two lines with one that cuts `leg` millimeters off both, or the sentence that says why there is none."""
     if first.turn or second.turn or not _level(first, second):
         return "A chamfer needs two straight blocks in the working plane. Use RND."
     start, end = (
         elements.point_along(first.end, first.end_direction, -leg),
         elements.point_along(first.end, second.start_direction, leg),
     )
-    if not _on(first, start) or not _on(second, end):
+    if not _lies_on(first, start) or not _lies_on(second, end):
         return "The chamfer is longer than the blocks it joins. Write a shorter one."
     between = line_element(start, end, first.end_height, first.end_height, first.rapid, first.feed, first.line)
     return _cut_end(first, start), between, _cut_start(second, end)
@@ -115,7 +115,7 @@ def _level(first: Element, second: Element) -> bool:
 
 
 def _touch(element: Element, center: Point, offset: float) -> Point:
-    """Where a circle about `center`, `offset` to the left of the element, touches it."""
+    """Return where a circle about `center`, `offset` to the left of the element, touches it."""
     if not element.turn:
         return elements.offset_point(center, element.start_direction, -offset)
     (x, y), (cx, cy) = center, element.center
@@ -123,12 +123,12 @@ def _touch(element: Element, center: Point, offset: float) -> Point:
     return cx + (x - cx) * share, cy + (y - cy) * share
 
 
-def _on(element: Element, at: Point) -> bool:
+def _lies_on(element: Element, point: Point) -> bool:
     if not element.turn:
         (x, y), way = element.start, element.start_direction
-        along = (at[0] - x) * way[0] + (at[1] - y) * way[1]
+        along = (point[0] - x) * way[0] + (point[1] - y) * way[1]
         return -JOINED <= along <= hypot(element.end[0] - x, element.end[1] - y) + JOINED
-    return elements.sweep(element.start, at, element.center, element.turn) <= elements.element_sweep(element)
+    return elements.sweep(element.start, point, element.center, element.turn) <= elements.element_sweep(element)
 
 
 def _cut_end(element: Element, end: Point) -> Element:

@@ -1,7 +1,7 @@
-"""Cycles: CYCL DEF and its calls; a cycle's own moves are passed over, up to the end that is known of it.
+"""This module handles CYCL DEF and its calls; it skips a cycle's own moves, up to the end position if that is known.
 
-A drilling cycle ends over its hole, the older cycles 1 to 5 and 17 and the cycles 212 to 215 where they began.  Where
-others end is not known, so that only the next absolute words say where the tool is.
+A drilling cycle ends over its hole; the older cycles 1 to 5, 17 and 18, and the cycles 212 to 215, end where they
+began.  The end of others is not known, so only the next absolute words give the tool's position.
 """
 
 from __future__ import annotations
@@ -31,22 +31,22 @@ _NEUTRAL: Final = {
     11: (re.compile(rf"\s*SCL\s*{_ANY}\s*", re.ASCII), 1.0),
     19: (re.compile(rf"(?:\s*A\s*{_ANY})?(?:\s*B\s*{_ANY})?(?:\s*C\s*{_ANY})?\s*", re.ASCII), 0.0),
 }
-"""Cycles that mirror, turn, scale or tilt, their words, and the value with which these do none of it."""
+"""Cycles that mirror, turn, scale or tilt: their words, and the value at which these change nothing."""
 
 _MOVED: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
 """Cycles that change where the contour lies."""
 
 _PATTERNS: Final = frozenset((220, 221))
-"""Cycles that run the last one at many places as soon as they are defined."""
+"""Cycles that run the cycle before them at many points as soon as they are defined."""
 
 _DRILLING: Final = frozenset((*range(200, 208), 209, 240, 241))
 _TAPPING: Final = frozenset((1, 2, 17, 18))
 _RETURNING: Final = _TAPPING | {3, 4, 5, 212, 213, 214, 215}
-_WAITING: Final = frozenset((9, 13, 14, 20, 32, 39))
+_NOT_CALLED: Final = frozenset((9, 13, 14, 20, 32, 39))
 """Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
 
 _CONTOUR: Final = frozenset((6, 16, 22, 23, 24, 25, *range(271, 277)))
-"""Cycles that mill along a contour beside it by themselves: what they cut would not be judged."""
+"""Cycles that offset and mill a contour by themselves: what they cut would not be judged."""
 
 _PROGRAM: Final = 12
 _FIRST_PROBE: Final = 400
@@ -56,7 +56,7 @@ NOT_JUDGED: Final = "What cycle {} mills is not judged; {}."
 
 
 def cycle(state: State, block: Block) -> None:
-    """CYCL DEF and CYCL CALL: the datum shift is done, other cycles wait for their call, which passes them over."""
+    """CYCL DEF and CYCL CALL: shift the datum; other cycles wait for their call, which skips their moves."""
     head = _CYCLE.match(block.body)
     number = int(head[2][:6]) if head and head[2] else 0
     rest = block.after(head.end()) if head else block
@@ -83,7 +83,7 @@ def cycle(state: State, block: Block) -> None:
 
 
 def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:
-    """Whether a cycle's values change nothing."""
+    """True if a cycle's values change nothing."""
     pattern, neutral = _NEUTRAL[number]
     words = pattern.fullmatch(body)
     if words is None:
@@ -92,20 +92,20 @@ def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:
 
 
 def _define(state: State, block: Block, number: int) -> None:
-    """A cycle that waits for its call, or a pattern, which calls the one before at once."""
+    """Define a cycle that waits for its call, or a pattern, which calls the cycle before it at once."""
     if number in _PATTERNS:
         _pass_over(state, block, number, None)
         return
     _take_values(state, block)
     text = f"Cycle {number} is skipped: it moves nothing."
-    if number not in _WAITING:
+    if number not in _NOT_CALLED:
         state.cycle = number
         text = f"Cycle {number} is skipped: it moves nothing before it is called."
     state.tell(Severity.INFO, "IGNORED", text, block)
 
 
 def _take_values(state: State, block: Block) -> None:
-    """The values of a cycle as parameters; one that cannot be evaluated here has none."""
+    """Forget the last heights, and set the cycle's values as parameters unless they cannot be evaluated here."""
     for name in _HEIGHTS:
         state.parameters.pop(name, None)
     for name, formula in _VALUE.findall("\n".join((block.body, *block.more))):
@@ -115,7 +115,7 @@ def _take_values(state: State, block: Block) -> None:
 
 
 def _end_height(state: State) -> float | None:
-    """The tool axis's height at a drilling cycle's end, in millimeters: the larger of both clearances above Q203."""
+    """Return the tool axis's height at a drilling cycle's end, in millimeters: the larger clearance above Q203."""
     values = state.parameters
     if not values.keys() >= _HEIGHTS:
         return None
@@ -124,12 +124,12 @@ def _end_height(state: State) -> float | None:
 
 
 def _at_the_start(state: State) -> bool:
-    """Whether nothing has moved yet."""
+    """True if nothing has moved yet."""
     return len(state.waiting.center.record.tape) == 1 and state.waiting.step is None
 
 
 def _call_block(state: State, block: Block) -> None:
-    """CYCL CALL, at a position with POS, at all points of a pattern with PAT."""
+    """CYCL CALL: call the cycle here, at a position with POS, or at all points of a pattern with PAT."""
     head = _POSITION.match(block.body)
     rest = block.after(head.end() if head else 0)
     if head and head[1] == "POS":
@@ -146,7 +146,7 @@ def _call_block(state: State, block: Block) -> None:
 
 
 def call(state: State, block: Block) -> None:
-    """The call of the cycle defined last, by CYCL CALL or M99."""
+    """Call the cycle defined last, for CYCL CALL or M99."""
     if state.cycle is None:
         state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
     if state.cycle == _PROGRAM:
@@ -164,16 +164,16 @@ def _refuse_compensated(state: State, block: Block) -> None:
 
 
 def _pass_over(state: State, block: Block, number: int, height: float | None) -> None:
-    """The moves of a cycle are left out; where it ends is set, or unknown until the next absolute words."""
+    """Skip a cycle's moves, and set where it ends, or make that unknown until the next absolute words."""
     _refuse_compensated(state, block)
     state.waiting.flush()
     state.last = None
-    severity, said = Severity.WARNING, NOT_JUDGED
+    severity, template = Severity.WARNING, NOT_JUDGED
     if number in _DRILLING or number in _TAPPING or number in state.told_cycles:
-        severity, said = Severity.INFO, SKIPPED
+        severity, template = Severity.INFO, SKIPPED
     state.told_cycles.add(number)
     if number in _RETURNING:
-        state.tell(severity, "CYCLE", said.format(number, "it ends where it began"), block)
+        state.tell(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
     if number in _DRILLING and height is not None:
@@ -189,5 +189,5 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
     unknown = {third} if number in _DRILLING else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
-    text = said.format(number, f"cutcomp takes {names} from the next absolute words")
+    text = template.format(number, f"cutcomp takes {names} from the next absolute words")
     state.tell(severity, "CYCLE", text, block)

@@ -1,6 +1,6 @@
-"""Formulas of Q parameters: `Q1 = +Q2 * SIN 30`, `FN 4: Q1 = +Q2 DIV +3` and the conditions of FN 9 to FN 12.
+"""Formulas compute Q parameters, as in `Q1 = +Q2 * SIN 30` and `FN 4: Q1 = +Q2 DIV +3`, and conditions (FN 9 to 12).
 
-Angles are degrees.  A formula either has a value or a sentence that says why not.
+Angles are in degrees.  A formula has either a value or a sentence that says why it has none.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Final
 from core.controls.program_text import quoted
 
 MAX_NESTING: Final = 50
-"""Brackets and functions within one another that a formula may have."""
+"""Most brackets and functions within one another in a formula."""
 
 _TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))", re.ASCII)
 
@@ -51,7 +51,7 @@ _OPERATORS: Final[Mapping[str, tuple[int, Callable[[float, float], float]]]] = M
         "^": (2, math.pow),
     }
 )
-"""Those of a higher rank count first."""
+"""The rank and the function of each operator; a higher rank binds first."""
 
 
 class _FaultError(Exception):
@@ -59,7 +59,7 @@ class _FaultError(Exception):
 
 
 def evaluate(text: str, parameters: Mapping[str, float]) -> float | str:
-    """The value of a formula in upper case with these Q parameters, or the sentence that says why it has none."""
+    """Return the value of a formula in upper case with these Q parameters, or the sentence that says why not."""
     tokens = [token.group(token.lastindex or 0).strip() for token in _TOKEN.finditer(text)]
     parser = _Parser(tokens, parameters)
     try:
@@ -89,11 +89,11 @@ class _Parser:
         return token
 
     def ranked(self, rank: int = 0) -> float:
-        """What operators of a rank or a higher one give; those of one rank go from left to right."""
+        """Return the value of operators of a rank or a higher one; those of one rank go from left to right."""
         value = self.operand()
         while (name := self.next()) in _OPERATORS and _OPERATORS[name][0] >= rank:
-            above, work = _OPERATORS[self.take()]
-            value = work(value, self.ranked(above + 1))
+            operator_rank, operate = _OPERATORS[self.take()]
+            value = operate(value, self.ranked(operator_rank + 1))
         return value
 
     def operand(self) -> float:

@@ -1,9 +1,9 @@
-"""Lead curves: the path of the tool center along an APPR or DEP, as geometry; `leads` reads the blocks.
+"""Lead curves are the path of the tool center along an APPR or DEP, as geometry; `leads` reads the blocks.
 
 LT is a straight line tangent to the contour, LN one square to it, CT an arc tangent to it over an angle, LCT a line
-and an arc tangent to each other and to the contour.  All lengths and radii count on the tool center: an approach
-ends at PA', the point square to the contour's first point at one tool radius.  PS is where the tool stands, PH
-where the lead itself begins.  Departures are approaches traveled backwards.
+and an arc tangent to each other and to the contour.  All lengths and radii apply to the tool center: an approach
+ends at PA', the point square to the contour's first point at one tool radius.  PS is the tool's position, PH the
+point where the lead itself begins.  Departures are approaches traveled backwards.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """The lead on the tool center: straight to or from `point` (PH), and between it and the contour a line or an arc.
+    """The lead of the tool center: straight to or from `point` (PH), and between it and the contour a line or an arc.
 
-    With `turn` 0 it is a line; an arc whose `point` is the contour's is a full circle.
+    With `turn` 0 it is a line; an arc whose `point` is the contour's own point is a full circle.
     """
 
     point: Point
@@ -54,7 +54,7 @@ class Curve:
 
 
 def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """The approach from PS to PA' where the contour sets off in direction `way`.
+    """Return the approach from PS to PA', where the contour starts in direction `way`.
 
     `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
     its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
@@ -76,11 +76,11 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
 def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
     center = offset_point(end, way, hand * radius)
     dx, dy = start[0] - center[0], start[1] - center[1]
-    apart = hypot(dx, dy)
-    if apart < radius * (1.0 - LEAST):
+    distance = hypot(dx, dy)
+    if distance < radius * (1.0 - LEAST):
         return None
     # Seen from the center PH lies ahead of PS by the angle whose cosine is radius / distance.
-    angle = atan2(dy, dx) + hand * acos(min(1.0, radius / apart))
+    angle = atan2(dy, dx) + hand * acos(min(1.0, radius / distance))
     point = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
     if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies on the line through PA'
         return Curve(end, end, 0)
@@ -92,9 +92,9 @@ def _side_of(at: Point, corner: Point, way: Point) -> int:
 
 
 def departure(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """The departure from PE', where the contour ends in direction `way`, to `end` (only LCT looks at it).
+    """Return the departure from PE', where the contour ends in direction `way`, to `end`, which only LCT uses.
 
-    It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other hand.
+    It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other side.
     """
     back = approach(lead, end, start, (-way[0], -way[1]), -hand)
     return None if back is None else Curve(back.point, back.center, -back.turn)

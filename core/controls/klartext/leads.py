@@ -1,4 +1,4 @@
-"""Leads: APPR and DEP blocks, which apply and cancel compensation along a lead."""
+"""APPR and DEP blocks apply and cancel compensation along a lead."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NEEDED: Final = {LeadShape.LT: ("LEN",), LeadShape.LN: ("LEN",), LeadShape.CT: 
 
 
 def approach(state: State, block: Block) -> None:
-    """APPR LT, LN, CT, LCT and their polar forms: the lead to the contour's first point."""
+    """APPR LT, LN, CT, LCT and their polar forms: pass on the lead to the contour's first point."""
     shape, polar, words = _read(state, block, "APPR")
     end = polar_target(state, block, words)[0] if polar else state.target(block, words)
     state.chosen_side(block, words)
@@ -39,7 +39,7 @@ def approach(state: State, block: Block) -> None:
 
 
 def depart(state: State, block: Block) -> None:
-    """DEP LT, LN, CT, LCT and PLCT: the lead away from the contour's last point; it cancels compensation."""
+    """DEP LT, LN, CT, LCT and PLCT: pass on the lead away from the contour's last point; cancel compensation."""
     shape, polar, words = _read(state, block, "DEP")
     _check_side(state, block, shape)
     last = state.last
@@ -58,7 +58,7 @@ def depart(state: State, block: Block) -> None:
 
 
 def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words]:
-    """The shape of a lead, whether its point is polar, and its words."""
+    """Return the shape of a lead, True if its point is polar, and its words."""
     lead = _FORM.match(block.body)
     if lead is None or (name == "DEP" and lead[1] and lead[2] != "LCT"):
         text = f"{name} needs its shape: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
@@ -99,7 +99,7 @@ def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:
 def _goal(
     state: State, block: Block, words: Words, shape: LeadShape, last: Element, lead: Lead, *, polar: bool
 ) -> list[float]:
-    """Where a departure ends: as programmed for LCT, else where the lead itself does."""
+    """Return where a departure ends: the programmed point for LCT, else the end of the lead itself."""
     end = polar_target(state, block, words)[0] if polar else state.target(block, words)
     point, height = state.flat(end)
     if shape is LeadShape.LCT:
@@ -114,7 +114,7 @@ def _goal(
 
 
 def _hand(offset: float, side: int) -> int:
-    """The side of the tool, which a negative radius turns over."""
+    """Return the side of the tool, which a negative radius flips."""
     if offset:
         return 1 if offset > 0.0 else -1
     return side

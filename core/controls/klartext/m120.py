@@ -1,7 +1,7 @@
-"""M120 LA: the center path computed some blocks ahead, without what the tool cannot reach.
+"""M120 LA computes the center path some blocks ahead, and leaves out what the tool cannot reach.
 
-The control's manual says that M120 looks for undercuts and for crossings of the path with itself in the blocks ahead,
-and does not machine what lies between.  That is the look-ahead rule of a MILL CONTOUR block, which is used here.
+The control's manual says that M120 checks the blocks ahead for undercuts and for crossings of the path with itself, and
+does not machine what lies between.  This is the look-ahead rule of a MILL CONTOUR block, so that rule is used here.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from core.tolerance import JOINED
 
 
 class CenterPathPiece(NamedTuple):
-    """A piece of the center path: the element it belongs to, its end, and as an arc its center and turn."""
+    """A piece of the center path: its element's row, whether it is a corner, its end, and an arc's center and turn."""
 
     row: int
     corner: bool
@@ -33,7 +33,7 @@ class CenterPathPiece(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PathAhead:
-    """The center path along some elements: its start point and direction, its pieces, the elements it leaves out."""
+    """The center path along some elements: its start point and direction, its pieces, and the elements left out."""
 
     start: Point
     way: Point
@@ -45,7 +45,7 @@ class PathAhead:
 class Unreached:
     """The element at which the control would still stop, and why; `{0}` is the tool's radius.
 
-    `before` is the path up to there, as far as it is known.
+    `before` is the known part of the path up to there.
     """
 
     row: int
@@ -54,9 +54,9 @@ class Unreached:
 
 
 def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> PathAhead | Unreached:
-    """The center path along elements that join, looked at `depth` blocks ahead, tool radius `offset` to the left.
+    """Return the center path along joined elements, looked at `depth` blocks ahead, the tool `offset` to their left.
 
-    `begin`: where the path stands already, on the first element's offset; None for square to its start.
+    `begin` is the point that the path has reached on the first element's offset; None starts square to its start.
     """
     side = Side.LEFT if offset > 0.0 else Side.RIGHT
     compensated = compensate(_contour(elements), side, abs(offset), depth, closed=False)
@@ -65,14 +65,14 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     if bool(compensated.bridged.any()):
         row = int(compensated.path.numbers[compensated.bridged][0])
         start, way = _point(compensated.path.points[0]), _point(compensated.path.start_directions[0])
-        before = PathAhead(begin or start, way, tuple(run for run in _runs(compensated.path) if run.row < row), ())
+        before = PathAhead(begin or start, way, tuple(run for run in _pieces(compensated.path) if run.row < row), ())
         why = "the {0}-radius tool cannot get past this block within the blocks of LA"
         return Unreached(row, why, before)
     return _checked(compensated, elements, offset, begin)
 
 
 def _contour(elements: Sequence[Element]) -> Path:
-    """The elements numbered from 0."""
+    """Return the path of the elements, numbered from 0."""
     points = np.array([elements[0].start, *(element.end for element in elements)])
     turns = np.array([element.turn for element in elements], np.int8)
     return Path.of(
@@ -83,9 +83,9 @@ def _contour(elements: Sequence[Element]) -> Path:
 def _checked(
     compensated: Compensated, elements: Sequence[Element], offset: float, begin: Point | None
 ) -> PathAhead | Unreached:
-    """The path, where its first and last piece are of the first and last element."""
+    """Return the path if its first and last piece belong to the first and last element, else where it fails."""
     path, last = compensated.path, len(elements) - 1
-    runs = tuple(_runs(path))
+    runs = tuple(_pieces(path))
     if runs[0].row != 0 or runs[0].corner:
         return Unreached(0, "the {0}-radius tool cannot reach any of this block, the first one of M120")
     if not _near(runs[-1].end, offset_end(elements[-1], offset)) or runs[-1].row != last:
@@ -99,7 +99,7 @@ def _checked(
     return PathAhead(start, way, runs, left_out)
 
 
-def _runs(path: Path) -> Iterator[CenterPathPiece]:
+def _pieces(path: Path) -> Iterator[CenterPathPiece]:
     numbers, turns = path.numbers.tolist(), path.turns.tolist()
     for number, turn, end, center in zip(numbers, turns, path.ends, path.centers, strict=True):
         yield CenterPathPiece(int(number), number != int(number), _point(end), _point(center), turn)
@@ -115,7 +115,7 @@ def _near(first: Point, second: Point) -> bool:
 
 
 def _trimmed_away(element: Element, start: Point, begin: Point, end: Point) -> bool:
-    """Whether an element's offset, trimmed to `begin`, would run backwards to the end it is trimmed to."""
+    """True if an element's offset, trimmed to `begin`, would run backwards to its trimmed end."""
     if not element.turn:
         (wx, wy), dx, dy = element.start_direction, end[0] - begin[0], end[1] - begin[1]
         return dx * wx + dy * wy < -JOINED

@@ -1,4 +1,4 @@
-"""M functions: which end the program, which change the path, which only leave a finding."""
+"""M functions end the program, change the path, or only leave a finding."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from core.controls.program_text import quoted
 from core.finding import Severity
 
 MAX_LOOK_AHEAD: Final = 99
-"""Blocks that M120 can look ahead."""
+"""Most blocks that M120 can look ahead."""
 
 M120_SKIPS: Final = "cutcomp assumes M120 skips what lies between two crossings of the path within LA blocks."
 
@@ -37,7 +37,7 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
 
 
 def functions(state: State, block: Block, words: Words) -> CornerRules:
-    """Take up the block's M words; the rules of the corner at its end."""
+    """Apply the block's M words, and return the rules of the corner at its end."""
     corner = KLARTEXT_CORNERS
     for name in words:
         if name == "M120":
@@ -73,7 +73,7 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
 
 
 def _look_ahead(state: State, block: Block, words: Words) -> None:
-    """M120 LA n from this block on until R0; without LA, or with LA0, off."""
+    """M120 LA n looks ahead from this block on until R0; without LA, or with LA0, it is off."""
     depth = state.number(block, words, "LA") if "LA" in words else 0.0
     if not 0.0 <= depth <= MAX_LOOK_AHEAD or depth != int(depth):
         state.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block, "LA")
@@ -86,7 +86,7 @@ def _look_ahead(state: State, block: Block, words: Words) -> None:
 
 
 def only_functions(state: State, block: Block) -> None:
-    """STOP, or a block of M words alone."""
+    """Run STOP, or a block of M words alone."""
     whole = block
     if block.head != "STOP":
         whole = block._replace(body=block.head + block.body, column=block.column - len(block.head))
@@ -96,7 +96,7 @@ def only_functions(state: State, block: Block) -> None:
 
 
 def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
-    """M91, M92 and M140 without compensation: the axes go where only the machine knows, and the move is left out."""
+    """True if uncompensated M91, M92 or M140 sends axes where only the machine knows; the move is then left out."""
     if _MACHINE.isdisjoint(words) or state.applied or state.side:
         return False
     state.lose({AXES[name][0] for name in words.keys() & AXES.keys()})

@@ -1,4 +1,4 @@
-"""Path functions: lines and arcs in axis words or polar, the pole CC, and RND and CHF."""
+"""Path functions run lines and arcs in Cartesian or polar coordinates, the pole CC, and RND and CHF."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from core.geometry.piece import Point
 from core.tolerance import JOINED
 
 POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
-"""The words of a polar point, and those of the axes, of which only the tool axis's may stand with them."""
+"""The words of a polar point and of the axes; of the axes only the one across the plane of CC may stand with PR, PA."""
 
 KLARTEXT_ARC_TOLERANCE: Final = ArcTolerance(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
-"""How far the radii at the start and the end of an arc about the pole may differ."""
+"""The largest difference between the radii at the start and the end of an arc about the pole."""
 
 MAX_HELIX: Final = 5400.0
-"""Degrees a helix may turn."""
+"""Most degrees that a helix may turn."""
 
 NOT_YET: Final = "cutcomp assumes RL, RR or R0 with the tool axis alone acts in the next line of the working plane."
 ONE_STRAIGHT: Final = "The end point lies straight ahead or back: no tangent arc leads there. Write L."
@@ -36,7 +36,7 @@ _CORNER: Final = frozenset(("R", "F", "LEN"))
 
 
 def line(state: State, block: Block) -> None:
-    """L: a straight line; in the block whose RL, RR or R0 is new it applies or cancels compensation."""
+    """L: a straight line; a new RL, RR or R0 in it applies or cancels compensation."""
     words = state.words(block, _LINE)
     if "FMAX" in words or "MB" in words:
         state.chosen_side(block, words)
@@ -74,13 +74,13 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
 
 
 def straight_element(state: State, block: Block, end: list[float], *, rapid: bool, feed: float) -> Element:
-    """The line from where the program stands to a position."""
+    """Return the line from the programmed position to another one."""
     (start, low), (goal, high) = state.flat(state.position), state.flat(end)
     return line_element(start, goal, low, high, rapid, feed, block.line, block.start)
 
 
 def _change_side(state: State, block: Block, element: Element) -> None:
-    """The line in which RL, RR or R0 takes effect."""
+    """Pass on the line in which RL, RR or R0 takes effect."""
     state.last = None
     if state.side:
         state.apply(block)
@@ -91,13 +91,13 @@ def _change_side(state: State, block: Block, element: Element) -> None:
 
 
 def pole(state: State, block: Block) -> None:
-    """CC: the pole and circle center by two axes, whose plane is that of the arcs about it.
+    """CC: the pole and circle center by two axes; arcs about it lie in the plane of these axes.
 
-    Without words it is where the tool stands, in the working plane.
+    Without words the pole is the tool's position, in the working plane.
     """
-    words, known, elsewhere = state.words(block, frozenset(AXES)), set(state.known), set(state.at_machine_place)
+    words, known, unknown = state.words(block, frozenset(AXES)), set(state.known), set(state.at_machine_place)
     target = state.target(block, words)
-    state.known, state.at_machine_place = known, elsewhere
+    state.known, state.at_machine_place = known, unknown
     plane = _plane_of(words) if words else state.plane
     if plane is None:
         state.stop("ARC", "CC needs two axes, or none for where the tool stands.", block)
@@ -105,20 +105,20 @@ def pole(state: State, block: Block) -> None:
 
 
 def _plane_of(words: Words) -> Plane | None:
-    """The plane of the axes that a block names, None unless they are two."""
+    """Return the plane of the two axes that a block names; None if they are not two."""
     axes = {AXES[name][0] for name in words if name in AXES}
     return next((plane for plane in Plane if len(axes) == 2 and axes == set(plane.axes[:2])), None)
 
 
 def pole_of(state: State, block: Block) -> Point:
-    """The pole, without which there are no polar coordinates and no C."""
+    """Return the pole, which polar coordinates and C need; stop the run if there is none."""
     if state.pole is None:
         state.stop("ARC", "No center is programmed. Write a CC block before this one.", block)
     return state.pole
 
 
 def polar_point(pole: Point, radius: float, angle: float) -> Point:
-    """The point at a distance and an angle in degrees from a pole; multiples of 90 degrees are exact."""
+    """Return the point at a distance and an angle in degrees from a pole; multiples of 90 degrees are exact."""
     quarter = angle / 90.0
     if quarter.is_integer():
         x, y = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter) % 4]
@@ -128,7 +128,7 @@ def polar_point(pole: Point, radius: float, angle: float) -> Point:
 
 
 def polar_target(state: State, block: Block, words: Words) -> tuple[list[float], float]:
-    """The position that PR, PA, IPR, IPA and the tool axis's word lead to, and its angle in degrees."""
+    """Return the position that PR, PA, IPR, IPA and the word of the axis across lead to, and its angle in degrees."""
     center, plane = pole_of(state, block), state.pole_plane
     (x, y), _ = state.flat(state.position, plane)
     radius, angle = hypot(x - center[0], y - center[1]), degrees(atan2(y - center[1], x - center[0]))
@@ -154,7 +154,7 @@ def check_pole_plane(state: State, block: Block) -> None:
 
 
 def _polar_value(state: State, block: Block, words: Words, name: str, now: float) -> float:
-    """PR in millimeters or PA in degrees: absolute, incremental, or as it is."""
+    """Return PR in millimeters or PA in degrees: absolute, incremental, or unchanged."""
     read = state.length if name == "PR" else state.number
     if name in words and f"I{name}" in words:
         state.stop("TWICE", f"{name} and I{name} are in one block. Keep one.", block, f"I{name}")
@@ -164,14 +164,14 @@ def _polar_value(state: State, block: Block, words: Words, name: str, now: float
 
 
 def circle(state: State, block: Block) -> None:
-    """C: an arc about the pole to an end point; an end at the start is the full circle."""
+    """C: an arc about the pole to an end point; an end point at the start makes a full circle."""
     words = state.words(block, _LINE | {"DR"})
     turn = _direction(state, block, words)
     _about_pole(state, block, words, state.target(block, words), turn)
 
 
 def polar_circle(state: State, block: Block) -> None:
-    """CP: an arc about the pole to an angle; with IPA and the tool axis a helix of any number of turns."""
+    """CP: an arc about the pole to an angle; with IPA it may turn more than once, and with the tool axis be a helix."""
     words = state.words(block, _POLAR_LINE | {"DR"})
     turn = _direction(state, block, words)
     end, angle = polar_target(state, block, words)
@@ -185,7 +185,7 @@ def polar_circle(state: State, block: Block) -> None:
 
 
 def radius_arc(state: State, block: Block) -> None:
-    """CR: an arc of a radius; above 0 it is at most half a circle, below 0 at least half."""
+    """CR: an arc by its radius; R above 0 makes at most half a circle, R below 0 at least half."""
     words = state.words(block, _LINE | {"DR", "R"})
     turn = _direction(state, block, words)
     if "R" not in words:
@@ -201,7 +201,7 @@ def radius_arc(state: State, block: Block) -> None:
 
 
 def _radius_plane(state: State, block: Block, words: Words) -> Plane:
-    """The plane of a CR block: of its two axes, or the working plane if it names one of that."""
+    """Return the plane of a CR block: that of its two axes, or the working plane if it names one axis of that."""
     axes = {AXES[name][0] for name in words if name in AXES}
     plane = _plane_of(words)
     one_of_two = axes <= set(state.plane.axes[:2]) and (state.pole is None or state.pole_plane is state.plane)
@@ -217,14 +217,14 @@ def tangent_arc(state: State, block: Block) -> None:
 
 
 def polar_tangent(state: State, block: Block) -> None:
-    """CTP: the same to a point given from the pole."""
+    """CTP: an arc tangent to the contour element before it, to a polar point."""
     words = state.words(block, _POLAR_LINE)
     check_pole_plane(state, block)
     _tangent_to(state, block, words, polar_target(state, block, words)[0])
 
 
 def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> None:
-    """The arc to a position that sets off in the direction of the element before it."""
+    """Run an arc to a position, tangent to the element before it."""
     if state.last is None or state.waiting.pending:
         text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
         state.stop("HE6", text, block)
@@ -254,7 +254,7 @@ def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None
 
 
 def _helix(state: State, block: Block, words: Words, end: list[float], angle: float, turn: int) -> None:
-    """The full turns of a CP block with IPA, and the rest."""
+    """Run the full turns of a CP block with IPA, and the rest."""
     swept = state.number(block, words, "IPA")
     if swept * turn <= 0.0 or abs(swept) > MAX_HELIX:
         text = f"IPA needs the same sign as DR and at most {MAX_HELIX:.0f} degrees."
@@ -293,7 +293,7 @@ def _arc_to(
     *,
     helix: bool = False,
 ) -> None:
-    """An arc of a plane to `end` about `center`, as the next contour element."""
+    """Run an arc in a plane to `end` about `center`, as the next contour element."""
     state.chosen_side(block, words)
     rapid, feed = state.chosen_feed(block, words)
     corner_rules = functions(state, block, words)
@@ -323,7 +323,7 @@ def _arc_to(
 def corner(state: State, block: Block) -> None:
     """RND R and CHF: a rounding or chamfer between the element before and the one after."""
     start, body = block.start, block.body.lstrip()
-    if body and body[0] in "+-.0123456789Q":  # the size stands without a name, as in CHF 5
+    if body and body[0] in "+-.0123456789Q":  # the size has no name, as in CHF 5
         block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
     words = state.words(block, _CORNER)
     name = next((word for word in ("R", "LEN") if word in words), "")

@@ -1,8 +1,8 @@
-"""Klartext program text as blocks: a head word and the words after it, each with its place.
+"""The reader splits Klartext program text into blocks: a head word and the words after it, each with its column.
 
-A block is a line, or several where a line ends in `~`.  Before the head word may stand `/` (block skip) and a block
-number, also as N10; after `;` comes a comment.  A head word is L, CC, APPR, TOOL ...; the rest of the block, in
-capitals, is its body.
+A block is a line, or several if a line ends in `~`.  A `/` (block skip) and a block number, also as N10, may precede
+the head word; a comment follows `;`.  A head word is L, CC, APPR, TOOL ...; the rest of the block, in capitals, is its
+body.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from typing import Final, NamedTuple
 from core.controls.program_text import capitals
 
 NUMBER: Final = r"(?:[+-][ \t]*)?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
-"""A number with a point or a comma, or a Q parameter; either with a sign or without."""
+"""A number with a point or a comma, or a Q parameter, with or without a sign."""
 
 _NAMES: Final = r"F[ \t]*(?:MAX|AUTO)|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
 WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
-"""A word: letters and after them a number, a bare sign or nothing; or a character that is no word."""
+"""A word: letters, then a number, a bare sign or nothing; or a character that belongs to no word."""
 
 TOOL_WORD: Final = re.compile(rf"(DR2|R2(?=[+-])|{_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
-"""The same where a second tool radius may stand."""
+"""The same for blocks that may have a second tool radius."""
 
 MAX_LINE_LENGTH: Final = 1000
-"""Characters of a line; the controls take fewer."""
+"""Most characters of a line; the controls take fewer."""
 
 TOO_LONG: Final = "TOO LONG"
 """The head of a line that is too long to be read."""
@@ -44,19 +44,19 @@ _WORD_ADDRESS: Final = re.compile(r"[\s/]*+(?:N\s*+[0-9]++)?\s*+[GXYZO]\s*+[-+.#
 
 
 def is_klartext_text(lines: Iterable[str]) -> bool:
-    """Whether lines are Klartext: they begin a program of it, or, as a piece of one, have more of its blocks."""
-    more = 0
+    """True if lines are Klartext: they have BEGIN PGM, or more lines of Klartext than of word addresses."""
+    balance = 0
     for line in lines:
         if _BEGIN.match(line):
             return True
-        more += (_KLARTEXT.match(line) is not None) - (_WORD_ADDRESS.match(line) is not None)
-    return more > 0
+        balance += (_KLARTEXT.match(line) is not None) - (_WORD_ADDRESS.match(line) is not None)
+    return balance > 0
 
 
 class Block(NamedTuple):
     """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1).
 
-    `more` are the lines that continue it, in capitals and without comments.
+    `more` holds the lines that continue it, in capitals and without comments.
     """
 
     line: int
@@ -72,11 +72,11 @@ class Block(NamedTuple):
         return max(1, self.column - len(self.head))
 
     def after(self, end: int) -> Block:
-        """The block with the first `end` characters of its body blanked, every other one in its place."""
+        """Return the block with the first `end` characters of its body blanked; the others keep their columns."""
         return self._replace(body=" " * end + self.body[end:])
 
     def column_of(self, name: str) -> int:
-        """Where the word `name` stands; the start of the block if there is no such word."""
+        """Return the column of the word `name`, or the block's start if there is no such word."""
         for word in WORD.finditer(self.body) if name else ():
             if name in (joined_name(word[1] or ""), word[3], (word[1] or "") + (word[2] or "")):
                 return self.column + word.start()
@@ -84,7 +84,7 @@ class Block(NamedTuple):
 
 
 def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
-    """The blocks of a program in order, without comments and empty blocks."""
+    """Yield the blocks of a program in order, without comments and empty blocks."""
     block: Block | None = None
     continued = False
     for number, raw in enumerate(lines, start=1):
@@ -102,7 +102,7 @@ def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
 
 
 def _read_block(number: int, code: str) -> Block | None:
-    """The block of a line without its comment, None for an empty one."""
+    """Return the block of a line without its comment; None for an empty line."""
     if len(code) > MAX_LINE_LENGTH:
         return Block(number, TOO_LONG, "", 1, skip=False)
     block = _block(number, capitals(code.removesuffix("~"))) if code else None
@@ -120,5 +120,5 @@ def _block(number: int, code: str) -> Block:
 
 
 def joined_name(name: str) -> str:
-    """A word's name without blanks inside it: F MAX is FMAX."""
+    """Return a word's name without blanks inside it: F MAX is FMAX."""
     return "".join(name.split())

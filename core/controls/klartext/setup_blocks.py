@@ -1,4 +1,4 @@
-"""Blocks that do not cut: program begin and end, tools, datum shifts; and blocks that are refused or skipped."""
+"""Setup blocks do not cut: program begin and end, tools, datum shifts, and blocks that are refused or skipped."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _UNSUPPORTED: Final = (
     (re.compile(r"FUNCTION\b|SEL\b", re.ASCII), "is not supported, and the path after it could be wrong."),
     (re.compile(r"[XYZ]\s*[-+]?[\d.Q]", re.ASCII), "is a paraxial block, which is not supported. Write L before it."),
 )
-"""Blocks that the control knows and that are not supported here, and the end of the sentence about them."""
+"""Blocks that the control knows but cutcomp does not support, each with the end of the sentence about it."""
 
 _SPATIAL: Final = re.compile(
     r"\s*SPATIAL\s+SPA\s*([-+.,\dQLR]+)\s+SPB\s*([-+.,\dQLR]+)\s+SPC\s*([-+.,\dQLR]+)\s+STAY\b", re.ASCII
@@ -61,7 +61,7 @@ def end(state: State, block: Block) -> None:
 
 
 def ignored(state: State, block: Block) -> None:
-    """BLK FORM: nothing that moves."""
+    """BLK FORM: skip it, as it moves nothing."""
     _skip(state, block, "BLK FORM")
 
 
@@ -70,23 +70,23 @@ def _skip(state: State, block: Block, name: str) -> None:
 
 
 def bracketed(state: State, block: Block) -> None:
-    """A line in brackets, which other languages write as a comment; before BEGIN PGM the bracket may be left open."""
+    """Skip a line in brackets, a comment in other languages; before BEGIN PGM the bracket may be left open."""
     if state.begun and not block.body.rstrip().endswith(")"):
         unknown(state, block)
     state.tell(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
 
 
 def structure(state: State, block: Block) -> None:
-    """A structuring line `* - text`."""
+    """Skip a structuring line `* - text`."""
 
 
 def text_parameter(state: State, block: Block) -> None:
-    """DECLARE STRING and QS: texts, which move nothing."""
+    """DECLARE STRING and QS: skip texts, as they move nothing."""
     state.tell(Severity.INFO, "IGNORED", "Text parameters move nothing and are skipped.", block)
 
 
 def plane(state: State, block: Block) -> None:
-    """PLANE RESET STAY, and PLANE SPATIAL with angles of 0: nothing is tilted; any other PLANE is not supported."""
+    """Skip PLANE RESET STAY, and PLANE SPATIAL STAY with angles of 0, which tilt nothing; refuse any other PLANE."""
     angles = _SPATIAL.match(block.body)
     if angles is not None and all(state.value(angle, block) == 0.0 for angle in angles.groups()):
         state.parameters |= dict.fromkeys(("Q120", "Q121", "Q122"), 0.0)
@@ -96,14 +96,14 @@ def plane(state: State, block: Block) -> None:
 
 
 def function(state: State, block: Block) -> None:
-    """FUNCTION RESET and FUNCTION MODE MILL, which are the state anyway; any other FUNCTION is not supported."""
+    """Skip FUNCTION RESET and FUNCTION MODE MILL, which are in force anyway; refuse any other FUNCTION."""
     if block.body.split()[:1] != ["RESET"] and block.body.split()[:2] != ["MODE", "MILL"]:
         unknown(state, block)
     _skip(state, block, f"FUNCTION {' '.join(block.body.split())}")
 
 
 def unknown(state: State, block: Block) -> NoReturn:
-    """A block that is not understood or not supported: the program stops."""
+    """Stop the program at a block that is unknown or not supported."""
     if block.head == TOO_LONG:
         state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
     whole = block.head + block.body
@@ -132,7 +132,7 @@ def tool(state: State, block: Block) -> None:
 
 
 def _define(state: State, block: Block, name: str, words: Words) -> None:
-    """TOOL DEF n L R: without a radius it only names the tool that comes next."""
+    """TOOL DEF n L R: set a tool's radius; without R the block only names the next tool."""
     if not name:
         state.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", block)
     if "R" in words:
@@ -167,7 +167,7 @@ def _call(state: State, block: Block, name: str, words: Words) -> None:
 
 
 def _take_radius(state: State, block: Block, delta: float) -> None:
-    """Radius of the tool in force: of the tool table if it has the tool, else of TOOL DEF, with the deltas."""
+    """Set the radius of the tool in force: from the tool table if it has the tool, else from TOOL DEF, with deltas."""
     listed = state.tools.get(tool_id(state.tool))
     defined = state.defined.get(state.tool)
     if listed is not None:
@@ -185,7 +185,7 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
 
 
 def shift(state: State, block: Block) -> None:
-    """A datum shift: absolute words count from the unshifted datum, incremental ones from the last shift."""
+    """Shift the datum: absolute words count from the unshifted datum, incremental ones from the last shift."""
     words = state.words(block, frozenset(_SHIFTING))
     if not words:
         state.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
@@ -197,7 +197,7 @@ def shift(state: State, block: Block) -> None:
 
 
 def transformation(state: State, block: Block) -> None:
-    """TRANS DATUM AXIS and TRANS DATUM RESET."""
+    """TRANS DATUM AXIS and TRANS DATUM RESET: shift the datum, or undo the shift."""
     head = re.match(r"\s*DATUM\s+(AXIS|RESET)\b", block.body, re.ASCII)
     if head is None:
         unknown(state, block)

@@ -1,6 +1,6 @@
-"""State of a Klartext program: what holds on from block to block, and the values of a block's words.
+"""The state of a Klartext program carries over from block to block; it also evaluates the words of a block.
 
-Everything is millimeters and millimeters per minute whatever the program's unit; positions are programmed ones.
+Lengths and feeds are in millimeters and millimeters per minute whatever the program's unit; positions are programmed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
     {name: (index, False) for index, name in enumerate("XYZ")}
     | {f"I{name}": (index, True) for index, name in enumerate("XYZ")}
 )
-"""Axis words: which axis, and whether the value counts from the last programmed position."""
+"""Axis words: the index of the axis, and True if the value counts from the last programmed position."""
 
 SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
 COMMON_WORDS: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
@@ -45,13 +45,13 @@ Words = dict[str, str]
 class State:
     """What a program has set so far.
 
-    `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since,
-    `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
-    just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the share of the
-    tool's radius that is run with.  `pole` is in coordinates of `pole_plane`, the plane of the axes that CC names.
-    `cycle` is the number of the one that a call runs, `cycle_due` whether M99 calls it after the block.
-    `at_machine_place` are the axes that M91 has sent where only the machine knows; `lost`: the height at
-    which the block starts is one of these.
+    `side` is the side of the last RL (+1), RR (-1) or R0 (0), `applied` the side in effect on the tool's path, `offset`
+    the path's signed radius, and `ahead` the number of blocks that M120 looks ahead.  `last` is the contour element
+    just programmed, None if the next one cannot be tangent to it.  `waiting` takes the steps.  `share` is the fraction
+    of the tool radius that the run uses.  `pole` is in coordinates of `pole_plane`, the plane of the axes in CC.
+    `cycle` is the number of the cycle that a call runs; `cycle_due`: M99 calls it after the block.  `at_machine_place`
+    are the axes that M91, M92 or M140 has sent where only the machine knows; `lost`: the tool axis is one of them when
+    the block starts.
     """
 
     log: Log
@@ -92,15 +92,15 @@ class State:
     last: Element | None = None
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
-        """The control stops at a word of the block, or at its head."""
+        """Stop the control at a word of the block, or at its head."""
         self.log.stop(code, text, block.line, block.column_of(name), lengths=lengths)
 
     def tell(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
-        """Say something about a word of the block, or about the block."""
+        """Report a finding at a word of the block, or at its head."""
         self.log.tell(severity, code, text, block.line, block.column_of(name), lengths=lengths)
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
-        """The block's words, all of them allowed and none twice; M words have their numbers in their names."""
+        """Return the block's words, all of them allowed and none twice; M words have their numbers in their names."""
         words: Words = {}
         for written, number, junk in pattern.findall(block.body):
             name = joined_name(written)
@@ -135,7 +135,7 @@ class State:
         self.stop(code, text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:
-        """The number of a word, as written."""
+        """Return the number of a word, or the value of its formula."""
         raw = words[name]
         try:
             value = float(raw)
@@ -148,7 +148,7 @@ class State:
         return value
 
     def value(self, formula: str, block: Block, name: str = "") -> float:
-        """The value of a formula."""
+        """Return the value of a formula; stop the run if it has none."""
         if "%" in formula:
             text = "cutcomp does not work out % in a formula: the sign of a remainder may differ. Write the result."
             self.stop("BEYOND", text, block, name)
@@ -158,16 +158,16 @@ class State:
         return value
 
     def length(self, block: Block, words: Words, name: str) -> float:
-        """The number of a word that is a length or a feed, in millimeters."""
+        """Return the number of a word that is a length or a feed, in millimeters."""
         return to_mm(self.number(block, words, name), self.unit)
 
     def flat(self, position: Sequence[float], plane: Plane | None = None) -> tuple[Point, float]:
-        """A position as a point of a plane, the working plane if none is given, and the standing axis's coordinate."""
+        """Return a position as a point of a plane, by default the working plane, and its coordinate across it."""
         first, second, third = (self.plane if plane is None else plane).axes
         return (position[first], position[second]), position[third]
 
     def target(self, block: Block, words: Words) -> list[float]:
-        """The position the block's axis words lead to."""
+        """Return the position that the block's axis words lead to."""
         position, self.lost = self.position.copy(), self.plane.axes[2] in self.at_machine_place
         for name in words:
             if name in AXES:
@@ -181,12 +181,12 @@ class State:
         return position
 
     def now_known(self, axes: Collection[int]) -> None:
-        """Absolute words say where these axes are."""
+        """Note that absolute words have set the position of these axes."""
         self.known.update(axes)
         self.at_machine_place.difference_update(axes)
 
     def lose(self, axes: Collection[int]) -> None:
-        """These axes go where only the machine knows."""
+        """Note that these axes go where only the machine knows."""
         self.known.difference_update(axes)
         self.at_machine_place.update(axes)
 
@@ -204,7 +204,7 @@ class State:
         self.side = side
 
     def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
-        """Rapid and feed of the block: FMAX for this block alone, F from here on."""
+        """Return rapid and feed of the block: FMAX applies to this block alone, F from here on."""
         if FEEDS.isdisjoint(words):
             return False, self.feed
         names = [name for name in words if name in FEEDS]
@@ -219,12 +219,12 @@ class State:
         return "FMAX" in words, self.feed
 
     def push(self, step: ProgrammedStep) -> None:
-        """The next step, for the center path."""
+        """Hand the next step on, to the center path."""
         ahead = self.ahead if step.role is Role.CONTOUR else 0
         self.waiting.push(step._replace(ahead=ahead, lost=self.lost))
 
     def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
-        """Take note of a block that moves, and say what it lacks."""
+        """Note that a block moves, and warn if its feed or its start is unknown."""
         self.before = (rapid, feed)
         if rapid:
             return
@@ -240,7 +240,7 @@ class State:
             self.tell(Severity.WARNING, "POSITION", text, block)
 
     def apply(self, block: Block) -> None:
-        """RL or RR takes effect from here on, at the radius of the tool in the spindle."""
+        """Apply RL or RR from here on, at the radius of the tool in the spindle."""
         if not self.side or self.applied == self.side:
             self.applied, self.offset = self.side, self.offset if self.side else 0.0
             return
@@ -259,7 +259,7 @@ class State:
         self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def _take_only_tool(self, block: Block) -> None:
-        """Without a TOOL CALL the tool is the only one of the table, if there is one alone."""
+        """Without a TOOL CALL, take the table's tool if the table has only one."""
         if len(self.tools.tools) == 1:
             (tool,) = self.tools.tools.values()
             self.tool, self.radius = str(tool.number), tool.diameter_mm(self.unit) / 2.0
@@ -267,5 +267,5 @@ class State:
             self.tell(Severity.INFO, "TOOL", text, block)
 
     def release(self) -> None:
-        """Compensation is off."""
+        """Turn compensation off."""
         self.applied, self.offset, self.ahead = 0, 0.0, 0

@@ -412,7 +412,7 @@ def _crosses(element: Element, start: Point, end: Point) -> bool:
 
 
 def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
-    """Return where the last element's offset meets that of the line along a vector through its end, else its E1."""
+    """Return where the last element's offset meets that of the vector through its end, else the square end."""
     size = hypot(*vector)
     if not size:
         return offset_end(last, offset)
