@@ -1,7 +1,6 @@
-"""Clean-up before chaining: pieces without length, equal pieces and overlapping ones, each counted.
+"""Cleans up pieces before chaining: drops those without length and duplicates, joins overlaps, and counts each.
 
-The pieces come out in an order of their own, so that a drawing whose entities are shuffled or drawn backwards gives
-the same contours.
+The result is sorted, so that a drawing whose entities are shuffled or drawn backward gives the same contours.
 """
 
 from __future__ import annotations
@@ -20,19 +19,19 @@ from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.importing.nodes import exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
-"""Millimeters within which pieces may be equal or lie on one line, whatever TOLERANCE is above it."""
+"""Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
 
 NO_LENGTH: Final = 1e-7
 """Millimeters below which a piece is a point."""
 
 ANGLE_CELL: Final = 0.002
-"""Radians: lines whose directions differ by more are not on one line."""
+"""Lines whose directions differ by more than this, in radians, are not collinear."""
 
 KEY_DECIMALS: Final = 6
 
 
 class LayeredPiece(NamedTuple):
-    """A piece in millimeters with its layer and the line of its entity."""
+    """A piece in millimeters with its layer and the line of its entity in the file."""
 
     piece: Piece
     layer: str
@@ -41,7 +40,7 @@ class LayeredPiece(NamedTuple):
 
 @dataclass(slots=True)
 class Cleaned:
-    """The pieces that stay, and how many went: too short, equal to others, joined with what they overlap."""
+    """The pieces that stay, and how many were too short, equal to others, or joined with those they overlap."""
 
     pieces: list[LayeredPiece] = field(default_factory=list)
     tiny: int = 0
@@ -50,11 +49,11 @@ class Cleaned:
 
 
 _Beyond = tuple[tuple[int, ...], tuple[int, ...]]
-"""The rows of the pieces that go on at a piece's start and at its end."""
+"""The rows of the pieces that continue at a piece's start and at its end."""
 
 
 def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
-    """The pieces without what chaining cannot use."""
+    """Return the pieces without those that chaining cannot use."""
     kept = sorted((_oriented(item) for item in pieces), key=_key)
     count = len(kept)
     kept = _without_tiny(kept, tolerance)
@@ -71,19 +70,19 @@ def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
 
 
 def reversed_piece(piece: Piece) -> Piece:
-    """The piece traveled the other way."""
+    """Return the piece traveled the other way."""
     if isinstance(piece, Line):
         return Line(piece.end, piece.start)
     return Arc(piece.end, piece.start, piece.center, Turn(-piece.turn))
 
 
 def is_circle(piece: Piece) -> bool:
-    """Whether a piece is a full circle."""
+    """True if a piece is a full circle."""
     return isinstance(piece, Arc) and piece.start == piece.end
 
 
 def _oriented(item: LayeredPiece) -> LayeredPiece:
-    """The piece from its lower left end on; a full circle counterclockwise from its leftmost point."""
+    """Return the piece from its lower left end; a full circle counterclockwise from its leftmost point."""
     piece = item.piece
     if isinstance(piece, Arc) and piece.start == piece.end:
         (x, y), radius = piece.center, piece.radius
@@ -101,8 +100,8 @@ def _key(item: LayeredPiece) -> tuple[float, ...]:
 
 
 def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPiece]:
-    """Without the pieces that lead nowhere: a run of short ones stays where it is longer than the tolerance."""
-    # one without length has no direction either, wherever it lies
+    """Drop short pieces that lead nowhere; a run of short pieces stays if it extends as far as the tolerance."""
+    # a piece without length has no direction either
     items = [item for item in items if item.piece.length >= NO_LENGTH]
     small = [row for row, item in enumerate(items) if item.piece.length < tolerance]
     if not small:
@@ -123,7 +122,7 @@ def _extent(piece: Piece) -> tuple[Point, ...]:
 
 
 def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
-    """The pieces in groups that hang together."""
+    """Yield the connected groups of pieces, as rows."""
     nodes = exact_nodes(pieces, tolerance)
     seen = [False] * len(pieces)
     for first in range(len(pieces)):
@@ -142,8 +141,8 @@ def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
 
 
 def _without_duplicates(items: list[LayeredPiece], slack: float) -> list[LayeredPiece]:
-    """Without the pieces that another one equals, forward or backward."""
-    # of a piece that is there a thousand times each copy is compared with the one that stays
+    """Drop each piece that equals another one, forward or backward."""
+    # each of perhaps a thousand copies is compared only with the piece that stays
     width, kept = max(slack, 1e-7), list[LayeredPiece]()
     cells: defaultdict[tuple[int, int], list[Piece]] = defaultdict(list)
     for item in items:
@@ -170,13 +169,13 @@ def _equal(first: Piece, second: Piece, slack: float) -> bool:
 
 
 def _without_overlaps(items: list[LayeredPiece], tolerance: float, slack: float) -> list[LayeredPiece]:
-    """With pieces that overlap on one line or one circle joined to one, where an end of one of them leads nowhere.
+    """Join pieces that overlap on one line or one circle, if an end of one of them is loose.
 
-    Where no end is loose, each belongs to a contour of its own that runs along the other one, and stays.
+    If no end is loose, each belongs to a contour of its own that runs along the other one, and both stay.
     """
     before, joined = 0, items
     while len(joined) != before:
-        # an end at which a piece went on that is joined now may be loose
+        # an end may be loose now that the piece beyond it is joined
         before, joined = len(joined), _joined_once(joined, tolerance, slack)
     return joined
 
@@ -198,14 +197,14 @@ def _joined_once(items: list[LayeredPiece], tolerance: float, slack: float) -> l
 
 
 def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[int, int]]:
-    """Pairs of rows of pieces that may overlap on one line or one circle, the lower row first."""
+    """Yield pairs of rows of pieces that may overlap on one line or one circle, the lower row first."""
     circles: defaultdict[tuple[int, ...], list[int]] = defaultdict(list)
     directions: defaultdict[int, list[int]] = defaultdict(list)
     cell = max(4.0 * slack, 1e-6)
     count = int(pi / ANGLE_CELL)
     for row, item in enumerate(items):
         piece = item.piece
-        # each stands in two cells of which the second is half a cell on: what is near shares one of them
+        # each goes into two cells, half a cell apart, so that near pieces share one of them
         for half in (0, 1):
             if isinstance(piece, Arc):
                 numbers = (*piece.center, piece.radius)
@@ -220,16 +219,16 @@ def _candidates(items: Sequence[LayeredPiece], slack: float) -> Iterator[tuple[i
 
 
 def _direction(piece: Piece) -> float:
-    """The direction of a line in radians, the same forward and backward."""
+    """Return the direction of a line in radians, the same forward and backward."""
     (x0, y0), (x1, y1) = piece.start, piece.end
     return atan2(y1 - y0, x1 - x0) % pi
 
 
 def _near_lines(items: Sequence[LayeredPiece], rows: list[int], slack: float) -> list[tuple[int, int]]:
-    """Pairs of lines of nearly one direction whose boxes overlap in a frame that is turned with them."""
+    """Return pairs of nearly parallel lines whose boxes overlap in a frame aligned with them."""
     starts, ends = (np.array([complex(*point) for point in points]) for points in zip(*_ends(items, rows), strict=True))
     along = ends - starts
-    # the mean direction of lines without a sign is half that of their squares
+    # squares ignore a line's sign: the mean direction is half that of their sum
     ahead = np.sqrt((along * along).sum())
     if abs(ahead) == 0.0:
         return []
@@ -248,9 +247,9 @@ def _ends(items: Sequence[LayeredPiece], rows: Sequence[int]) -> list[tuple[Poin
 
 @dataclass(slots=True)
 class _Joiner:
-    """Joins overlapping pieces two at a time; `into` holds the row that a joined one went into.
+    """Joins overlapping pieces two at a time; `into` maps a row to the row it was joined into.
 
-    `beyond` are the rows that go on at the start and at the end of each piece; an end with none is loose.
+    `beyond` holds the rows that continue at the start and at the end of each piece; an end without any is loose.
     """
 
     items: list[LayeredPiece]
@@ -259,10 +258,10 @@ class _Joiner:
     into: dict[int, int] = field(default_factory=dict)
 
     def join(self, first: int, second: int) -> None:
-        """Put what two pieces cover together into the first of them, if they overlap and an end is loose.
+        """Replace the first of two pieces by their union, if they overlap and an end is loose.
 
-        No end at which another piece goes on may be lost inside the joined one: a stray line opens no contour.  A piece
-        that the other one overlaps too is joined with them next.
+        No end where another piece continues may vanish inside the union: a stray line opens no contour.  An exception
+        is a piece that the other of the two overlaps as well: it is joined with them next.
         """
         first, second = self._row(first), self._row(second)
         both = self.beyond.get(first, ((), ())), self.beyond.get(second, ((), ()))
@@ -276,9 +275,9 @@ class _Joiner:
         pieces = self.items[first].piece, self.items[second].piece
         for row, end in {(0, 0), (0, 1), (1, 0), (1, 1)}.difference(ends):
             at, other = (pieces[row].start, pieces[row].end)[end], pieces[1 - row]
-            going_on = {self._row(each) for each in both[row][end]} - {first, second}
+            continuing = {self._row(neighbor) for neighbor in both[row][end]} - {first, second}
             if min(dist(at, other.start), dist(at, other.end)) > self.slack and any(
-                _union(self.items[each].piece, other, self.slack) is None for each in going_on
+                _union(self.items[neighbor].piece, other, self.slack) is None for neighbor in continuing
             ):
                 return
         self.into[second] = first
@@ -292,11 +291,11 @@ class _Joiner:
 
 
 _EndsOf = tuple[tuple[int, int], tuple[int, int]]
-"""Of the joined piece's start and end: which piece it comes from, and which end of that."""
+"""For the start and the end of a union: which piece it comes from, and which end of that piece."""
 
 
 def _union(first: Piece, second: Piece, slack: float) -> tuple[Piece, _EndsOf] | None:
-    """The two pieces as one, if they overlap by more than the slack."""
+    """Return the two pieces as one if they overlap by more than the slack, else None."""
     if isinstance(first, Line) and isinstance(second, Line):
         return _line_union(first, second, slack)
     if isinstance(first, Arc) and isinstance(second, Arc):
@@ -353,6 +352,6 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] |
 
 
 def _angle(center: Point, first: Point, second: Point) -> float:
-    """The angle from one point to another about a center, counterclockwise, 0 to a full turn."""
+    """Return the counterclockwise angle from one point to another about a center, 0 to a full turn."""
     angles = [atan2(point[1] - center[1], point[0] - center[0]) for point in (first, second)]
     return (angles[1] - angles[0]) % tau

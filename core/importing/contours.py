@@ -1,4 +1,4 @@
-"""Contours of a drawing: its shapes in millimeters, cleaned, chained, joined, nested and put in the order of a list.
+"""Turns a drawing's shapes into contours: scaled to millimeters, cleaned, chained, joined, nested and sorted.
 
 `contours_of` is all that an import screen or command needs; it takes a drawing as read and the operator's options.
 """
@@ -31,30 +31,30 @@ from core.importing.nesting import boxes_of, containers, crossings
 from core.units import Kind, Unit, from_mm, show
 
 TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
-"""Millimeters within which ends are joined unless the operator says otherwise, by the program's unit."""
+"""Largest distance in millimeters of ends that are joined, by the program's unit; the operator may change it."""
 
 MAX_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.1 * 25.4, Unit.MM: 2.0}
 
 FIT: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
-"""Millimeters by which arcs may leave a curve, or a run of lines, by the program's unit."""
+"""Largest deviation in millimeters of arcs from a curve or a run of lines, by the program's unit."""
 
 BRANCH_REACH: Final = 2.0
-"""Tolerances from a branch within which a contour ends there."""
+"""A contour ends at a branch if its end is within this many tolerances of it."""
 
 SAME_PLACE: Final = 1e-4
-"""Millimeters that count as the tolerance where that is smaller."""
+"""Millimeters that replace a smaller tolerance there."""
 
 MAX_CROSSING_CHECK: Final = 2000
-"""Closed contours of which it is found out whether they touch."""
+"""Above this many closed contours, crossings are not searched."""
 
 Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
 class ImportOptions:
-    """What the operator chose; `tolerance` and `fit` in millimeters.  `layers` None stands for all of them.
+    """The operator's choices; `tolerance` and `fit` in millimeters.  `layers` None means all layers.
 
-    Sentences give lengths in the unit `program`; None is that of a program made of the drawing alone.
+    Messages give lengths in the unit `program`; None means that of a program made from this drawing alone.
     """
 
     unit: DrawingUnit
@@ -65,19 +65,19 @@ class ImportOptions:
 
     @staticmethod
     def usual(unit: DrawingUnit, program: Unit | None = None) -> ImportOptions:
-        """The usual tolerances of a program's unit."""
+        """Return the options with the usual tolerances of a program's unit."""
         usual = program or unit.program_unit
         return ImportOptions(unit, TOLERANCE[usual], FIT[usual], program=program)
 
     @property
     def program_unit(self) -> Unit:
-        """The unit in which sentences give lengths."""
+        """The unit of lengths in messages."""
         return self.program or self.unit.program_unit
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A place where more than two ends meet, and the numbers of the open contours that end there."""
+    """A point where more than two ends meet, and the numbers of the open contours that end there."""
 
     at: Point
     ways: int
@@ -86,9 +86,9 @@ class Branch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ContourList:
-    """All contours of a drawing, the largest first and holes behind what they lie in, open ones last.
+    """All contours of a drawing: largest first, holes after the contour around them, open ones last.
 
-    `tiny`, `duplicates` and `overlaps` count what clean-up took out.  `notes` are sentences for the operator.
+    `tiny`, `duplicates` and `overlaps` count what clean-up removed.  `notes` are sentences for the operator.
     """
 
     drawing: Drawing
@@ -103,7 +103,7 @@ class ContourList:
 
     @property
     def unit(self) -> Unit:
-        """The unit in which sentences give lengths."""
+        """The unit of lengths in messages."""
         return self.options.program_unit
 
 
@@ -112,10 +112,10 @@ def _silent(_stage: str, _done: int, _whole: int) -> None:
 
 
 def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _silent) -> ContourList:
-    """The contours of a drawing; DrawingError NOT_FLAT where a chosen layer holds what does not lie in the plane."""
-    for bad in drawing.not_flat:
-        if options.layers is None or bad.layer in options.layers:
-            raise DrawingError("NOT_FLAT", bad.text)
+    """Return the contours of a drawing; DrawingError NOT_FLAT if a chosen layer has an entity outside the plane."""
+    for entity in drawing.not_flat:
+        if options.layers is None or entity.layer in options.layers:
+            raise DrawingError("NOT_FLAT", entity.text)
     shapes = [drawn for drawn in drawing.shapes if options.layers is None or drawn.layer in options.layers]
     pieces = _pieces(shapes, options, progress)
     progress("cleaning", 0, 1)
@@ -143,7 +143,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
 
 
 def _pieces(shapes: Sequence[Drawn], options: ImportOptions, progress: Progress) -> list[LayeredPiece]:
-    """The shapes as pieces in millimeters, curves as arcs."""
+    """Return the shapes as pieces in millimeters, with curves as arcs."""
     scale, pieces = options.unit.mm, list[LayeredPiece]()
     for number, drawn in enumerate(shapes):
         if number % 100 == 0:
@@ -163,7 +163,7 @@ def _scaled(drawn: Drawn, scale: float, fit: float) -> Sequence[Piece]:
         case BSpline(degree, points, weights, knots):
             pieces = pieces_of_spline(BSpline(degree, points * scale, weights, knots), fit)
             at = (float(points[0].real) * scale, float(points[0].imag) * scale)
-            # one without length is counted with what is too short
+            # a spline without length counts as a piece that is too short
             return pieces or [Line(at, at)]
 
 
@@ -172,7 +172,7 @@ def _times(point: Point, scale: float) -> Point:
 
 
 def _contour(chain: Chain, items: Sequence[LayeredPiece], tolerance: float) -> Contour:
-    """A chain joined, not yet numbered; an open one from its lower left end on."""
+    """Join a chain into a contour without a number; an open one starts at its lower left end."""
     rows = [items[link.row] for link in chain.links]
     pieces = [
         item.piece if link.forward else reversed_piece(item.piece) for item, link in zip(rows, chain.links, strict=True)
@@ -190,9 +190,9 @@ def _contour(chain: Chain, items: Sequence[LayeredPiece], tolerance: float) -> C
 
 
 def with_joined(listed: ContourList, first: int, second: int) -> ContourList | None:
-    """The list with two open contours that meet at a branch as one, numbered anew; None where they do not meet.
+    """Join two open contours that meet at a branch, and renumber the list; None if they do not meet.
 
-    A contour that lies in as many others as before keeps its start and its direction.
+    A contour keeps its start and its direction unless its kind changes.
     """
     pair = [next(contour for contour in listed.contours if contour.number == number) for number in (first, second)]
     tolerance, unit = listed.options.tolerance, listed.unit
@@ -202,17 +202,17 @@ def with_joined(listed: ContourList, first: int, second: int) -> ContourList | N
     rest = [contour for contour in listed.contours if contour not in pair]
     made = [*rest, replace(joined, number=0)]
     contours = _with_open_gaps(_nested([_fresh(contour) for contour in made]), unit, tolerance)
-    places = [(branch.at, branch.ways) for branch in listed.branches]
-    return replace(listed, contours=tuple(contours), branches=_branches(places, contours, tolerance))
+    nodes = [(branch.at, branch.ways) for branch in listed.branches]
+    return replace(listed, contours=tuple(contours), branches=_branches(nodes, contours, tolerance))
 
 
 def _fresh(contour: Contour) -> Contour:
-    """A contour without what its place in the list says of it."""
+    """Return a contour without the values that depend on the rest of the list."""
     return replace(contour, problems=(), open_gap=None, open_gap_to=0)
 
 
 def _nested(contours: Sequence[Contour]) -> list[Contour]:
-    """In the order of the list, with nesting, direction and start; open ones last, the longest first."""
+    """Return the contours in list order with nesting, direction and start; open ones last, longest first."""
     closed = _by_size([contour for contour in contours if contour.closed])
     inside = containers([contour.pieces for contour in closed])
     met = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
@@ -250,7 +250,7 @@ def _kind(depth: int) -> ContourKind:
 
 
 def _by_size(contours: Sequence[Contour]) -> list[Contour]:
-    """The largest first; those of one size by their places."""
+    """Sort contours by size, largest first; those of equal size by position."""
     keys = [
         (-round(contour.area, KEY_DECIMALS), rounded(box[:2]), rounded(contour.start))
         for contour, box in zip(contours, boxes_of([contour.pieces for contour in contours]), strict=True)
@@ -263,7 +263,7 @@ def _by_length(contour: Contour) -> tuple[float, ...]:
 
 
 def _directed(contour: Contour) -> Contour:
-    """Climb milling with the tool on the left: an outside contour clockwise, a hole counterclockwise."""
+    """Direct a contour for climb milling with the tool on the left: a hole counterclockwise, any other clockwise."""
     wanted = Turn.CCW if contour.kind is ContourKind.HOLE else Turn.CW
     if contour.turn is not wanted:
         contour = reversed_contour(contour)
@@ -271,7 +271,7 @@ def _directed(contour: Contour) -> Contour:
 
 
 def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> list[Contour]:
-    """Open contours with the distance to the nearest loose end, of another one or of their own."""
+    """Give each open contour the distance to the nearest loose end, another contour's or its own."""
     ends = [
         (end, row)
         for row, contour in enumerate(contours)
@@ -304,27 +304,27 @@ def _with_gap(contour: Contour, gap: float, other: int, contours: Sequence[Conto
 
 
 def _rounded_up(gap: float, unit: Unit) -> str:
-    """A tolerance in program units that a gap is within."""
+    """Return a gap rounded up to a TOLERANCE, in program units, that joins it."""
     value = from_mm(gap, unit)
-    shown = show(value, Kind.LENGTH, unit)
+    text = show(value, Kind.LENGTH, unit)
     step = 0.0001 if unit is Unit.IN else 0.001
-    return shown if float(shown) >= value - 1e-9 else show(value + step, Kind.LENGTH, unit)
+    return text if float(text) >= value - 1e-9 else show(value + step, Kind.LENGTH, unit)
 
 
-def _branches(places: Sequence[tuple[Point, int]], contours: Sequence[Contour], tolerance: float) -> tuple[Branch, ...]:
-    """The branches, each with the open contours that end there."""
+def _branches(nodes: Sequence[tuple[Point, int]], contours: Sequence[Contour], tolerance: float) -> tuple[Branch, ...]:
+    """Return the branches, each with the open contours that end there."""
     ends = [
         (end, contour.number)
         for contour in contours
         if not contour.closed
         for end in (contour.pieces[0].start, contour.pieces[-1].end)
     ]
-    if not ends or not places:
-        return tuple(Branch(at, ways) for at, ways in places)
+    if not ends or not nodes:
+        return tuple(Branch(at, ways) for at, ways in nodes)
     tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
-    spots = [shapely.Point(at) for at, _ in places]
-    here: dict[int, list[int]] = {}
+    points = [shapely.Point(at) for at, _ in nodes]
+    numbers: dict[int, list[int]] = {}
     reach = BRANCH_REACH * max(tolerance, SAME_PLACE)
-    for branch, end in tree.query(spots, predicate="dwithin", distance=reach).T.tolist():
-        here.setdefault(branch, []).append(ends[end][1])
-    return tuple(Branch(at, ways, tuple(sorted(here.get(row, ())))) for row, (at, ways) in enumerate(places))
+    for branch, end in tree.query(points, predicate="dwithin", distance=reach).T.tolist():
+        numbers.setdefault(branch, []).append(ends[end][1])
+    return tuple(Branch(at, ways, tuple(sorted(numbers.get(row, ())))) for row, (at, ways) in enumerate(nodes))

@@ -1,7 +1,7 @@
-"""Curves as tangent arcs: ellipses and B-splines become biarcs that leave them nowhere by more than FIT.
+"""Fits ellipses and B-splines with tangent arcs (biarcs) that deviate from them by no more than FIT.
 
-A biarc is two arcs that meet tangentially, with given ends and given tangents there.  A curve is cut at its corners;
-from there on each biarc reaches as far as it may.  Millimeters; points are complex numbers.
+A biarc is two arcs that meet tangentially, with given ends and given tangents there.  A curve is split at its corners;
+between them each biarc is as long as FIT allows.  Millimeters; points are complex numbers.
 
 Formula of the biarc with equal tangent lengths d: |v|^2 - 2 d v.(t1 + t2) - 2 d^2 (1 - t1.t2) = 0 for the chord v and
 the unit tangents t1, t2; K. M. Bolton, "Biarc curves", Computer-Aided Design 7 (1975).
@@ -25,56 +25,56 @@ Points = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 
 SHARES: Final = np.linspace(0.0, 1.0, 25)
-"""Places of a biarc at which its distance from the curve is measured, as shares of its parameters in each span."""
+"""Where the distance of a biarc from the curve is sampled, as fractions of its parameter range in each span."""
 
 MARGIN: Final = 0.98
-"""Share of FIT that the sampled distance may reach: between two samples it is a little larger."""
+"""Fraction of FIT that the sampled distance may reach; between two samples it is a little larger."""
 
 CORNER: Final = 1e-3
-"""Radians by which a curve turns at a knot that is a corner."""
+"""A knot is a corner if the curve turns there by more than this, in radians."""
 
 MAX_BEND: Final = 0.55 * pi
-"""Radians by which a curve may turn within one biarc."""
+"""Largest turn of a curve within one biarc, in radians."""
 
 STRAIGHT: Final = 1e-6
-"""Millimeters by which a curve that counts as a line may leave its chord."""
+"""Largest distance in millimeters of a curve that counts as a line from its chord."""
 
 MAX_RADIUS: Final = 100_000.0
-"""Millimeters of the largest radius that is worth an arc: its center lies beyond what a form takes."""
+"""Largest radius of an arc in millimeters: beyond it the center is out of a form's range."""
 
 SAME_ARC: Final = 1e-6
-"""Millimeters by which centers and radii of two arcs that are one arc may differ."""
+"""Two arcs are one if centers and radii differ by no more than this: millimeters, times a radius above 1."""
 
 ROUND: Final = 1e-9
-"""Relative difference of the half diameters of an ellipse that is a circle."""
+"""Largest relative difference of an ellipse's semi-diameters that makes it a circle."""
 
 SHORTEST: Final = 10.0
-"""Times FIT that an arc is long at least, where FIT can be held with it."""
+"""Shortest arc as a multiple of FIT; shorter ones remain only if FIT requires them."""
 
 MOVED_STOPS: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
-"""Shares of two biarcs at which the stop between them is tried."""
+"""Fractions of the range of two neighboring biarcs at which a new stop between them is tried."""
 
 LONGER: Final = 1.5
-"""Times by which the shortest arc must be longer, so that a stop is moved."""
+"""A stop is moved only if the shortest arc grows by more than this factor."""
 
 LONG_ENOUGH: Final = 0.6
-"""Share of the others' length from which on the last biarc is left as it is."""
+"""The last biarc stays as it is if it has at least this fraction of the others' length."""
 
 ENOUGH: Final = 0.9
-"""Share of FIT from which on a biarc counts as the longest."""
+"""A biarc counts as the longest if its error is at least this fraction of FIT."""
 
 GRID: Final = 32
-"""Samples of each smooth span in which curvature is looked at."""
+"""Curvature samples per smooth span."""
 
 
 class Curve(Protocol):
     """A smooth curve over a parameter."""
 
     def at(self, parameters: Floats) -> tuple[Points, Points]:
-        """(n,) points at these parameters, and (n,) derivatives there, which are no unit vectors."""
+        """Return (n,) points at these parameters and (n,) derivatives there, which are not unit vectors."""
 
     def samples(self, first: float, last: float) -> Floats:
-        """Parameters from one to another at which a biarc's distance from the curve is measured."""
+        """Return the parameters between two others at which a biarc's distance from the curve is measured."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,7 +87,7 @@ class _EllipseCurve:
         return self.shape.center + ahead * first + across * second, ahead * second - across * first
 
     def samples(self, first: float, last: float) -> Floats:
-        """Evenly spread."""
+        """Return evenly spaced parameters."""
         return first + (last - first) * SHARES
 
 
@@ -95,14 +95,14 @@ class _EllipseCurve:
 class _SplineCurve:
     """Bezier spans of one degree: (degree + 1, spans) control points x + iy, each times its weight, and the weights.
 
-    The parameter counts spans.  `weights` is None where all are alike.
+    The parameter counts spans.  `weights` is None if all are equal.
     """
 
     control: Points
     weights: Floats | None
 
     def at(self, parameters: Floats) -> tuple[Points, Points]:
-        """By repeated interpolation (de Casteljau); the last two points but one give the derivative."""
+        """Evaluate by de Casteljau's interpolation; the last two points before the result give the derivative."""
         span = np.minimum(parameters.astype(np.intp), self.control.shape[1] - 1)
         share = parameters - span
         point, tangent = _interpolated(self.control[:, span], share)
@@ -113,13 +113,13 @@ class _SplineCurve:
         return point / weight, (tangent * weight - point * change) / (weight * weight)
 
     def samples(self, first: float, last: float) -> Floats:
-        """As many in each span: a long one may stand beside very short ones."""
+        """Return equally many parameters in each span, since a long span may be next to very short ones."""
         stops = np.array([first, *range(floor(first) + 1, ceil(last)), last])
         begins, sizes = stops[:-1, None], np.diff(stops)[:, None]
         return np.append((begins + sizes * SHARES[:-1]).ravel(), last)
 
     def part(self, first: int, last: int) -> _SplineCurve:
-        """Spans first ... last - 1: at its end it has the direction in which it arrives, whatever comes next."""
+        """Return spans first ... last - 1 as a curve; its end direction does not depend on the span after it."""
         return _SplineCurve(self.control[:, first:last], None if self.weights is None else self.weights[:, first:last])
 
 
@@ -127,7 +127,7 @@ Row = TypeVar("Row", Points, Floats)
 
 
 def _interpolated(rows: Row, share: Floats) -> tuple[Row, Row]:
-    """Values and derivatives of the polynomials with Bezier coefficients `rows`, (degree + 1, n), at (n,) shares."""
+    """Return values and derivatives of polynomials with Bezier coefficients `rows`, (degree + 1, n), at (n,) shares."""
     degree = len(rows) - 1
     while len(rows) > 2:
         rows = rows[:-1] + (rows[1:] - rows[:-1]) * share
@@ -136,7 +136,7 @@ def _interpolated(rows: Row, share: Floats) -> tuple[Row, Row]:
 
 
 def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
-    """An ellipse, or a part of one, as arcs; a circle is one arc, or a line where it is as flat as FIT."""
+    """Return an ellipse, or part of one, as arcs; a circle is one arc, or a line if it is flat within FIT."""
     a, b = abs(shape.first), abs(shape.second)
     across = abs((shape.first.conjugate() * shape.second).real)
     if abs(a - b) <= ROUND * max(a, b) and across <= ROUND * a * b:
@@ -146,7 +146,7 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
     flat = abs((shape.first.conjugate() * shape.second).imag)
     if flat <= STRAIGHT * max(a, b):
         return _flattened(shape)
-    # drawings repeat an ellipse of one size again and again
+    # cached about the origin: drawings often repeat an ellipse of one size
     x, y = shape.center.real, shape.center.imag
     return [
         _moved(piece, x, y) for piece in _ellipse_about_origin(shape.first, shape.second, shape.begin, shape.end, fit)
@@ -155,7 +155,7 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
 
 @lru_cache(maxsize=256)
 def _ellipse_about_origin(first: complex, second: complex, begin: float, end: float, fit: float) -> tuple[Piece, ...]:
-    """The arcs of an ellipse about the origin; each quarter is that before it, mirrored."""
+    """Return the arcs of an ellipse about the origin; each quarter mirrors the one before it."""
     shape = EllipseArc(0j, first, second, begin, end)
     curve, stations = _EllipseCurve(shape), _ellipse_stations(shape)
     stops, quarter, row = stations[:1], list[float](), 0
@@ -190,7 +190,7 @@ def _circle(shape: EllipseArc) -> Arc:
 
 
 def _flattened(shape: EllipseArc) -> list[Piece]:
-    """An ellipse seen from its edge: lines from each end of its travel to the next."""
+    """Return the lines of an ellipse seen edge-on, from each reversal of its travel to the next."""
     first, second = (
         (shape.first, shape.second) if abs(shape.first) >= abs(shape.second) else (shape.second, shape.first)
     )
@@ -203,7 +203,7 @@ def _flattened(shape: EllipseArc) -> list[Piece]:
 
 
 def _ellipse_stations(shape: EllipseArc) -> list[float]:
-    """The ends of an ellipse's part and its vertices between them, where its curvature is extreme."""
+    """Return the ends of part of an ellipse and the vertices between them, where its curvature is extreme."""
     u, v = shape.first, shape.second
     axis = 0.5 * atan2(2.0 * (u.conjugate() * v).real, abs(u) ** 2 - abs(v) ** 2)
     first = ceil((shape.begin - axis) / (pi / 2) + ROUND)
@@ -213,13 +213,13 @@ def _ellipse_stations(shape: EllipseArc) -> list[float]:
 
 
 def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
-    """A B-spline as arcs and lines."""
+    """Return a B-spline as arcs and lines."""
     curve = _bezier_curve(shape)
     return [piece for first, last in _smooth_runs(curve) for piece in _fitted(curve.part(first, last), fit)]
 
 
 def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
-    """A smooth curve as arcs and lines: divided where its curvature is extreme, or as a whole, whichever is fewer."""
+    """Return a smooth curve as arcs and lines: split at its curvature extremes or not, whichever needs fewer."""
     end = float(curve.control.shape[1])
     stations = _extremes(curve, 0.0, end)
     divided = [_stops(curve, here, there, fit * MARGIN) for here, there in pairwise(stations) if there > here]
@@ -230,7 +230,7 @@ def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
 
 
 def _bezier_curve(shape: BSpline) -> _SplineCurve:
-    """The Bezier spans of every stretch between knots that has a length, by blossoming."""
+    """Return the Bezier span of every knot interval that has a length, by blossoming."""
     degree, knots = shape.degree, shape.knots
     size = float(knots[-1] - knots[0])
     spans = [k for k in range(degree, len(shape.points)) if knots[k + 1] - knots[k] > 1e-12 * size]
@@ -241,7 +241,7 @@ def _bezier_curve(shape: BSpline) -> _SplineCurve:
 
 
 def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points:
-    """Control point j of the span from knot k: the blossom at degree - j times its begin and j times its end."""
+    """Return control point j of the span from knot k: the blossom at degree - j times its start and j times its end."""
     values = rows[k - degree : k + 1]
     arguments = [knots[k]] * (degree - j) + [knots[k + 1]] * j
     for level, at in enumerate(arguments, 1):
@@ -254,7 +254,7 @@ def _blossom(rows: Points, knots: Floats, degree: int, k: int, j: int) -> Points
 
 
 def _smooth_runs(curve: _SplineCurve) -> list[tuple[int, int]]:
-    """The stretches between the corners, as spans; spans without length belong to none."""
+    """Return the runs of spans between corners as (first, after last); spans without length belong to none."""
     count = curve.control.shape[1]
     flat = curve.control if curve.weights is None else curve.control / curve.weights
     spread = np.maximum(np.ptp(flat.real, axis=0), np.ptp(flat.imag, axis=0))
@@ -277,7 +277,7 @@ def _is_smooth(curve: _SplineCurve, span: int) -> bool:
 
 
 def _extremes(curve: Curve, first: float, last: float) -> list[float]:
-    """A stretch's ends, and where between them its curvature is extreme or changes its sign."""
+    """Return the ends of a stretch and, between them, where its curvature is extreme or changes sign."""
     at = np.linspace(first, last, max(int(last - first) * GRID, GRID) + 1)
     _, tangents = curve.at(at)
     size = np.abs(tangents)
@@ -291,22 +291,22 @@ def _extremes(curve: Curve, first: float, last: float) -> list[float]:
 
 
 def _biarcs(curve: Curve, stops: list[float], fit: float) -> list[Piece]:
-    """The biarcs from stop to stop, none shorter than it must be."""
+    """Return the biarcs from stop to stop, none shorter than it must be."""
     stops = _without_short_arcs(curve, stops, fit)
     return _merged([piece for first, last in pairwise(stops) for piece in _biarc_between(curve, first, last)[0]])
 
 
 def _without_short_arcs(curve: Curve, stops: list[float], fit: float) -> list[float]:
-    """The stops without those that make arcs shorter than `SHORTEST` times FIT, as far as FIT allows.
+    """Remove the stops that make arcs shorter than `SHORTEST` times FIT, if FIT allows it.
 
-    A biarc with such an arc is joined with its neighbor, or the stop between the two is moved.
+    A biarc with such an arc is merged with its neighbor, or the stop between the two is moved.
     """
     biarcs = [_biarc_between(curve, first, last)[0] for first, last in pairwise(stops)]
     row = 0
     while row < len(biarcs):
         change = None
         if _shortest(biarcs[row]) < SHORTEST * fit:
-            change = next(filter(None, (_mended(curve, stops, biarcs, at, fit) for at in (row, row + 1))), None)
+            change = next(filter(None, (_replacement(curve, stops, biarcs, at, fit) for at in (row, row + 1))), None)
         if change is None:
             row += 1
             continue
@@ -314,15 +314,15 @@ def _without_short_arcs(curve: Curve, stops: list[float], fit: float) -> list[fl
         stops[at : at + 1] = between
         ends = [stops[at - 1], *between, stops[at + len(between)]]
         biarcs[at - 1 : at + 1] = [_biarc_between(curve, first, last)[0] for first, last in pairwise(ends)]
-        # a longer one may have a neighbor that can be joined with it now
+        # a neighbor may merge with the longer biarc now
         row = max(at - 2, 0)
     return stops
 
 
-def _mended(
+def _replacement(
     curve: Curve, stops: list[float], biarcs: list[list[Piece]], at: int, fit: float
 ) -> tuple[int, list[float]] | None:
-    """An inner stop and what is to be in its place: nothing, or a stop that leaves both neighbors longer arcs."""
+    """Return an inner stop and its replacement: nothing, or a stop that gives both neighbors longer arcs."""
     if not 0 < at < len(stops) - 1:
         return None
     begin, end = stops[at - 1], stops[at + 1]
@@ -348,7 +348,7 @@ def _balanced_stops(curve: Curve, begin: float, end: float, fit: float) -> list[
 
 
 def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:
-    """As many stops, but the last biarc is about as long as the others: all hold a smaller tolerance."""
+    """Even out the stops: with the last biarc about as long as the others, all hold a tighter tolerance."""
     if len(stops) == 2:
         return stops
     # the error of a biarc grows with the cube of its length
@@ -364,7 +364,7 @@ def _balanced(curve: Curve, stops: list[float], fit: float) -> list[float]:
 
 
 def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
-    """Parameters at which the biarcs end."""
+    """Return the parameters at which the biarcs end, from the first to the last."""
     stops, step = [begin], end - begin
     while stops[-1] < end:
         here = stops[-1]
@@ -374,7 +374,7 @@ def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
 
 
 def _longest(curve: Curve, here: float, step: float, most: float, fit: float) -> float:
-    """The longest step within FIT, to `ENOUGH` of FIT; the error of a biarc grows with the cube of its length."""
+    """Return the longest step within FIT, to `ENOUGH` of FIT; a biarc's error grows with the cube of its length."""
     low, high = 0.0, 0.0
     for _ in range(60):
         error = _biarc_between(curve, here, here + step)[1]
@@ -394,7 +394,7 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
 
 
 def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
-    """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
+    """Return the biarc between two parameters and its distance from the curve, infinite if it turns too much."""
     points, tangents = curve.at(curve.samples(first, last))
     start, end = complex(points[0]), complex(points[-1])
     turned = tangents[1:] * tangents[:-1].conj()
@@ -410,7 +410,7 @@ def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece]
 
 
 def _off_chord(points: Points) -> float:
-    """How far points that go from the first to the last leave the line between these two."""
+    """Return how far points deviate from the line between the first and the last of them."""
     chord = complex(points[-1] - points[0])
     size = abs(chord)
     if size == 0.0:
@@ -421,7 +421,7 @@ def _off_chord(points: Points) -> float:
 
 
 def biarc(start: complex, end: complex, first: complex, last: complex) -> list[Piece]:
-    """The two arcs, or an arc and a line, from start to end with these unit tangents; equal tangent lengths."""
+    """Return the two arcs, or an arc and a line, that join two ends with these unit tangents; equal tangent lengths."""
     chord = end - start
     across = first + last
     a, b, c = 2.0 * (1.0 - _dot(first, last)), 2.0 * _dot(chord, across), -(abs(chord) ** 2)
@@ -439,7 +439,7 @@ def _dot(u: complex, v: complex) -> float:
 
 
 def _tangent_arc(start: complex, end: complex, tangent: complex, *, backwards: bool = False) -> Piece:
-    """The arc that leaves `start` along a tangent and reaches `end`; a line where its radius would be too large."""
+    """Return the arc that leaves `start` along a tangent and reaches `end`; a line if its radius would be too large."""
     chord = end - start
     normal = tangent * 1j
     side = 2.0 * _dot(chord, normal)
@@ -461,7 +461,7 @@ def _point(value: complex) -> Point:
 
 
 def _deviation(points: Points, pieces: list[Piece]) -> float:
-    """How far points are from one or two tangent pieces that run along them; each belongs to the piece beside it."""
+    """Return how far points are from one or two tangent pieces along them; each belongs to the piece next to it."""
     off = _off_carrier(points, pieces[0])
     if len(pieces) == 2:
         joint, along = complex(*pieces[0].end), complex(*pieces[0].direction_at(pieces[0].end))
@@ -471,7 +471,7 @@ def _deviation(points: Points, pieces: list[Piece]) -> float:
 
 
 def _off_carrier(points: Points, piece: Piece) -> Floats:
-    """The distances of points from the circle or the line on which a piece lies."""
+    """Return the distances of points from the circle or line that carries a piece."""
     if isinstance(piece, Arc):
         return np.abs(np.abs(points - complex(*piece.center)) - piece.radius)
     start = complex(*piece.start)
@@ -481,7 +481,7 @@ def _off_carrier(points: Points, piece: Piece) -> Floats:
 
 
 def _merged(pieces: list[Piece]) -> list[Piece]:
-    """The pieces, with arcs of one circle and lines of one direction that follow one another made one."""
+    """Merge consecutive arcs of one circle, and consecutive lines of one direction."""
     merged: list[Piece] = []
     for piece in pieces:
         last = merged[-1] if merged else None

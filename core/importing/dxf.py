@@ -1,6 +1,6 @@
-"""DXF in: the entities of a drawing's model space as shapes in its own unit, by the package ezdxf.
+"""Reads the entities in a DXF drawing's model space as shapes in its own unit, with the package ezdxf.
 
-Whatever is not taken is counted or told; what was read is compared with what the tags of the file hold.
+Whatever is not taken is counted or reported; what was read is compared with the tags of the file.
 """
 
 from __future__ import annotations
@@ -46,19 +46,19 @@ if TYPE_CHECKING:
     from ezdxf.math import OCS, Matrix44, Vec3
 
 FLAT: Final = 1e-4
-"""How far the Z of one entity's points may differ, in the drawing's unit: more than rounding is a slope."""
+"""Largest difference in Z of one entity's points, in the drawing's unit; a larger one is a slope, not rounding."""
 
 LARGEST_SAGITTA: Final = 0.005
-"""How high an arc may be, in the drawing's unit, that is a line because its center lies out of reach."""
+"""Largest sagitta, in the drawing's unit, of an arc read as a line because its center is out of range."""
 
 ROUND: Final = 1e-9
-"""Relative difference of two half diameters, and of their angle from a right one, that rounding explains."""
+"""Two angles within this, in radians, of equal or of a full turn apart are the full circle."""
 
 STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
 
 Progress = Callable[[str, int, int], None]
-"""Called with the stage, how much of it is done, and how much there is."""
+"""Called with the stage, the amount of it that is done, and its total."""
 
 
 def _silent(_stage: str, _done: int, _whole: int) -> None:
@@ -66,9 +66,9 @@ def _silent(_stage: str, _done: int, _whole: int) -> None:
 
 
 def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progress = _silent) -> Drawing:
-    """The drawing of a DXF file's bytes; `name` is the file's in sentences.
+    """Return the drawing in a DXF file's bytes; `name` is the file's name in messages.
 
-    With `damaged` a file that breaks off is read as far as its entities are whole.  Raises DrawingError.
+    With `damaged`, what can be read of a damaged file is taken.  Raises DrawingError.
     """
     if len(data) > MAX_BYTES:
         raise too_much("bytes", len(data), MAX_BYTES)
@@ -89,7 +89,7 @@ def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progres
         reader.read(scan)
     except DrawingError:
         raise
-    except Exception as error:  # what is damaged may show only where it is used
+    except Exception as error:  # damage may not show before it is used
         raise damaged_file(words_of(error)) from error
     drawing = reader.drawing(scan)
     if not drawing.shapes and not drawing.not_flat:
@@ -111,14 +111,14 @@ def _no_geometry(drawing: Drawing) -> str:
 
 _SKIPPED_ALWAYS: Final = frozenset({"ATTDEF", "VIEWPORT"})
 
-_SHOWN_KINDS: Final = frozenset(
+_CONTOUR_KINDS: Final = frozenset(
     {"LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "SPLINE", "ELLIPSE", "INSERT"}
 )  # fmt: skip
 
 
 @dataclass(slots=True)
 class _Reader:
-    """Goes through model space; INSERTs are followed with their transformation."""
+    """Walks through model space; follows INSERTs with their transformation."""
 
     document: Document
     progress: Progress
@@ -133,10 +133,10 @@ class _Reader:
     lines: dict[int, ScannedEntity] = field(default_factory=dict)
     layers: dict[str, tuple[bool, bool]] = field(default_factory=dict)
     scanned: dict[str, list[ScannedEntity]] = field(default_factory=dict)
-    """The entities of each block that is not compared yet, by the block's name in small letters."""
+    """The entities of each block that is not compared yet, by the block's name in lower case."""
 
     def read(self, scan: Scan) -> None:
-        """Every entity of model space; what paper space holds is counted."""
+        """Read every entity of model space; count those of paper space."""
         entities = list(self.document.modelspace())
         if len(entities) > MAX_ENTITIES:
             raise too_much("entities", len(entities), MAX_ENTITIES)
@@ -158,7 +158,7 @@ class _Reader:
                 self.skipped[f"{kind} in paper space"] += count
 
     def _compare(self, entities: list[DXFGraphic], scan: Scan) -> None:
-        """Find the line of each entity, and refuse a file of which ezdxf has lost something."""
+        """Find the line of each entity, and refuse a file of which ezdxf has lost an entity."""
         self.scanned = scan.blocks
         in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
         self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)
@@ -170,19 +170,19 @@ class _Reader:
         if kinds == [entity.kind for entity in scanned]:
             self.lines |= {id(entity): place for entity, place in zip(entities, scanned, strict=True)}
             return
-        have = Counter([*kinds, *(entity.dxftype() for entity in others)])
+        counts = Counter([*kinds, *(entity.dxftype() for entity in others)])
         lost = {
-            kind: count - have[kind]
+            kind: count - counts[kind]
             for kind, count in Counter(entity.kind for entity in scanned).items()
-            if kind in _SHOWN_KINDS and count > have[kind]
+            if kind in _CONTOUR_KINDS and count > counts[kind]
         }
         if lost and not self.damaged:
-            raise damaged_file(f"{counted(lost)} could not be read", sum(have.values()))
+            raise damaged_file(f"{counted(lost)} could not be read", sum(counts.values()))
         if lost:
             self.notes[f"{counted(lost)} could not be read."] += 1
 
     def drawing(self, scan: Scan) -> Drawing:
-        """Everything that was read."""
+        """Return everything that was read."""
         notes = [f"{text}" if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
         if self.heights and max(self.heights) - min(self.heights) > FLAT:
             low, high = min(self.heights), max(self.heights)
@@ -204,7 +204,7 @@ class _Reader:
         )
 
     def _entity(self, entity: DXFGraphic, matrix: Matrix44 | None, outer_layer: str | None, depth: int) -> None:
-        """One entity under the transformation of the INSERTs around it."""
+        """Read one entity under the transformation of the INSERTs around it."""
         kind = entity.dxftype()
         layer = str(entity.dxf.get("layer", "0")) if entity.dxf.is_supported("layer") else "0"
         if layer == "0" and outer_layer is not None:
@@ -213,7 +213,7 @@ class _Reader:
         place = self.lines.get(id(entity))
         if place is not None and place.fault:
             self._unreadable(entity, f"it {place.fault}")
-        elif kind not in _SHOWN_KINDS:
+        elif kind not in _CONTOUR_KINDS:
             if kind not in _SKIPPED_ALWAYS:
                 self.skipped[kind] += 1
         elif frozen or (off and kind != "INSERT") or entity.dxf.get("invisible", 0):
@@ -224,16 +224,16 @@ class _Reader:
             self._readable(entity, lambda: self._take(entity, matrix, layer))
 
     def _readable(self, entity: DXFGraphic, read: Callable[[], None]) -> None:
-        """Read an entity; whatever goes wrong names it."""
+        """Read an entity; any error is reported as its own."""
         try:
             read()
         except DrawingError:
             raise
-        except Exception as error:  # noqa: BLE001  # an entity with values that nobody thought of
+        except Exception as error:  # noqa: BLE001  # an entity with unforeseen values
             self._unreadable(entity, words_of(error))
 
     def _take(self, entity: DXFGraphic, matrix: Matrix44 | None, layer: str) -> None:
-        """The shapes of an entity."""
+        """Take the shapes of an entity."""
         kind = entity.dxftype()
         try:
             shapes = list(_READERS[kind](self, entity, matrix))
@@ -260,7 +260,7 @@ class _Reader:
         return place.where if place is not None else f"#{entity.dxf.get('handle', '?')}"
 
     def _insert(self, insert: Insert, matrix: Matrix44 | None, layer: str, depth: int) -> None:
-        """The entities of a block, as often as it is inserted."""
+        """Read the entities of a block, once for each insertion."""
         block = insert.block()
         if block is None:
             self.notes[
@@ -284,13 +284,13 @@ class _Reader:
             del self.skipped["ATTRIB"]
         inserts = insert.multi_insert() if count > 1 and rows * columns > 1 else (insert,)
         for single in inserts:
-            here = single.matrix44()
-            here = here if matrix is None else here * matrix
+            transform = single.matrix44()
+            transform = transform if matrix is None else transform * matrix
             for entity in block:
-                self._entity(entity, here, layer, depth + 1)
+                self._entity(entity, transform, layer, depth + 1)
 
     def line(self, entity: DXFGraphic, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """A LINE."""
+        """Yield a LINE."""
         yield self._straight(_moved(entity.dxf.start, matrix), _moved(entity.dxf.end, matrix))
 
     def _straight(self, start: Vec3, end: Vec3) -> Line:
@@ -298,13 +298,13 @@ class _Reader:
         return Line((start.x, start.y), (end.x, end.y))
 
     def _level(self, *heights: float) -> None:
-        """Refuse what is not level, and keep its height."""
+        """Raise if the heights differ; keep the first one."""
         if max(heights) - min(heights) > FLAT:
             raise _NotFlatError("does not lie in the XY plane")
         self.heights += heights[:1]
 
     def circle(self, entity: DXFGraphic, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """A CIRCLE or an ARC; one without a radius is a point."""
+        """Yield a CIRCLE or an ARC; skip one without a radius."""
         dxf = entity.dxf
         radius = float(dxf.radius)
         if radius <= 0.0:
@@ -339,13 +339,13 @@ class _Reader:
         )  # fmt: skip
 
     def ellipse(self, entity: Ellipse, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """An ELLIPSE; its parameters count from its major axis."""
+        """Yield an ELLIPSE; its parameters count from its major axis."""
         tool = entity.construction_tool()
         angles = _turned(float(entity.dxf.start_param), float(entity.dxf.end_param))
         yield self._ellipse(tool.center, tool.major_axis, tool.minor_axis, angles, matrix)
 
     def lwpolyline(self, entity: LWPolyline, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """An LWPOLYLINE: lines and arcs of its bulges."""
+        """Yield the lines of an LWPOLYLINE, and the arcs of its bulges."""
         dxf = entity.dxf
         rows = entity.get_points("xyseb")
         if dxf.get("const_width", 0.0) or any(start or end for _, _, start, end, _ in rows):
@@ -354,7 +354,7 @@ class _Reader:
         yield from self._bulged(entity, vertices, float(dxf.get("elevation", 0.0)), matrix, closed=bool(entity.closed))
 
     def polyline(self, entity: Polyline, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """A two-dimensional POLYLINE: lines and arcs of its bulges; the frame of a fitted one is no part of it."""
+        """Yield the lines and bulge arcs of a two-dimensional POLYLINE, without the frame of a fitted one."""
         mode = entity.get_mode()
         if mode != "AcDb2dPolyline":
             kind = "3D polyline" if mode == "AcDb3dPolyline" else "mesh"
@@ -395,7 +395,7 @@ class _Reader:
                 yield self._straight(*(_moved(point, matrix) for point in points))
 
     def spline(self, entity: Spline, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """A SPLINE by its control points, or through its fit points where it has no others."""
+        """Yield a SPLINE by its control points, or through its fit points if it has no control points."""
         tool = entity.construction_tool()
         if not entity.control_point_count():
             if entity.closed and not np.allclose(entity.fit_points[0], entity.fit_points[-1]):
@@ -415,7 +415,7 @@ class _Reader:
 
 
 class _NotFlatError(Exception):
-    """An entity lies outside of the XY plane; the text says in what way."""
+    """An entity lies outside the XY plane; the text says how."""
 
 
 _READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[Shape]]]] = MappingProxyType(
@@ -432,7 +432,7 @@ _READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[
 
 
 def _layer_states(document: Document) -> Iterator[tuple[str, tuple[bool, bool]]]:
-    """Of each layer whether it is frozen, and whether it is off."""
+    """Yield the name of each layer, with whether it is frozen and whether it is off."""
     for layer in document.layers:
         yield str(layer.dxf.name).lower(), (bool(layer.is_frozen()), bool(layer.is_off()))
 
@@ -448,12 +448,12 @@ def _moved(point: Vec3, matrix: Matrix44 | None) -> Vec3:
 
 
 def _is_straight(chord: float, bulge: float) -> bool:
-    """Whether an arc has no length, or is so flat that its center lies beyond what any coordinate may be."""
+    """True if an arc has no length, or is so flat that its center is out of the range of coordinates."""
     return abs(bulge) * chord / 2.0 <= min(chord * chord / (4.0 * LARGEST), LARGEST_SAGITTA)
 
 
 def _turned(begin: float, end: float) -> tuple[float, float]:
-    """Two angles as a counterclockwise turn: the same angle, or a full turn on, is the full circle."""
+    """Return two angles as a counterclockwise turn; equal ones, or ones a full turn apart, give the full circle."""
     swept = (end - begin) % tau
     if swept <= ROUND or tau - swept <= ROUND:
         swept = tau
