@@ -1,4 +1,4 @@
-"""A drawing as read: shapes in its own unit, each with its layer and its line, and everything that was left out."""
+"""A drawing as read: shapes in its own unit, each with its layer and its line, and what was left out."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class DrawingUnit(StrEnum):
 
     @property
     def mm(self) -> float:
-        """Millimeters in one of it."""
+        """Millimeters per unit."""
         return _MM[self]
 
     @property
     def program_unit(self) -> Unit:
-        """The unit of a program that is made of such a drawing alone."""
+        """The unit of a program made from such a drawing alone."""
         return Unit.IN if self in (DrawingUnit.IN, DrawingUnit.FT) else Unit.MM
 
 
@@ -47,7 +47,7 @@ _MM: Final = MappingProxyType(
 UNIT_CODES: Final = MappingProxyType(
     {1: DrawingUnit.IN, 2: DrawingUnit.FT, 4: DrawingUnit.MM, 5: DrawingUnit.CM, 6: DrawingUnit.M}
 )
-"""$INSUNITS of the units that are read; every other value is asked about."""
+"""$INSUNITS codes of the units that are read; for every other code the operator is asked."""
 
 OTHER_UNITS: Final = MappingProxyType(
     {
@@ -69,14 +69,14 @@ OTHER_UNITS: Final = MappingProxyType(
         21: "US survey feet",
     }
 )
-"""$INSUNITS of units that are not read, by their names."""
+"""Names of the units that are not read, by $INSUNITS."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EllipseArc:
     """The points center + cos(t) first + sin(t) second, t from `begin` to `end` (radians, begin < end).
 
-    `first` and `second` are conjugate half diameters as complex numbers: any circle or ellipse, mirrored or slanted.
+    `first` and `second` are conjugate semi-diameters as complex numbers: any circle or ellipse, mirrored or skewed.
     """
 
     center: complex
@@ -100,7 +100,7 @@ Shape = Piece | EllipseArc | BSpline
 
 
 class Drawn(NamedTuple):
-    """A shape with its layer; `line` is that of its entity in the file, 0 where it has none."""
+    """A shape with its layer; `line` is that of its entity in the file, 0 if not known."""
 
     shape: Shape
     layer: str
@@ -109,7 +109,7 @@ class Drawn(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class NotFlat:
-    """An entity that does not lie in the XY plane, and the sentence that says so: its layer cannot be taken."""
+    """An entity outside the XY plane, and the message about it: its layer cannot be taken."""
 
     layer: str
     text: str
@@ -117,9 +117,9 @@ class NotFlat:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawing:
-    """What a drawing file holds.
+    """The contents of a drawing file.
 
-    `unit` is None where the file names none that is read, `other_unit` what it names then.  `skipped` counts entities
+    `unit` is None if the file names no unit that is read; `other_unit` is then its name.  `skipped` counts entities
     without a contour by kind, `hidden` entities that are frozen, off or invisible by layer.  `notes` are sentences for
     the operator.
     """
@@ -131,20 +131,20 @@ class Drawing:
     not_flat: tuple[NotFlat, ...] = ()
     notes: tuple[str, ...] = ()
     entities: int = 0
-    """Entities that the shapes are of, those of a block as often as it is inserted."""
+    """Entities that gave the shapes; those of a block count once for each insertion."""
     other_unit: str = ""
 
     @property
     def layers(self) -> tuple[str, ...]:
-        """The layers that have shapes, in the order of the file."""
+        """The layers that have shapes, then those with an entity outside the plane, in the order of the file."""
         return tuple(dict.fromkeys([*(drawn.layer for drawn in self.shapes), *(bad.layer for bad in self.not_flat)]))
 
 
 class DrawingError(Exception):
     """A drawing cannot be taken; the text is the sentence for the operator.
 
-    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH or NO_EZDXF.  `readable` is how many entities of a
-    damaged file can be read, if the operator takes it; None where it cannot be taken.
+    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH or NO_EZDXF.  `readable` counts the entities of a
+    damaged file that can be read if the operator accepts it; None if it cannot be taken.
     """
 
     def __init__(self, code: str, text: str, readable: int | None = None) -> None:
@@ -158,5 +158,5 @@ class DrawingError(Exception):
 
 
 def counted(counts: Mapping[str, int]) -> str:
-    """Counts by kind in words, such as `5 TEXT, 22 DIMENSION`."""
+    """Return counts by kind in words, such as `5 TEXT, 22 DIMENSION`."""
     return ", ".join(f"{count} {kind}" for kind, count in counts.items())

@@ -1,7 +1,7 @@
-"""The document of a DXF file: what of its text is whole, and ezdxf's reading of it.
+"""Checks what of a DXF file's text is whole, and reads its document with ezdxf.
 
-A text that breaks off is recognized by its tags, since a reader that repairs would take it without a word.  ezdxf is
-imported only here and only when a drawing is opened.
+A text that breaks off is recognized by its tags, since a reader that repairs would accept it silently.  ezdxf is
+imported only when a drawing is opened.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
 
 
 def too_much(what: str, count: int, most: int) -> DrawingError:
-    """The error that a drawing has more of something than is read."""
+    """Return the error for a drawing that has more of something than is read."""
     return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
 
 
 def _silence(logger: logging.Logger) -> None:
-    """Keep what ezdxf logs off the screen: what is wrong with a drawing is said in sentences of our own."""
+    """Keep ezdxf's log off the screen: the operator gets messages of our own."""
     logger.propagate = False
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())
 
 
 def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
-    """The scan of the tags and ezdxf's document, or DrawingError."""
+    """Return the scan of the tags and ezdxf's document, or raise DrawingError."""
     try:
         import ezdxf
     except ImportError as error:
@@ -55,7 +55,7 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
 
 
 def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
-    """The text of a file that breaks off, ended properly after its last whole entity."""
+    """Return the text of a file that breaks off, ended properly after its last whole entity."""
     if not damaged:
         count = len(scan.entities)
         could = f"{count} {'entity' if count == 1 else 'entities'} could be read"
@@ -69,7 +69,7 @@ def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
 
 
 def damaged_file(text: str, readable: int | None = None) -> DrawingError:
-    """The error that a file is damaged, and how many of its entities can be read; None where it cannot be taken."""
+    """Return the error for a damaged file; `readable` counts its readable entities, None if it cannot be taken."""
     return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
 
 
@@ -91,9 +91,9 @@ def _binary_document(data: bytes) -> tuple[Scan, Document]:
 
 
 def _loaded(data: bytes, scan: Scan, *, damaged: bool) -> Document:
-    """ezdxf's document of a text file; coordinates in another order than usual are put in order.
+    """Return ezdxf's document of a text file; coordinates in an unusual order are reordered.
 
-    What cannot be read so is recovered, but taken only with `damaged`.
+    A file that cannot be read this way is recovered, but taken only with `damaged`.
     """
     from ezdxf.document import Drawing as Document
     from ezdxf.filemanagement import read
@@ -115,14 +115,14 @@ def _loaded(data: bytes, scan: Scan, *, damaged: bool) -> Document:
 
 
 def _structure_fault(error: Exception) -> str:
-    """What the package says of a file's structure; its own mistakes say nothing to an operator."""
+    """Return ezdxf's words about a file's structure; its internal errors tell an operator nothing."""
     from ezdxf.lldxf.const import DXFError
 
     return words_of(error) if isinstance(error, DXFError) else "its sections cannot be read"
 
 
 def _recovered(data: bytes) -> Document | None:
-    """What the package can repair of a file."""
+    """Return what ezdxf can repair of a file, None if it cannot."""
     from ezdxf.recover import read
 
     try:
@@ -133,7 +133,7 @@ def _recovered(data: bytes) -> Document | None:
 
 
 def _encoding(data: bytes) -> str:
-    """The encoding that the header names; since R2007 it is UTF-8."""
+    """Return the encoding that the header names; since R2007 it is UTF-8."""
     from ezdxf.filemanagement import dxf_stream_info
 
     try:
@@ -146,10 +146,10 @@ def _encoding(data: bytes) -> str:
 
 
 _HANDLE: Final = re.compile(r"\(#\w+\)|^\w+Error: ")
-"""What says nothing to an operator: the handle of an entity, the package's name of an error."""
+"""Parts of a message that tell an operator nothing: an entity's handle, ezdxf's name of an error."""
 
 
 def words_of(error: Exception | str) -> str:
-    """A package's words for what it stopped at, on one line and short."""
+    """Return a package's error message, or a name from the file, on one line and shortened."""
     words = " ".join("".join(sign if sign.isprintable() else " " for sign in _HANDLE.sub("", str(error))).split())
     return (words or type(error).__name__).rstrip(".")[:160]

@@ -1,7 +1,7 @@
-"""Joints: the pieces of a chain made to meet exactly, without a piece of our own anywhere.
+"""Makes the pieces of a chain meet exactly, without adding any piece.
 
-Where two pieces cross at an angle their carriers' meeting is the joint; where they run on nearly straight the end of
-the arc, or the middle between the two ends, is.  An arc keeps its center where that can be, moves it by no more than
+If two pieces cross at an angle, the joint is where their carriers meet; if they run on nearly straight, it is the end
+of the arc, or the midpoint between the two ends.  An arc keeps its center if it can, moves it by no more than
 `ARC_RADII`, or else keeps its sweep angle.
 """
 
@@ -18,18 +18,18 @@ from core.importing.clean_up import is_circle, reversed_piece
 from core.tolerance import JOINED, ON_PATH
 
 CROSSING: Final = radians(5.0)
-"""From this angle on the meeting of two carriers is where a drawing means the corner to be."""
+"""Above this angle the corner of a drawing is where the two carriers meet."""
 
 
 class Joined(NamedTuple):
-    """The pieces of a chain joined end to start, and the largest gap that was closed."""
+    """The pieces of a chain, joined end to start, and the largest gap that was closed."""
 
     pieces: tuple[Piece, ...]
     gap: float
 
 
 def joined_chain(pieces: Sequence[Piece], *, closed: bool, tolerance: float) -> Joined:
-    """The pieces in the order and direction of travel, made to meet."""
+    """Return the pieces, given in order and direction of travel, joined end to start."""
     if len(pieces) == 1 and (is_circle(pieces[0]) or not closed):
         return Joined(tuple(pieces), 0.0)
     if len(pieces) == 1:
@@ -46,7 +46,7 @@ def joined_chain(pieces: Sequence[Piece], *, closed: bool, tolerance: float) -> 
 
 
 def _closed_arc(piece: Piece) -> Joined:
-    """An arc whose ends are one point is the full circle; a line there and back is nothing to close."""
+    """Make an arc whose ends are one point a full circle; a line has nothing to close."""
     gap = dist(piece.start, piece.end)
     if isinstance(piece, Arc):
         return Joined((Arc(piece.start, piece.start, piece.center, piece.turn),), gap)
@@ -54,7 +54,7 @@ def _closed_arc(piece: Piece) -> Joined:
 
 
 def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
-    """Where the end of one piece and the start of the next become one point."""
+    """Return the point where the end of one piece and the start of the next meet."""
     here, there = first.end, second.start
     gap = dist(here, there)
     if gap <= ON_PATH:
@@ -72,7 +72,7 @@ def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
 
 
 def _angle_between(first: Piece, second: Piece) -> float:
-    """The angle between two carriers where the pieces meet, 0 to a right angle."""
+    """Return the angle between two carriers where the pieces meet, 0 to a right angle."""
     if min(first.length, second.length) <= 0.0:
         return 0.0
     (ux, uy), (vx, vy) = first.direction_at(first.end), second.direction_at(second.start)
@@ -80,7 +80,7 @@ def _angle_between(first: Piece, second: Piece) -> float:
 
 
 def _between(piece: Piece, start: Point, end: Point) -> Piece:
-    """The piece from another start to another end, both near its own."""
+    """Return the piece with another start and another end, both near its own."""
     if isinstance(piece, Line):
         return Line(start, end)
     if is_circle(piece) or (start, end) == (piece.start, piece.end):
@@ -93,5 +93,5 @@ def _between(piece: Piece, start: Point, end: Point) -> Piece:
 
 
 def reversed_pieces(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
-    """A joined chain traveled the other way."""
+    """Return a joined chain traveled the other way."""
     return tuple(reversed_piece(piece) for piece in reversed(pieces))

@@ -1,4 +1,4 @@
-"""Listing of a drawing's contours: rows, equal circles folded into one, and the sentences around them."""
+"""Lists a drawing's contours: rows, with equal circles folded into one, and the sentences around them."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from core.tolerance import JOINED
 from core.units import Kind, Unit, decimals_shown, from_mm, show
 
 SAME_SIZE: Final = 1e-4
-"""Millimeters by which the radii of circles in one row may differ."""
+"""Step in millimeters to which radii are rounded to find equal circles."""
 
 SAMPLES: Final = 33
-"""Points of a curve by which its size is told where the unit is asked."""
+"""Points on an ellipse that give its size when the unit is asked."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row of the list: one contour, or circles of one size, kind and layer in the same contour."""
+    """A row of the list: one contour, or circles of equal size, kind and layer inside the same contour."""
 
     contours: tuple[Contour, ...]
 
     @property
     def first(self) -> Contour:
-        """The contour that the row shows."""
+        """The contour that the row displays."""
         return self.contours[0]
 
 
 def rows_of(contours: Sequence[Contour], *, folded: bool = True) -> tuple[Row, ...]:
-    """The rows of the list, in its order."""
+    """Return the rows of the list, in its order."""
     rows: dict[object, list[Contour]] = {}
     for contour in contours:
         radius = contour.circle
@@ -50,13 +50,13 @@ def rows_of(contours: Sequence[Contour], *, folded: bool = True) -> tuple[Row, .
 
 
 def matching(contours: Sequence[Contour], text: str, unit: Unit) -> tuple[Contour, ...]:
-    """The contours of which layer, kind, length or size holds a text: what `/` filters by."""
+    """Return the contours whose row contains a text: the filter of `/`."""
     sought = text.strip().lower()
     return tuple(contour for contour in contours if sought in " ".join(cells_of(Row((contour,)), unit)).lower())
 
 
 def cells_of(row: Row, unit: Unit) -> tuple[str, ...]:
-    """A row's cells: number, kind, layer, pieces, length, size, and how many more there are of it."""
+    """Return a row's cells: number, kind, layer, pieces, length, size, and how many circles it folds."""
     contour = row.first
     indent = "  " * contour.depth
     more = f"x {len(row.contours)}" if len(row.contours) > 1 else ""
@@ -76,7 +76,7 @@ HEADINGS: Final = ("chain", "kind", "layer", "pieces", "length", "size", "")
 
 
 def size_of(contour: Contour, unit: Unit) -> str:
-    """Width and height, or the diameter of a circle."""
+    """Return width and height, or the diameter of a circle, as text."""
     if contour.circle is not None:
         return f"diameter {show(from_mm(2.0 * contour.circle, unit), Kind.LENGTH, unit)}"
     width, height = (show(from_mm(size, unit), Kind.LENGTH, unit) for size in contour.size)
@@ -84,7 +84,7 @@ def size_of(contour: Contour, unit: Unit) -> str:
 
 
 def table(rows: Sequence[Row], unit: Unit) -> Iterator[str]:
-    """The rows as lines of text, with what is wrong with them."""
+    """Yield the rows as lines of text, each with its problems below it."""
     cells = [HEADINGS, *(cells_of(row, unit) for row in rows)]
     widths = [max(len(line[column]) for line in cells) for column in range(len(HEADINGS))]
     right = (0, 3, 4)
@@ -103,7 +103,7 @@ def table(rows: Sequence[Row], unit: Unit) -> Iterator[str]:
 
 
 def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
-    """What reading, clean-up and chaining did, a sentence each; nothing that changed the drawing is left out."""
+    """Yield a sentence for each result of reading, clean-up and chaining; every change of the drawing has one."""
     drawing, options = listed.drawing, listed.options
     yield from listed.notes
     if drawing.skipped:
@@ -131,7 +131,7 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
 
 
 def _gap_text(gap: float, unit: Unit) -> str:
-    """A gap with as many decimals as it takes to differ from nothing; what a double cannot tell is none."""
+    """Return a gap with enough decimals to differ from 0; `none` if rounding explains it."""
     if gap <= JOINED:
         return "none"
     usual = decimals_shown(Kind.LENGTH, unit)
@@ -140,7 +140,7 @@ def _gap_text(gap: float, unit: Unit) -> str:
 
 
 def unit_question(drawing: Drawing) -> str:
-    """The sizes of a drawing in either unit, such as `140 x 30: as IN 140.0000 x 30.0000, as MM 140.000 x 30.000`."""
+    """Return a drawing's size in both units, such as `140 x 30: as IN 140.0000 x 30.0000, as MM 140.000 x 30.000`."""
     width, height = extent(drawing)
     inch, mm = (
         " x ".join(show(size, Kind.LENGTH, unit) for size in (width, height)) for unit in (Unit.IN, Unit.MM)
@@ -150,7 +150,7 @@ def unit_question(drawing: Drawing) -> str:
 
 
 def extent(drawing: Drawing) -> tuple[float, float]:
-    """Width and height of a drawing in its own unit."""
+    """Return the width and height of a drawing in its own unit."""
     boxes = [_box(drawn.shape) for drawn in drawing.shapes]
     if not boxes:
         return 0.0, 0.0

@@ -1,6 +1,6 @@
-"""Loops: pieces in chains, closed ones first; at a branch along the smallest change of direction that leads back.
+"""Chains pieces, closed chains first; at a branch it takes the smallest change of direction that leads back.
 
-A trail that comes back to a node it has passed has found a closed chain.  Nodes where more than two ends meet are
+A trail that returns to a node it has passed completes a closed chain.  Nodes where more than two ends meet are
 branches.  Every piece is in one chain.
 """
 
@@ -16,13 +16,13 @@ from core.importing.clean_up import is_circle, reversed_piece
 from core.importing.nodes import Nodes, nodes_of
 
 MAX_SEARCH: Final = 5_000_000
-"""Steps for which ways back are searched; what is left then stays in open chains."""
+"""Steps of the search for ways back; the pieces left after that many stay in open chains."""
 
 KEY_DECIMALS: Final = 6
 
 
 class Link(NamedTuple):
-    """A piece by its row, forward or backward."""
+    """A piece by its row, traveled forward or backward."""
 
     row: int
     forward: bool
@@ -30,7 +30,7 @@ class Link(NamedTuple):
 
 @dataclass(slots=True)
 class Chain:
-    """Links in the order of travel."""
+    """Links in order of travel."""
 
     links: list[Link]
     closed: bool
@@ -38,16 +38,16 @@ class Chain:
 
 @dataclass(slots=True)
 class Chained:
-    """All chains; `branches` are the places where more than two ends meet, with how many."""
+    """All chains; `branches` are the points where more than two ends meet, with their number."""
 
     chains: list[Chain] = field(default_factory=list)
     branches: list[tuple[Point, int]] = field(default_factory=list)
     given_up: bool = False
-    """There are more branches than ways back could be searched for."""
+    """True if the branches needed a longer search than `MAX_SEARCH`."""
 
 
 def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
-    """The chains of the pieces, which are in an order that does not depend on the drawing's."""
+    """Chain the pieces, which are in an order that does not depend on the drawing's."""
     result = Chained()
     rows = [row for row, piece in enumerate(pieces) if not is_circle(piece)]
     result.chains += [Chain([Link(row, True)], True) for row, piece in enumerate(pieces) if is_circle(piece)]
@@ -64,7 +64,7 @@ def chained(pieces: Sequence[Piece], tolerance: float) -> Chained:
 
 
 class _Step(NamedTuple):
-    """A link with the nodes between which it runs."""
+    """A link and the nodes it leads from and to."""
 
     link: Link
     begin: int
@@ -79,10 +79,10 @@ class _Walker:
     used: list[bool] = field(default_factory=list)
     steps: int = 0
     left: list[int] = field(default_factory=list)
-    """Of each node how many ends of unused pieces it has."""
+    """For each node, how many ends of unused pieces it has."""
 
     def run(self) -> None:
-        """Closed chains first, then what is left as open chains."""
+        """Find the closed chains first, then chain what is left as open chains."""
         self.used = [False] * len(self.pieces)
         aside = self._set_trees_aside()
         for start in self._starts():
@@ -93,7 +93,7 @@ class _Walker:
         self._open_chains()
 
     def _set_trees_aside(self) -> list[int]:
-        """Pieces that no closed chain can hold, as they lead to a loose end, marked as used for now."""
+        """Mark pieces that lead to a loose end as used for now: no closed chain holds them.  Return their rows."""
         self.left = [self.nodes.degree(node) for node in range(len(self.nodes.places))]
         waiting = [node for node, count in enumerate(self.left) if count == 1]
         aside: list[int] = []
@@ -113,12 +113,12 @@ class _Walker:
             self.left[node] -= 1
 
     def _starts(self) -> list[int]:
-        """The nodes from the leftmost on: that of a group of chains is on its outline."""
-        places = self.nodes.places
-        return sorted(range(len(places)), key=lambda node: tuple(round(value, KEY_DECIMALS) for value in places[node]))
+        """Return the nodes from left to right: the leftmost of connected chains is on their outline."""
+        points = self.nodes.places
+        return sorted(range(len(points)), key=lambda node: tuple(round(value, KEY_DECIMALS) for value in points[node]))
 
     def _closed_from(self, start: int) -> bool:
-        """Walk from a node until the trail ends; every closed chain on the way is kept.  False if there was none."""
+        """Walk from a node until the trail ends; keep every closed chain on the way.  False if there was none."""
         trail: list[_Step] = []
         on_trail = {start: 0}
         at, heading, closed_some = start, -tau / 4, False
@@ -127,7 +127,7 @@ class _Walker:
             if step is None:
                 if not trail:
                     return closed_some
-                # a dead end: its last piece belongs to no closed chain
+                # a dead end: the last piece of the trail belongs to no closed chain
                 last = trail.pop()
                 on_trail.pop(last.end, None)
                 at = last.begin
@@ -153,11 +153,11 @@ class _Walker:
             heading = self._end_heading(trail[-1].link)
 
     def _leave(self, step: _Step) -> None:
-        """Keep a piece for the open chains: it stays used while closed ones are searched."""
+        """Keep a piece for the open chains; it stays used while closed chains are searched."""
         self.chains.append(Chain([step.link], False))
 
     def _next(self, node: int, heading: float, on_trail: dict[int, int]) -> _Step | None:
-        """The way on that leads back with the smallest change of direction."""
+        """Return the only way on, or the one that leads back with the smallest change of direction."""
         ways = [
             way for row in dict.fromkeys(self.nodes.pieces[node]) if not self.used[row] for way in self._ways(row, node)
         ]
@@ -171,7 +171,7 @@ class _Walker:
         return ways + ([_Step(Link(row, False), last, first)] if last == node and first != last else [])
 
     def _change(self, way: _Step, heading: float) -> tuple[float, float, int]:
-        """How much a way turns, to the right first where two turn as much."""
+        """Return the sort key of a way: how much it turns, to the right first if two turn equally."""
         piece = self._traveled(way.link)
         dx, dy = piece.direction_at(piece.start)
         turned = (atan2(dy, dx) - heading + tau / 2) % tau - tau / 2
@@ -186,7 +186,7 @@ class _Walker:
         return atan2(dy, dx)
 
     def _leads_back(self, way: _Step, on_trail: dict[int, int]) -> bool:
-        """Whether from the end of a way some node of the trail is reached along unused pieces."""
+        """True if unused pieces connect the end of a way to a node of the trail."""
         if way.end in on_trail:
             return True
         seen, waiting = {way.end}, [way.end]
@@ -205,7 +205,7 @@ class _Walker:
         return False
 
     def _open_chains(self) -> None:
-        """What no closed chain holds, from loose end or branch to the next."""
+        """Chain the pieces of no closed chain, each chain from a loose end or branch to the next."""
         loose = [chain for chain in self.chains if not chain.closed]
         self.chains = [chain for chain in self.chains if chain.closed]
         for chain in loose:
@@ -216,7 +216,7 @@ class _Walker:
         for row in rows:
             for node in self.nodes.of_piece[row]:
                 ends.setdefault(node, []).append(row)
-        # from the ends of chains first; what is left then runs in rings
+        # start at the ends of chains; what is left after them is rings
         ordered = sorted(ends, key=lambda node: (len(ends[node]) == 2, *self.nodes.places[node]))
         for node in ordered:
             for row in ends[node]:

@@ -1,7 +1,7 @@
-"""Nesting: which closed contours lie inside which, by even and odd; area, length and size of contours.
+"""Finds which closed contours lie inside which, which of them cross, and the areas and boxes of contours.
 
-Exact but for one thing: whether a point lies inside a contour is asked of a polygon whose chords leave the arcs by no
-more than `CHORD_ERROR`.
+Areas and boxes are exact.  Nesting and crossings are tested on chords that deviate from the arcs by no more than
+`CHORD_ERROR` millimeters.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ CHORD_ERROR: Final = 0.005
 
 
 def signed_area(pieces: Sequence[Piece]) -> float:
-    """The area within a closed chain in square millimeters, positive where it is traveled counterclockwise.
+    """Return the area inside a closed chain in square millimeters, positive if it is traveled counterclockwise.
 
-    Green's formula: of the chords' polygon, and of each arc the segment of its circle over its chord.
+    Green's formula: the polygon of the chords, plus for each arc the circular segment over its chord.
     """
     if not pieces:
         return 0.0
@@ -40,12 +40,12 @@ def signed_area(pieces: Sequence[Piece]) -> float:
 
 
 def box_of(pieces: Sequence[Piece]) -> Box:
-    """The box of a chain."""
+    """Return the box of a chain."""
     return boxes_of([pieces])[0]
 
 
 def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
-    """The box of each chain; all at once, since a drawing may have thousands of small ones."""
+    """Return the box of each chain; all at once, since a drawing may have thousands of small ones."""
     if not chains:
         return []
     pieces = [piece for chain in chains for piece in chain]
@@ -56,8 +56,8 @@ def boxes_of(chains: Sequence[Sequence[Piece]]) -> list[Box]:
     sides = boxes(Pieces(start, end, center, turn))
     firsts = np.cumsum([0, *(len(chain) for chain in chains[:-1])])
     outer = (np.minimum, np.minimum, np.maximum, np.maximum)
-    found = (most.reduceat(side, firsts).tolist() for most, side in zip(outer, sides, strict=True))
-    return list(zip(*found, strict=True))
+    extremes = (most.reduceat(side, firsts).tolist() for most, side in zip(outer, sides, strict=True))
+    return list(zip(*extremes, strict=True))
 
 
 def _ends(piece: Piece) -> tuple[Point, Point]:
@@ -65,7 +65,7 @@ def _ends(piece: Piece) -> tuple[Point, Point]:
 
 
 def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
-    """For each closed chain, the indexes (from 0) of the chains it lies inside."""
+    """Return for each closed chain the indexes (from 0) of the chains it lies inside."""
     if not chains:
         return []
     polygons = [_polygon(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]
@@ -74,14 +74,14 @@ def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
     points = [shapely.Point(chain[0].point_at(0.5)) for chain in chains]
     inside: list[list[int]] = [[] for _ in chains]
     for inner, outer in tree.query(points, predicate="within").T.tolist():
-        # a chain touches itself, and never lies in one that is smaller
+        # a chain does not lie in itself, and never in a smaller one
         if inner != outer and (sizes[outer], -outer) > (sizes[inner], -inner):
             inside[inner].append(outer)
     return inside
 
 
 def _polygon(points: Floats) -> shapely.Geometry:
-    """A polygon of points; one that crosses itself is what it encloses by even and odd."""
+    """Return the polygon of points; one that crosses itself becomes what it encloses by the even-odd rule."""
     if len(points) < 4:
         return shapely.Polygon()
     polygon: shapely.Geometry = shapely.polygons(points)
@@ -89,7 +89,7 @@ def _polygon(points: Floats) -> shapely.Geometry:
 
 
 def crossings(chains: Sequence[Sequence[Piece]], most: int) -> dict[int, int]:
-    """For each chain that touches or crosses another, the index of the first it meets; empty for more than `most`."""
+    """Return, by index, the first chain that each chain touches or crosses; nothing for more than `most` chains."""
     if not chains or len(chains) > most:
         return {}
     lines = [shapely.LineString(chords_of(Path.from_pieces(chain), CHORD_ERROR)) for chain in chains]

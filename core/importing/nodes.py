@@ -1,8 +1,8 @@
-"""Nodes: which ends of pieces are one point, by position first and within TOLERANCE for the ends that are left.
+"""Groups the ends of pieces into nodes, by position first and then within TOLERANCE for the loose ends.
 
-Ends that are the same to `SAME_POINT` are one node.  A node with a single end is loose: it goes to the nearest node
-within TOLERANCE, nearest pairs first.  Ends that already have a partner never move to another one, so that a curve of
-pieces shorter than TOLERANCE stays a curve.
+Ends within `SAME_POINT` are one node.  A node with a single end is loose: it joins the nearest node within TOLERANCE,
+nearest pairs first.  An end that already has a partner never moves to another one, so that a curve of pieces shorter
+than TOLERANCE stays a curve.
 """
 
 from __future__ import annotations
@@ -18,27 +18,27 @@ import shapely
 from core.geometry.piece import Piece, Point
 
 SAME_POINT: Final = 1e-4
-"""Millimeters within which ends are one point whatever TOLERANCE is above it; drawings of programs are as exact."""
+"""Ends within this distance are one point, in millimeters, if TOLERANCE is no smaller; CAD drawings are as exact."""
 
 NEAR_BY_PATH: Final = 4.0
-"""Times TOLERANCE: a node so near along the pieces themselves is no partner of a loose end."""
+"""A node within this many tolerances along the pieces themselves is no partner of a loose end."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Nodes:
-    """Of each piece the nodes (start, end); of each node its pieces and the place of its first end."""
+    """For each piece its nodes (start, end); for each node its pieces and the position of its first end."""
 
     of_piece: list[tuple[int, int]]
     pieces: list[list[int]]
     places: list[Point]
 
     def degree(self, node: int) -> int:
-        """How many ends meet there."""
+        """Return the number of ends that meet at a node."""
         return len(self.pieces[node])
 
 
 class _Groups:
-    """Sets of numbers that are joined step by step (union-find); the smallest number stands for its set."""
+    """Disjoint sets of numbers (union-find); the smallest number represents its set."""
 
     def __init__(self, count: int) -> None:
         self.parent = list(range(count))
@@ -56,7 +56,7 @@ class _Groups:
 
 
 def nodes_of(pieces: Sequence[Piece], tolerance: float) -> Nodes:
-    """The nodes of pieces that are no full circles."""
+    """Return the nodes of pieces, none of them a full circle."""
     ends = [point for piece in pieces for point in (piece.start, piece.end)]
     groups = _same_points(ends, min(tolerance, SAME_POINT))
     made = _numbered(ends, groups)
@@ -67,7 +67,7 @@ def nodes_of(pieces: Sequence[Piece], tolerance: float) -> Nodes:
 
 
 def exact_nodes(pieces: Sequence[Piece], tolerance: float) -> Nodes:
-    """The nodes by position alone."""
+    """Return the nodes by position alone: loose ends stay loose."""
     ends = [point for piece in pieces for point in (piece.start, piece.end)]
     return _numbered(ends, _same_points(ends, min(tolerance, SAME_POINT)))
 
@@ -76,14 +76,14 @@ def _same_points(ends: Sequence[Point], slack: float) -> _Groups:
     groups = _Groups(len(ends))
     if not ends:
         return groups
-    # ends that are equal to the last digit first: a star of lines would have millions of pairs
-    places, firsts, same = np.unique(np.array(ends), axis=0, return_index=True, return_inverse=True)
+    # join identical ends first: a star of lines would have millions of pairs
+    unique_ends, firsts, same = np.unique(np.array(ends), axis=0, return_index=True, return_inverse=True)
     for number, first in enumerate(firsts[same.ravel()].tolist()):
         groups.join(number, first)
-    points = shapely.points(places)
+    points = shapely.points(unique_ends)
     pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=max(slack, 1e-7))
-    for one, other in firsts[pairs[:, pairs[0] < pairs[1]]].T.tolist():
-        groups.join(one, other)
+    for first, second in firsts[pairs[:, pairs[0] < pairs[1]]].T.tolist():
+        groups.join(first, second)
     return groups
 
 
@@ -91,12 +91,12 @@ def _numbered(ends: Sequence[Point], groups: _Groups) -> Nodes:
     numbers: dict[int, int] = {}
     at = [numbers.setdefault(groups.root(end), len(numbers)) for end in range(len(ends))]
     pieces: list[list[int]] = [[] for _ in numbers]
-    places: list[Point] = [(0.0, 0.0)] * len(numbers)
+    points: list[Point] = [(0.0, 0.0)] * len(numbers)
     for root, number in numbers.items():
-        places[number] = ends[root]
+        points[number] = ends[root]
     for end, node in enumerate(at):
         pieces[node].append(end // 2)
-    return Nodes(list(zip(at[::2], at[1::2], strict=True)), pieces, places)
+    return Nodes(list(zip(at[::2], at[1::2], strict=True)), pieces, points)
 
 
 def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, tolerance: float) -> None:
@@ -104,9 +104,9 @@ def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, toleranc
     loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
     if not loose:
         return
-    places = shapely.points(nodes.places)
+    points = shapely.points(nodes.places)
     near: dict[int, list[int]] = {node: [] for node in loose}
-    for at, other in shapely.STRtree(places).query(places[loose], predicate="dwithin", distance=tolerance).T.tolist():
+    for at, other in shapely.STRtree(points).query(points[loose], predicate="dwithin", distance=tolerance).T.tolist():
         if other != loose[at]:
             near[loose[at]].append(other)
     pairs = []
@@ -123,7 +123,7 @@ def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, toleranc
 
 
 def _near_by_path(pieces: Sequence[Piece], nodes: Nodes, start: int, reach: float) -> set[int]:
-    """The nodes that are near along the pieces."""
+    """Return the nodes within `reach` of a node, measured along the pieces."""
     best, waiting = {start: 0.0}, [start]
     while waiting:
         node = waiting.pop()

@@ -1,7 +1,7 @@
-"""Contour of a program of the tool's center: its moves offset back by the tool's radius.
+"""Finds the contour of a tool center path: offsets its moves back by the tool radius.
 
-Lines go back by the radius, arcs to R - r or R + r, and the arc about a corner shrinks to that corner.  What comes out
-is compensated again, and is the contour only if that makes the program's path.
+Lines move back by the radius, arcs get the radius R - r or R + r, and the arc about a corner shrinks to that corner.
+The result is compensated again; it is the contour only if that gives the program's path.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from core.importing.nc_contour import Cut, NcError
 from core.tolerance import CLOSED, JOINED
 
 SAME_PATH: Final = 0.001
-"""Millimeters within which the path of a contour is that of the program."""
+"""Largest distance in millimeters of a contour's path from the program's."""
 
 CORNER_RADIUS: Final = 0.002
-"""Millimeters: a contour's arc smaller than that is a corner, about which the tool's center turned."""
+"""An arc of the contour no larger than this, in millimeters, is a corner that the tool center turned about."""
 
 
 def offset_back(cuts: Sequence[Cut], side: Side, radius: float) -> tuple[list[Cut], int | None]:
-    """The contour whose path at this radius and side the cuts are, and the look-ahead that it needs.
+    """Return the contour whose path at this radius and side is `cuts`, and the look-ahead that it needs.
 
-    The look-ahead is None where the calculated before makes the path.  NcError with the line where there is no contour.
+    The look-ahead is None if the calculated one gives the path.  NcError with the line if there is no contour.
     """
     kept = [(cut, piece) for cut in cuts if (piece := _shifted(cut, side, radius)) is not None]
     if not kept:
@@ -49,7 +49,7 @@ def offset_back(cuts: Sequence[Cut], side: Side, radius: float) -> tuple[list[Cu
 
 
 def _from_side(contour: list[Cut]) -> list[Cut]:
-    """A ring from the middle of its longest line on: started in an inside corner it would have another path."""
+    """Start a ring at the middle of its longest line: started at an inside corner it would have another path."""
     lines = [row for row, cut in enumerate(contour) if isinstance(cut.piece, Line)] or list(range(len(contour)))
     row = max(lines, key=lambda row: contour[row].piece.length)
     cut = contour[row]
@@ -59,7 +59,7 @@ def _from_side(contour: list[Cut]) -> list[Cut]:
 
 
 def _shifted(cut: Cut, side: Side, radius: float) -> Piece | None:
-    """What the path's piece is the offset of; None where that is a corner."""
+    """Return the piece whose offset is the path's piece; None if that is a corner."""
     piece = cut.piece
     if isinstance(piece, Line):
         dx, dy = piece.direction_at(piece.start)
@@ -77,9 +77,9 @@ def _shifted(cut: Cut, side: Side, radius: float) -> Piece | None:
 
 
 def _extended(kept: Sequence[tuple[Cut, Piece]], *, closed: bool) -> tuple[list[Cut], bool]:
-    """The pieces made longer up to the inside corners, and whether there is before at the start.
+    """Return the pieces extended to the inside corners, and whether the start is such a corner.
 
-    Where carriers do not meet the tool has left material: there a line goes on from an arc along its tangent.
+    If carriers do not meet, the tool has left material: a line then continues an arc along its tangent.
     """
     made = [cut._replace(piece=piece) for cut, piece in kept]
     result: list[Cut] = []
@@ -101,11 +101,11 @@ def _extended(kept: Sequence[tuple[Cut, Piece]], *, closed: bool) -> tuple[list[
 
 
 def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
-    """Two pieces up to the corner between them, and the lines that lead there where they do not reach it."""
+    """Extend two pieces to the corner between them; add lines that lead there if they do not reach it."""
     before, after = first.piece, second.piece
     here, there = before.end, after.start
     if min(before.length, after.length) <= JOINED:
-        # cut away by the corner before it
+        # the corner before it has cut it away
         raise NcError(f"Line {second.line}: no contour has this path.")
     meetings = carriers_meet(before, after)
     reach = 4.0 * dist(here, there) + SAME_PATH
@@ -127,7 +127,7 @@ def _to_corner(first: Cut, second: Cut) -> tuple[Cut, list[Cut], Cut]:
 
 
 def _tangent_line(piece: Piece, *, end: bool) -> Line:
-    """A line of length 1 along a piece at its end, or up to its start."""
+    """Return a line of length 1 along a piece, from its end or to its start."""
     if end:
         (x, y), (dx, dy) = piece.end, piece.direction_at(piece.end)
         return Line((x, y), (x + dx, y + dy))
@@ -136,7 +136,7 @@ def _tangent_line(piece: Piece, *, end: bool) -> Line:
 
 
 def _proved(contour: Sequence[Cut], cuts: Sequence[Cut], side: Side, radius: float, *, closed: bool) -> int | None:
-    """Compensate the contour again and compare with the program's path: the look-ahead that makes it, None for CAL."""
+    """Compensate the contour again; return the look-ahead that gives the program's path, None for CAL."""
     surface = Path.from_pieces([cut.piece for cut in contour])
     path = Path.from_pieces([cut.piece for cut in cuts], [float(cut.line) for cut in cuts])
     calculated_value = calculated(len(contour), closed=closed)

@@ -1,6 +1,6 @@
-"""A contour as a MILL CONTOUR block: START, LINE and ARC as a person would have typed them.
+"""Writes a contour as a MILL CONTOUR block: START, LINE and ARC as a person would have typed them.
 
-Numbers are rounded to the digits of the form where the contour stays where it is; the form's own solver judges that.
+Numbers are rounded to the digits of the form if the contour stays in place; the form's own solver decides that.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from core.tolerance import ARC_RADII, CLOSED, GOUGE
 from core.units import Kind, Unit, decimals_shown, from_mm
 
 FINER_DECIMALS: Final = 6
-"""Decimals of a contour that the form's digits would move too far."""
+"""Decimals for a contour that the form's digits would move too far."""
 
 FINEST_DECIMALS: Final = 10
-"""Decimals of one that even those would: flat arcs of large radius."""
+"""Decimals for a contour that even those would move too far: flat arcs of large radius."""
 
 MAX_SEGMENTS: Final = 500
-"""Segments from which on FIT ARCS is advised."""
+"""Above this many segments FIT ARCS is advised."""
 
 NEARLY_FULL: Final = 0.01
-"""Millimeters: an arc that ends so near to its start is given with its SWEEP ANGLE."""
+"""An arc whose end is this close to its start, in millimeters, is given with its SWEEP ANGLE."""
 
 
 @dataclass(frozen=True, slots=True)
 class ImportedBlock:
-    """A block made of a contour; `decimals` its numbers have, `moved` millimeters they are off the drawing at most."""
+    """A block made from a contour: the `decimals` of its numbers, and how far they `moved` it at most, in mm."""
 
     block: Block
     decimals: int
@@ -48,9 +48,9 @@ class DoesNotFitError(Exception):
 
 
 def block_of(contour: Contour, program: Program, side: CutterComp | None = None) -> ImportedBlock:
-    """The contour as a block to be put behind the program's own.  Raises DoesNotFitError.
+    """Return the contour as a block to be put after the program's own.  Raises DoesNotFitError.
 
-    `side` is the operator's answer for an open contour, None where he has not been asked.
+    `side` is the operator's answer for an open contour, None if not asked.
     """
     unit = program.unit
     _refuse_far(contour, unit)
@@ -68,7 +68,7 @@ def block_of(contour: Contour, program: Program, side: CutterComp | None = None)
 def with_contours(
     program: Program, contours: Sequence[Contour], side: CutterComp | None = None
 ) -> tuple[Program, list[ImportedBlock]]:
-    """The program with a block for each contour, in their order; an only block is replaced while it is empty.
+    """Return the program with a block for each contour, in order, and the blocks; a single empty block is replaced.
 
     `side` is the operator's answer for open contours.  Raises DoesNotFitError.
     """
@@ -82,7 +82,7 @@ def with_contours(
 
 
 def comment(name: str, contours: Sequence[Contour]) -> str:
-    """The comment of a program's file: `# from plate.dxf, layer IZREZ`."""
+    """Return the comment for a program's file: `# from plate.dxf, layer IZREZ`."""
     layers = list(dict.fromkeys(layer for contour in contours for layer in contour.layers))
     words = f"layer{'s' if len(layers) > 1 else ''} {', '.join(layers)}" if layers else ""
     text = f"from {name}{', ' if words else ''}{words}"
@@ -138,7 +138,7 @@ def _block(contour: Contour, program: Program, decimals: int) -> Block:
 
 
 def _typed(point: Point, unit: Unit, decimals: int) -> Point:
-    """A point in program units, rounded, without a negative zero."""
+    """Return a point in program units, rounded, without a negative zero."""
     x, y = (round(from_mm(value, unit), decimals) + 0.0 for value in point)
     return x, y
 
@@ -156,10 +156,10 @@ def _segment(piece: Piece, end: Point, unit: Unit, decimals: int) -> Segment:
 
 
 def _moved(block: Block, contour: Contour, program: Program) -> float | None:
-    """How far the block's contour is from the drawing's; None where the form does not take it, or it is too far.
+    """Return how far the block's contour is from the drawing's; None if the form refuses it, or if it is too far.
 
-    An arc ends on its circle, next to the numbers typed.  Where a closed contour ends with one it must still meet
-    START, since the cutter gouges as deep as the gap.
+    An arc ends on its circle, next to the numbers typed.  If a closed contour ends with one, it must still meet START,
+    since the cutter gouges as deep as the gap.
     """
     pieces, solved = contour.pieces, solve_block(block, program)
     errors = [
