@@ -1,6 +1,6 @@
-"""Fitted arcs: runs of many short lines as the longest arcs and lines that leave them nowhere by more than FIT.
+"""Fits runs of many short lines with the longest arcs and lines that deviate from them by no more than FIT.
 
-A corner sharper than `CORNER` stays.  The result passes through points of the run, so that everything still joins.
+A corner sharper than `CORNER` stays.  The ends of the new pieces are points of the run, so that everything still joins.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from core.geometry.piece import Arc, Line, Piece, Point, Turn
 
 CORNER: Final = radians(5.0)
 MIN_LINES: Final = 3
-"""Lines from which on an arc is better than they are."""
+"""Fewest lines that an arc replaces."""
 
 MAX_RADIUS: Final = 100_000.0
-"""Millimeters: a flatter arc is a line, or stays many of them."""
+"""Largest radius in millimeters: a flatter arc becomes a line, or stays several lines."""
 
 ROUNDS: Final = 40
-"""Steps by which the best arc between two points is narrowed down."""
+"""Most steps that narrow down the best arc between two points."""
 
 Points = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True)
 class Fitted:
-    """The pieces of a chain with arcs fitted, how many there were, and how far they are from those at most."""
+    """The pieces of a chain with arcs fitted, their number before, and their largest distance from those."""
 
     pieces: tuple[Piece, ...]
     before: int
@@ -38,18 +38,18 @@ class Fitted:
 
 
 class _Fit(NamedTuple):
-    """An arc or a line through the ends of some points, and how far it is from their lines."""
+    """An arc or a line through the ends of some points, and its largest distance from their lines."""
 
     piece: Piece
     off: float
 
 
 _Make = Callable[[Points, float], "_Fit | None"]
-"""A fit of some points within FIT, None where there is none."""
+"""Fits some points within FIT; None if that is not possible."""
 
 
 def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
-    """A joined chain with its runs of lines fitted within `fit` millimeters."""
+    """Fit the runs of lines in a joined chain within `fit` millimeters."""
     start = _first_break(pieces) if closed else 0
     if start is None:
         fitted, off = _ring(_points(pieces), fit)
@@ -69,7 +69,7 @@ def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
 
 
 def _flush(run: list[Piece], result: list[Piece], fit: float) -> float:
-    """Put a run of lines, fitted, behind the result; returns how far it is off."""
+    """Fit a run of lines, append it to the result, empty the run; return how far the fit is off."""
     if not run:
         return 0.0
     fitted, off = _open_run(_points(run), fit)
@@ -79,7 +79,7 @@ def _flush(run: list[Piece], result: list[Piece], fit: float) -> float:
 
 
 def _first_break(pieces: Sequence[Piece]) -> int | None:
-    """The first piece of a ring before which no arc may run on; None where it is smooth lines all around."""
+    """Return the row of a ring's first piece that starts a new run; None if it is smooth lines all around."""
     for row, piece in enumerate(pieces):
         before = pieces[row - 1]
         if not isinstance(piece, Line) or not isinstance(before, Line) or _is_corner(before, piece):
@@ -98,7 +98,7 @@ def _points(pieces: Sequence[Piece]) -> Points:
 
 
 def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
-    """A smooth ring: one circle if that will do; else it is begun where a first round about it had to break."""
+    """Fit a smooth ring: one circle if that will do, else from the first break of a fit that starts anywhere."""
     circle = _circle(points[:-1], fit)
     if circle is not None:
         return [circle.piece], circle.off
@@ -109,7 +109,7 @@ def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
 
 
 def _circle(points: Points, fit: float) -> _Fit | None:
-    """The full circle through points that turn once about their middle, or None."""
+    """Return the full circle through points that turn once about their middle, or None."""
     if len(points) < MIN_LINES + 1:
         return None
     # least squares of x^2 + y^2 = 2 a x + 2 b y + c about the middle
@@ -136,12 +136,12 @@ def _turns_one_way(turned: NDArray[np.float64]) -> bool:
 
 
 def _sagitta(starts: Points, ends: Points, center: complex, radius: float) -> float:
-    """How far the middles of chords are inside a circle at most."""
+    """Return how far the midpoints of chords are from a circle at most."""
     return float(np.abs(np.abs((starts + ends) / 2.0 - center) - radius).max())
 
 
 def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
-    """The longest arcs and lines from the first point to the last."""
+    """Return the longest arcs and lines from the first point to the last, and how far they are off."""
     pieces: list[Piece] = []
     off, at, last = 0.0, 0, len(points) - 1
     while at < last:
@@ -157,7 +157,7 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
 
 
 def _longest(points: Points, at: int, fit: float, make: _Make) -> tuple[_Fit | None, int]:
-    """The longest fit from a point on: steps double while they hold, then the last one is halved."""
+    """Return the longest fit from a point, and its end: steps double while they fit, then the last one is bisected."""
     last = len(points) - 1
     good, made, step = at + 1, None, 2
     high = last + 1
@@ -191,7 +191,7 @@ def _straight(points: Points, fit: float) -> _Fit | None:
 
 
 def _bent(points: Points, fit: float) -> _Fit | None:
-    """The arc through both ends that is nearest to all points: its height over the chord is narrowed down."""
+    """Return the arc through both ends that is nearest to all points; a search finds its height over the chord."""
     if len(points) < MIN_LINES + 1:
         return None
     chord = points[-1] - points[0]
@@ -227,7 +227,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
 
 
 def _off_arc(local: Points, size: float, height: float) -> float:
-    """How far points and the middles of their lines are from the arc of a height over its chord."""
+    """Return how far points and the midpoints of their lines are from the arc of this height over its chord."""
     if height <= 0.0:
         return float(np.abs(local.imag).max())
     radius = (size * size / 4.0 + height * height) / (2.0 * height)

@@ -1,4 +1,4 @@
-"""One contour of a drawing: what a list says of it, and what the operator changes of it."""
+"""One contour of a drawing: its values in the list, and the operator's changes of it."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from core.importing.nodes import SAME_POINT
 from core.units import Kind, Unit, from_mm, show
 
 KEY_DECIMALS: Final = 6
-"""Decimals of a millimeter by which contours are put in order."""
+"""Decimals of a millimeter that count when contours are sorted."""
 
 
 class ContourKind(StrEnum):
-    """What a contour is by its nesting."""
+    """The kind of a contour by its nesting."""
 
     OUTSIDE = "OUTSIDE"
     HOLE = "HOLE"
@@ -29,12 +29,12 @@ class ContourKind(StrEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Contour:
-    """One contour in millimeters, in the direction in which it will be traveled, from its start.
+    """One contour in millimeters, in its direction of travel, from its start.
 
-    `number` counts from 1 in the list's order.  `drawn` is how many pieces the drawing gives, before a start in the
-    middle of one of them divides it.  `gap` is the largest gap that was closed in it.  `inside` is the number of the
-    contour that it lies in, 0 for none; `depth` how many it lies in.  `open_gap` is how far an open contour's nearest
-    end is from another loose end, that of contour `open_gap_to`.  `fitted` says what FIT ARCS has made of it.
+    `number` counts from 1 in list order.  `drawn` is the number of pieces in the drawing, before a start in the middle
+    of one divides it.  `gap` is the largest gap closed in it.  `inside` is the number of the contour around it,
+    0 for none; `depth` counts the contours around it.  `open_gap` is the distance of an open contour's nearest end from
+    another loose end, that of contour `open_gap_to`.  `fitted` is the result of FIT ARCS.
     """
 
     number: int
@@ -53,7 +53,7 @@ class Contour:
 
     @property
     def layer(self) -> str:
-        """The layer in a list: with a plus sign where there are more."""
+        """The layer's name in a list, with a plus sign if there are more."""
         return self.layers[0] + ("+" if len(self.layers) > 1 else "")
 
     @property
@@ -63,7 +63,7 @@ class Contour:
 
     @property
     def area(self) -> float:
-        """The area within a closed contour in square millimeters, 0 of an open one."""
+        """The area inside a closed contour in square millimeters, 0 for an open one."""
         return abs(signed_area(self.pieces)) if self.closed else 0.0
 
     @property
@@ -74,19 +74,19 @@ class Contour:
 
     @property
     def start(self) -> Point:
-        """Where it starts."""
+        """The start point."""
         return self.pieces[0].start
 
     @property
     def turn(self) -> Turn:
-        """Its direction of travel; NONE for an open one."""
+        """The direction of travel; NONE for an open contour."""
         if not self.closed:
             return Turn.NONE
         return Turn.CCW if signed_area(self.pieces) > 0.0 else Turn.CW
 
     @property
     def side(self) -> Side | None:
-        """The side proposed for the tool: outside of an outside contour, inside of a hole; None for an open one."""
+        """The proposed side of the tool: inside a hole, outside any other closed contour; None for an open one."""
         if not self.closed:
             return None
         outside = self.kind is not ContourKind.HOLE
@@ -94,24 +94,24 @@ class Contour:
 
     @property
     def circle(self) -> float | None:
-        """The radius of a contour that is one full circle."""
+        """The radius of a contour that is one full circle, None for any other."""
         piece = self.pieces[0]
         whole = len(self.pieces) == 1 and isinstance(piece, Arc) and piece.start == piece.end
         return piece.radius if whole and isinstance(piece, Arc) else None
 
 
 def rounded(point: Point) -> tuple[float, float]:
-    """A point as it counts for an order."""
+    """Return a point rounded for sorting."""
     return round(point[0], KEY_DECIMALS), round(point[1], KEY_DECIMALS)
 
 
 def reversed_contour(contour: Contour) -> Contour:
-    """The contour traveled the other way from the same start; the proposed side changes with it."""
+    """Return the contour traveled the other way; a closed one keeps its start, and its proposed side changes."""
     return replace(contour, pieces=reversed_pieces(contour.pieces))
 
 
 def started_at_usual_place(contour: Contour) -> Contour:
-    """A closed contour from the middle of its longest line (or arc) on; a circle from its leftmost point."""
+    """Start a closed contour at the middle of its longest line (or arc), a circle at its leftmost point."""
     if not contour.closed:
         return contour
     if contour.circle is not None:
@@ -130,7 +130,7 @@ def started_at_usual_place(contour: Contour) -> Contour:
 
 
 def started_at(contour: Contour, point: Point) -> Contour:
-    """The contour from its place nearest to a point on; an open one from the nearer of its ends."""
+    """Start a closed contour where it is nearest to a point, an open one at the nearer of its ends."""
     if not contour.closed:
         first, last = (dist(point, end) for end in (contour.pieces[0].start, contour.pieces[-1].end))
         return contour if first <= last else reversed_contour(contour)
@@ -143,7 +143,7 @@ def started_at(contour: Contour, point: Point) -> Contour:
 
 
 def started_at_corner(contour: Contour, step: int) -> Contour:
-    """A closed contour from the corner on that is `step` corners after (or before, if negative) its start."""
+    """Start a closed contour at the corner that is `step` corners after (or before, if negative) its start."""
     if not contour.closed or contour.circle is not None:
         return contour
     whole = _undivided(contour)
@@ -168,7 +168,7 @@ def started_at_side(contour: Contour, step: int) -> Contour:
 
 
 def _undivided(contour: Contour) -> Contour:
-    """The contour without the division of a piece by its start: from the beginning of that piece on."""
+    """Rejoin the piece that the contour's start divides: the contour then starts at that piece's beginning."""
     first, last = contour.pieces[0], contour.pieces[-1]
     if len(contour.pieces) <= contour.drawn:
         return contour
@@ -180,7 +180,7 @@ def _undivided(contour: Contour) -> Contour:
 
 
 def _started_on(contour: Contour, row: int, share: float) -> Contour:
-    """An undivided closed contour from a part of one of its pieces on, which is divided there."""
+    """Start an undivided closed contour at a fraction of one of its pieces, which is divided there."""
     pieces, piece = contour.pieces, contour.pieces[row]
     if contour.circle is not None and isinstance(piece, Arc):
         point = piece.point_at(share)
@@ -198,7 +198,7 @@ def _started_on(contour: Contour, row: int, share: float) -> Contour:
 
 
 def _nearest_share(piece: Piece, point: Point) -> float:
-    """The part of a piece's length at which it is nearest to a point."""
+    """Return the fraction of a piece's length at which it is nearest to a point."""
     if isinstance(piece, Line):
         (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
         along = (point[0] - x) * dx + (point[1] - y) * dy
@@ -215,7 +215,7 @@ def _nearest_share(piece: Piece, point: Point) -> float:
 
 
 def fitted_contour(contour: Contour, fit: float) -> Contour:
-    """The contour with arcs fitted to its runs of short lines; `fitted` then holds what was done."""
+    """Fit arcs to the contour's runs of short lines; `fitted` then holds the result."""
     whole = _undivided(contour)
     fitted = fit_arcs(whole.pieces, fit, closed=contour.closed)
     made = replace(whole, pieces=fitted.pieces, drawn=len(fitted.pieces), fitted=replace(fitted, before=contour.drawn))
@@ -223,7 +223,7 @@ def fitted_contour(contour: Contour, fit: float) -> Contour:
 
 
 def fit_sentence(contour: Contour, unit: Unit) -> str:
-    """What FIT ARCS made of a contour, such as `3000 lines -> 1 ARC, off by 0.0000`."""
+    """Return the result of FIT ARCS on a contour, such as `3000 lines -> 1 ARC, off by 0.0000`."""
     fitted = contour.fitted
     if fitted is None:
         return ""
@@ -235,7 +235,7 @@ def fit_sentence(contour: Contour, unit: Unit) -> str:
 
 
 def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | None:
-    """Two open contours that end at one branch as one: the operator's answer there.  None where they do not meet."""
+    """Join two open contours at a branch, as the operator chose.  None if their ends do not meet."""
     turns = ((False, False), (False, True), (True, False), (True, True))
     for back, forth in turns:
         before = reversed_pieces(first.pieces) if back else first.pieces

@@ -1,7 +1,7 @@
-"""Tags of a DXF file, as far as they show whether the file is whole: sections, entities and their lines.
+"""Scans the tags of a DXF file to see whether it is whole: its sections, its entities and their lines.
 
-A reader that repairs silently drops what it cannot place.  What this scan counts is compared with what was read, so
-that nothing is lost without a word.  https://help.autodesk.com: DXF reference, "About the General DXF File Structure".
+A reader that repairs silently drops what it cannot place.  The counts of this scan are compared with what was read, so
+that no loss goes unreported.  https://help.autodesk.com: DXF reference, "About the General DXF File Structure".
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _NEEDED: Final = MappingProxyType(
         "INSERT": (2, 10, 20),
     }
 )
-"""Group codes that an entity has once, and only once: two entities run together have them twice."""
+"""Group codes that an entity has exactly once: two entities run together have them twice."""
 
 _AT_MOST_ONCE: Final = MappingProxyType(
     {"ELLIPSE": (41, 42), "VERTEX": (42,), "INSERT": (41, 42, 50), "LWPOLYLINE": (38, 90), "SPLINE": (70, 71)}
@@ -49,11 +49,11 @@ _COUNTED: Final = MappingProxyType(
         "SPLINE": (("knots", 72, 40), ("control points", 73, 10), ("fit points", 74, 11)),
     }
 )
-"""Entities that say how often a group code follows: (what, code of the count, code that is counted)."""
+"""Entities that state how often a group code follows: (what, code of the count, counted code)."""
 
 
 class Tag(NamedTuple):
-    """A group code with its value; `line` is that of the group code, 0 in a binary file."""
+    """A group code with its value; `line` is the line of the group code, 0 in a binary file."""
 
     code: int
     value: str
@@ -62,14 +62,14 @@ class Tag(NamedTuple):
 
 @dataclass(slots=True)
 class ScannedEntity:
-    """An entity as it stands in the file; `number` counts from 1 within its section or block."""
+    """An entity in the file; `number` counts from 1 within its section or block."""
 
     kind: str
     line: int
     number: int
     paper: bool = False
     fault: str = ""
-    """What is wrong with its group codes."""
+    """What is wrong with its group codes, empty if nothing is."""
 
     @property
     def where(self) -> str:
@@ -79,10 +79,10 @@ class ScannedEntity:
 
 @dataclass(slots=True)
 class Scan:
-    """What a file holds by its tags.
+    """The contents of a file by its tags.
 
     `whole`: every section that begins ends, and the file ends with EOF.  `last_line` is the last line that was read,
-    `cut` the number of lines up to the last entity that is whole, where the file breaks off in its entities.
+    `cut` the number of lines up to the last whole entity if the file breaks off within its entities.
     """
 
     whole: bool = False
@@ -90,17 +90,17 @@ class Scan:
     entities: list[ScannedEntity] = field(default_factory=list)
     blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
     units: int = 0
-    """$INSUNITS, 0 where the file has none."""
+    """$INSUNITS, 0 if the file has none."""
     bad_line: int = 0
-    """The first line that should be a group code and is none."""
+    """The first line that should be a group code and is not, 0 if there is none."""
     open_section: str = ""
-    """The section in which the file ends."""
+    """The section in which the file ends, empty if all sections end."""
     cut: int = 0
     repaired: str = ""
-    """Why the file could only be read by repairing it."""
+    """Why the file could be read only after a repair, empty if it needed none."""
     unknown_sections: list[str] = field(default_factory=list)
     lost: list[ScannedEntity] = field(default_factory=list)
-    """Entities that no reader can see: their kind is missing."""
+    """Entities that no reader can see, because their kind is missing."""
 
     @property
     def first_fault(self) -> ScannedEntity | None:
@@ -110,7 +110,7 @@ class Scan:
 
 
 def text_lines(data: bytes) -> list[bytes]:
-    """The lines of a text file, whichever line ends it has."""
+    """Return the lines of a text file, with any kind of line end."""
     lines = _BREAK.sub(b"\n", data).removeprefix(b"\xef\xbb\xbf").split(b"\n")
     if lines and not lines[-1].strip():
         lines.pop()
@@ -118,7 +118,7 @@ def text_lines(data: bytes) -> list[bytes]:
 
 
 def is_dxf(data: bytes) -> bool:
-    """Whether the data begins as a DXF file does: its binary mark, or a SECTION after comments."""
+    """True if the data begins like a DXF file: with its binary mark, or with a SECTION after comments."""
     if data.startswith(BINARY_MARK):
         return True
     first = next((tag for tag in _tags(text_lines(data[:65536]), Scan()) if tag.code != COMMENT), None)
@@ -126,7 +126,7 @@ def is_dxf(data: bytes) -> bool:
 
 
 def scan_text(data: bytes) -> Scan:
-    """What a text file holds."""
+    """Scan a text file."""
     lines = text_lines(data)
     scan = Scan(last_line=len(lines))
     _Scanner(scan).run(_tags(lines, scan))
@@ -134,14 +134,14 @@ def scan_text(data: bytes) -> Scan:
 
 
 def scan_tags(tags: Iterable[tuple[int, object]]) -> Scan:
-    """What the tags of a binary file hold."""
+    """Scan the tags of a binary file."""
     scan = Scan()
     _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT)
     return scan
 
 
 def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
-    """The tags up to the first line that is no group code; that of EOF is the last."""
+    """Yield the tags up to EOF, or up to the first line that should be a group code and is not."""
     for row in range(0, len(lines) - 1, 2):
         try:
             code = int(lines[row])
@@ -161,7 +161,7 @@ def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
 
 @dataclass(slots=True)
 class _Scanner:
-    """Walks the tags: one entity after the other, in the section and the block in which it stands."""
+    """Walks through the tags, entity by entity, and keeps track of the section and the block."""
 
     scan: Scan
     section: str = ""
@@ -183,7 +183,7 @@ class _Scanner:
                 self.scan.open_section = self.section
                 return
             self.open(tag)
-        # the entity in which the file ends may have lost something: only those before it are whole
+        # the last entity may have lost something: only those before it are whole
         self.scan.open_section = self.section
         if self.section in ("ENTITIES", "BLOCKS"):
             self.scan.cut = marker.line - 1 if marker.line else 0
@@ -196,7 +196,7 @@ class _Scanner:
             entities.pop()
 
     def open(self, tag: Tag) -> None:
-        """A new marker: of a section, of a block, or of an entity."""
+        """Begin a section, a block or an entity at its marker."""
         name = tag.value
         if name == "SECTION":
             return
@@ -210,7 +210,7 @@ class _Scanner:
         elif self.section == "ENTITIES" or self.block is not None:
             self._add(tag)
         elif self.section == "BLOCKS":
-            # its block has lost its beginning
+            # the beginning of its block is missing
             self.scan.blocks.setdefault("", []).append(
                 ScannedEntity(name, tag.line, 1, fault="stands outside of any block")
             )
@@ -222,7 +222,7 @@ class _Scanner:
         entities.append(self.entity)
 
     def close(self, marker: Tag, body: list[Tag]) -> None:
-        """All tags of a marker are known."""
+        """Process a marker once all its tags are known."""
         if marker.code:
             return
         if marker.value == "SECTION":
@@ -256,7 +256,7 @@ class _Scanner:
 
 
 def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
-    """What is wrong with the group codes of an entity, nothing where they can be right."""
+    """Return what is wrong with an entity's group codes, empty if they can be right."""
     for code in _NEEDED.get(kind, ()):
         if counts[code] != 1:
             return f"has group code {code} {_times(counts[code])}"
@@ -264,9 +264,9 @@ def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
         if counts[code] > 1:
             return f"has group code {code} {_times(counts[code])}"
     for what, code, counted in _COUNTED.get(kind, ()):
-        said = next((tag.value for tag in body if tag.code == code), None)
-        if said is not None and (not said.isdecimal() or int(said) != counts[counted]):
-            return f"names {said} {what} and has {counts[counted]}"
+        stated = next((tag.value for tag in body if tag.code == code), None)
+        if stated is not None and (not stated.isdecimal() or int(stated) != counts[counted]):
+            return f"names {stated} {what} and has {counts[counted]}"
     return ""
 
 

@@ -1,7 +1,7 @@
-"""NC in: the contours of an NC program, by the reader and the rules of its control.
+"""Reads the contours of an NC program, with the reader and the rules of its control.
 
-A program that the control compensates gives the contour as programmed, without the moves that lead in and out.  One of
-the tool's center gives the contour that this path is the offset of; it is proved by compensating it again.  Passes of
+A program that the control compensates gives the contour as programmed, without its lead-in and lead-out moves.  A
+program of the tool center gives the contour whose offset is its path; compensating it again proves it.  Passes of
 one contour at several depths, or with several radii, are one contour.
 """
 
@@ -29,22 +29,22 @@ from core.tolerance import CLOSED
 from core.units import Unit, sentence, to_mm
 
 SAME_CONTOUR: Final = 0.001
-"""Millimeters within which passes are of one contour, and a contour's own path is that of the program."""
+"""Largest distance in millimeters between passes of one contour, and of a piece from a point on it."""
 
 LEAD_SLACK: Final = 0.002
-"""Millimeters by which the radii of a lead-in and its lead-out may differ."""
+"""Largest difference in millimeters of the radii of a lead-in and its lead-out."""
 
 QUARTER: Final = 0.01
-"""Radians by which the arc of a lead may differ from a quarter turn."""
+"""Largest difference of a lead's arc from a quarter turn, in radians."""
 
 TANGENT: Final = 0.01
-"""Radians by which a lead may differ from the direction of the contour."""
+"""Largest angle between a lead and the contour at their joint, in radians."""
 
 
 def read_nc(
     text: bytes, control: str, tools: ToolTable, *, unit: Unit | None = None, center: CenterPathTool | None = None
 ) -> NcProgram:
-    """The contours of a program on a control.  Raises NcError; `center` is needed where nothing is compensated."""
+    """Return the contours of a program on a control.  Raises NcError; `center` is needed if nothing is compensated."""
     made = run(text, control, tools, unit)
     if isinstance(made, UnknownControl):
         raise NcError(made.text)
@@ -78,7 +78,7 @@ def _run_notes(made: ControlRun) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Words:
-    """Tool numbers and speeds by the lines in which they stand."""
+    """Tool numbers and speeds, each with the line that names it."""
 
     tools: tuple[tuple[int, float], ...]
     speeds: tuple[tuple[int, float], ...]
@@ -91,12 +91,12 @@ class _Words:
         return _Words(*(tuple(_named(lines, word)) for word in (tool, speed)))
 
     def tool(self, line: int) -> int | None:
-        """The tool in use at a line."""
+        """Return the tool in use at a line."""
         value = _last_before(self.tools, line)
         return None if value is None else int(value)
 
     def speed(self, line: int) -> float | None:
-        """The speed in use at a line."""
+        """Return the speed in use at a line."""
         return _last_before(self.speeds, line)
 
 
@@ -115,7 +115,7 @@ def _last_before(values: Sequence[tuple[int, float]], line: int) -> float | None
 
 
 def _programmed(made: ControlRun, stretch: Stretch, words: _Words) -> Iterator[NcContour]:
-    """The contours of a compensated stretch as programmed."""
+    """Yield the contours of a compensated stretch as programmed."""
     if stretch.plane is not Plane.XY:
         line = int(stretch.programmed.lines[-1])
         raise NcError(f"Line {line}: the contour is in the {stretch.plane.name} plane; only XY can be imported.")
@@ -136,7 +136,7 @@ def _contour(
 
 
 def _plunge_feed(moves: Moves, row: int) -> float | None:
-    """The feed of the last move straight down before a row, or in it."""
+    """Return the feed of the last downward feed move up to the one that starts at a row."""
     for index in range(min(row + 1, len(moves) - 1), 0, -1):
         move, before = moves[index], moves[index - 1]
         if not move.rapid and move.point[2] < before.point[2] - SAME_HEIGHT and move.feed > 0.0:
@@ -145,7 +145,7 @@ def _plunge_feed(moves: Moves, row: int) -> float | None:
 
 
 def _cuts(moves: Moves) -> Iterator[Cut]:
-    """The moves that move in XY, with exact arcs; row 0 is where they start."""
+    """Yield the moves with motion in XY, with exact arcs; row 0 is their start."""
     at = (float(moves.points[0, 0]), float(moves.points[0, 1])) if len(moves) else (0.0, 0.0)
     for index in range(1, len(moves)):
         move = moves[index]
@@ -163,9 +163,9 @@ def _cuts(moves: Moves) -> Iterator[Cut]:
 
 
 def _contours(cuts: list[Cut], side: Side | None) -> Iterator[tuple[list[Cut], tuple[str, ...]]]:
-    """The contours among cuts in a row: closed ones without what leads to them, or the open one without its leads.
+    """Yield the contours among consecutive cuts: closed ones without their approach, or the open one without its leads.
 
-    An open one whose ends might be its own has a note that they were left out.
+    An open contour has a note if its first and last piece, which might be its own, were left out as leads.
     """
     if not cuts:
         return
@@ -184,24 +184,24 @@ def _contours(cuts: list[Cut], side: Side | None) -> Iterator[tuple[list[Cut], t
 
 
 MAX_OVERLAP: Final = 8
-"""Pieces at the end of a contour among which the one that runs over its start is sought."""
+"""Pieces at the end of a contour that may be the one that runs past its start."""
 
 
 def _without_overlap(cuts: list[Cut]) -> list[Cut]:
-    """A contour that runs over its start and on along its beginning, without what it cuts twice."""
+    """Trim a contour that runs past its start and on along its beginning, so that it cuts nothing twice."""
     start = cuts[0].piece.start
     for row in range(len(cuts) - 1, max(len(cuts) - MAX_OVERLAP, 1), -1):
         cut = cuts[row]
-        if not _passes(cut.piece, start) or not _tangent(replace(cut.piece, end=start), cuts[0].piece):
+        if not _passes_over(cut.piece, start) or not _tangent(replace(cut.piece, end=start), cuts[0].piece):
             continue
         again = [cut.piece.end, *(later.piece.end for later in cuts[row + 1 :])]
-        if all(any(_passes(first.piece, point) for first in cuts[:row]) for point in again):
+        if all(any(_passes_over(first.piece, point) for first in cuts[:row]) for point in again):
             return [*cuts[:row], cut._replace(piece=replace(cut.piece, end=start))]
     return cuts
 
 
-def _passes(piece: Piece, point: Point) -> bool:
-    """Whether a piece runs over a point after its start."""
+def _passes_over(piece: Piece, point: Point) -> bool:
+    """True if a piece passes over a point after its start."""
     if dist(piece.start, point) <= SAME_CONTOUR:
         return False
     if isinstance(piece, Arc):
@@ -214,9 +214,9 @@ def _passes(piece: Piece, point: Point) -> bool:
 
 
 def _without_leads(cuts: list[Cut], side: Side) -> list[Cut]:
-    """An open contour without the quarter circles that this program writes before and after it.
+    """Return an open contour without the quarter circles that cutcomp writes before and after it.
 
-    Both are there, of one radius, tangent to the contour and on the tool's side.
+    Both must be there, with one radius, tangent to the contour and on the tool's side.
     """
     if len(cuts) < 3:
         return cuts
@@ -236,7 +236,7 @@ def _tangent(first: Piece, second: Piece) -> bool:
 
 
 def _center_passes(made: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:
-    """The contours of a program of the tool's center."""
+    """Yield the contours of a program of the tool center."""
     moves, radius = made.moves, to_mm(center.diameter, made.unit) / 2.0
     for first, last in _feed_runs(moves):
         plunge = _plunge_feed(moves, first)
@@ -251,7 +251,7 @@ def _center_passes(made: ControlRun, center: CenterPathTool, words: _Words) -> I
 
 
 def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:
-    """Rows (the start's, one after the last) of feed moves in XY without a rapid or a plunge between them."""
+    """Yield the rows (of the start, after the last) of feed moves in XY with no rapid or plunge between them."""
     begin: int | None = None
     for index in range(1, len(moves) + 1):
         inside = False
@@ -266,7 +266,7 @@ def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:
 
 
 def _grouped(passes: Sequence[NcContour]) -> list[NcContour]:
-    """Passes of one contour as one: radius, feed, tool and speed are the last pass's, depths are all of them."""
+    """Merge the passes of one contour: radius, feed, tool and speed are the last pass's, depths are from all."""
     groups: list[list[NcContour]] = []
     for contour in passes:
         group = next((group for group in groups if _same(group[0], contour)), None)

@@ -1,4 +1,4 @@
-"""A contour of an NC program, and the block that is made of it."""
+"""A contour of an NC program, and the block made from it."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
 SAME_HEIGHT: Final = 1e-4
-"""Millimeters by which two heights of one depth may differ."""
+"""Largest difference of two heights of one depth, in millimeters."""
 
 
 class NcError(Exception):
     """An NC program gives no contour; the text says why, with the line.
 
-    `needs_center`: the operator must say side and diameter.
+    `needs_center`: the operator must give the side and the diameter.
     """
 
     def __init__(self, text: str, *, needs_center: bool = False) -> None:
@@ -32,7 +32,7 @@ class NcError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class CenterPathTool:
-    """The tool of a program of the tool's center, as the operator tells it: its side, None for ON, and its diameter.
+    """The operator's tool for a program of the tool center: its side, None for ON, and its diameter.
 
     The diameter is in the program's unit.
     """
@@ -54,8 +54,8 @@ class Cut(NamedTuple):
 class NcContour:
     """A contour of a program.
 
-    `radius` is that of the last pass in millimeters, None where the tool's center runs on the contour; `depths` are
-    those of its passes in their order.  `tool` and `speed` are the last ones named before it.
+    `radius` is that of the last pass in millimeters, None if the tool center runs on the contour; `depths` are those of
+    its passes, in order.  `tool` and `speed` are the last ones named before it.
     """
 
     cuts: tuple[Cut, ...]
@@ -66,23 +66,23 @@ class NcContour:
     speed: float | None
     plunge_feed: float | None = None
     lookahead: int | None = None
-    """The look-ahead that makes the program's path of it, None for the calculated one."""
+    """The look-ahead that gives the program's path, None for the calculated one."""
     notes: tuple[str, ...] = ()
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
-        """The contour."""
+        """The pieces of the contour."""
         return tuple(cut.piece for cut in self.cuts)
 
     @property
     def closed(self) -> bool:
-        """Whether it ends where it starts."""
+        """True if it ends where it starts."""
         return dist(self.cuts[0].piece.start, self.cuts[-1].piece.end) <= CLOSED
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NcProgram:
-    """The contours of a program, in its unit."""
+    """The contours of a program, and its unit."""
 
     unit: Unit
     contours: tuple[NcContour, ...]
@@ -90,7 +90,7 @@ class NcProgram:
 
 
 def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[ImportedBlock]]:
-    """The program with a block for each contour of an NC program, and the tools that were not in its table.
+    """Return the program with a block for each contour and the tools that its table lacked, and those blocks.
 
     Raises `segments.DoesNotFitError`.
     """
@@ -102,7 +102,7 @@ def nc_blocks(program: Program, read: NcProgram) -> tuple[Program, list[Imported
 
 
 def _with_tool(program: Program, contour: NcContour) -> Program:
-    """The tool table with the contour's tool, unless it has one of that number."""
+    """Add the contour's tool to the tool table, unless it has a tool of that number."""
     if contour.tool is None or contour.radius is None or any(tool.number == contour.tool for tool in program.tools):
         return program
     diameter = Number(round(from_mm(2.0 * contour.radius, program.unit), 6))
@@ -121,7 +121,7 @@ def _block(number: int, contour: NcContour, program: Program) -> ImportedBlock:
 
 
 def _with_values(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
-    """The block with side, tool, speed, feeds, heights and depths of the program."""
+    """Return the block with the program's side, tool, speed, feeds, heights and depths."""
     side = contour.side
     comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
     block = replace(block, cutter_comp=comp)
@@ -141,7 +141,7 @@ def _typed(value: float, unit: Unit, decimals: int) -> Number:
 
 
 def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str]) -> Block:
-    """Z BOTTOM is the last depth; PECK DEPTH the step between depths, where it is one."""
+    """Set Z BOTTOM to the lowest depth, and PECK DEPTH to the step between depths if it is even."""
     falling = [depth for depth in dict.fromkeys(round(depth, 4) for depth in contour.depths)]
     bottom = min(falling)
     block = replace(block, z_bottom=_typed(bottom, unit, 4))
@@ -151,13 +151,13 @@ def _with_depths(block: Block, contour: NcContour, unit: Unit, notes: list[str])
     if min(steps) > 0.0 and max(steps) - min(steps) <= 2.0 * SAME_HEIGHT:
         top = falling[0] + steps[0]
         return replace(block, peck_depth=_typed(steps[0], unit, 4), z_start=_typed(top, unit, 4))
-    shown = ", ".join(f"{from_mm(depth, unit):.4f}" for depth in falling)
-    notes.append(f"The depths {shown} are not even steps: PECK DEPTH is not set.")
+    depths = ", ".join(f"{from_mm(depth, unit):.4f}" for depth in falling)
+    notes.append(f"The depths {depths} are not even steps: PECK DEPTH is not set.")
     return block
 
 
 def _with_feeds_and_heights(block: Block, contour: NcContour, unit: Unit) -> Block:
-    """Each segment with the feed, and the height at its end, where these are others than those before it."""
+    """Give each segment its feed, and the height at its end, where they differ from those before it."""
     feed, height, segments = None, contour.cuts[0].z, []
     for segment, cut in zip(block.segments, contour.cuts, strict=True):
         assert isinstance(segment, LineSegment | ArcSegment)

@@ -1,4 +1,4 @@
-"""A drawing's contours as a scene: the chosen ones full, all others dim, with start and direction of travel."""
+"""Draws a list's contours as a scene: the chosen ones full, the others dim, with start and direction of travel."""
 
 from __future__ import annotations
 
@@ -16,30 +16,30 @@ from core.importing.nesting import box_of
 from core.units import Unit
 
 MAX_PIECES: Final = 2000
-"""Pieces of a list's contours, from which on only their boxes are drawn where they are not chosen."""
+"""Above this many pieces in a list, contours that are not chosen are drawn as their boxes."""
 
 MAX_STARTS: Final = 30
-"""Chosen contours that are shown with start and direction."""
+"""Most chosen contours that are drawn with start and direction."""
 
 
 def background(contours: Sequence[Contour]) -> Layer:
-    """All contours of a list as one dim layer: it stays the same whichever of them is chosen."""
+    """Return all contours of a list as one dim layer, the same for every choice."""
     boxed = sum(len(contour.pieces) for contour in contours) > MAX_PIECES
     pieces: list[Piece] = []
     drawn: list[bool] = []
     for contour in contours:
-        own = _box(contour) if boxed else contour.pieces
+        outline = _box(contour) if boxed else contour.pieces
         if pieces:
-            # from the one before: not drawn
-            pieces.append(Line(pieces[-1].end, own[0].start))
+            # the line from the contour before is not drawn
+            pieces.append(Line(pieces[-1].end, outline[0].start))
             drawn.append(False)
-        pieces += own
-        drawn += [True] * len(own)
+        pieces += outline
+        drawn += [True] * len(outline)
     return Layer(Path.from_pieces(pieces), Style.RAPID, dashed=True, drawn=np.array(drawn, dtype=bool))
 
 
 def contours_scene(dim: Layer, chosen: Iterable[Contour], unit: Unit) -> Scene:
-    """The background of a list, and over it the contours that are marked, or the one under the cursor."""
+    """Return the background of a list, with the marked contours, or the one under the cursor, over it."""
     full = list(chosen)
     layers = [dim, *(Layer(Path.from_pieces(contour.pieces), Style.SURFACE) for contour in full)]
     marks = tuple(mark for contour in full[:MAX_STARTS] for mark in _start_marks(contour))
@@ -53,7 +53,7 @@ def _box(contour: Contour) -> tuple[Piece, ...]:
 
 
 def _start_marks(contour: Contour) -> tuple[Mark, ...]:
-    """Where a contour starts, and which way it is traveled from there."""
+    """Return the marks of a contour's start and of its direction of travel there."""
     first = contour.pieces[0]
     ahead = first.point_at(0.3)
     return (
