@@ -1,4 +1,4 @@
-"""What a check answers for one program on one control: findings, outcome in words, and the machine-readable object."""
+"""Checks one program on one control: findings, outcome in words, and the machine-readable object."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ NOT_FOLLOWED: Final = (
     *("MACRO", "LIMIT", "BEYOND", "N-PROBE"),
     *("FN-DARC", "FN-CYCLE", "FN-TRANSFORM", "FN-WHERE", "FN-PARAMETER", "FN-ENDLESS"),
 )
-"""Rules at which not the control stops but the reading of the program."""
+"""Rules that stop the reading of the program, not the control."""
 NOTHING: Final = "EMPTY"
-"""The rule of a program in which there is nothing to run."""
+"""The rule of a program with nothing to run."""
 SHALLOW: Final = 0.01
-"""Share of the tool's radius below which a gouge is shallow."""
+"""A gouge is shallow below this fraction of the tool's radius."""
 
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|Offset) (\d+)|diameter of tool (.+) is (?:unknown|not)")
-"""How the controls say that they know no size of a tool."""
+"""Texts in which controls say that they do not know a tool's size."""
 _NO_TOOL: Final = re.compile(r"The tool's radius is unknown\.")
-"""How Klartext says that it knows no tool at all."""
+"""The text in which Klartext says that it knows no tool at all."""
 
 
 class State(StrEnum):
-    """What came of a program on a control: the word for it in JSON."""
+    """The result of a program on a control: the word for it in JSON."""
 
     CLEAN = auto()
     GOUGES = auto()
@@ -61,12 +61,11 @@ class State(StrEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Asked:
-    """What is asked of every program: a control's full name or `all`, the tools, the shop's rules or not.
+    """What is asked of every program: a control's full name or `all`, the tools, and whether the shop's rules apply.
 
-    `unit` counts where a program names none; None is what the control starts in.  `library` finds the programs that a
-    control calls from its memory.  With `names_options`, what stops for want of a
-    tool's size names the option of the command line that gives it.  With `fits`, the largest tool that is clean is
-    looked for where one is too big.
+    `unit` applies if a program names none; None is the one that a control starts in.  `library` finds the programs
+    that a control calls from its memory.  With `names_options`, a stop for lack of a tool's size names the option of
+    the command line that gives it.  With `fits`, the largest tool that is clean is searched for if one is too big.
     """
 
     control: str
@@ -80,7 +79,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Answer:
-    """A program on a control, told; `why` is what it stops for, `fits` the largest tool where one is too big."""
+    """A program's result on a control; `why` is what it stops for, `fits` the largest tool if one is too big."""
 
     control: str
     unit: Unit
@@ -99,53 +98,53 @@ class Answer:
 
     @property
     def name(self) -> str:
-        """The control's name for people."""
+        """The control's name as operators know it."""
         return shown_name(self.control)
 
     @property
     def errors(self) -> bool:
-        """Whether anything is an error."""
+        """True if any finding is an error."""
         return any(finding.severity is Severity.ERROR for finding in self.findings)
 
     @property
     def warnings(self) -> int:
-        """How many findings are warnings."""
+        """The number of warnings."""
         return sum(finding.severity is Severity.WARNING for finding in self.findings)
 
     @property
     def outcome_and_warnings(self) -> str:
-        """The outcome, and where there are warnings how many and of which rules: `runs, 2 warnings (RAPID, UNCUT)`."""
-        rules = dict.fromkeys(one.code for one in self.findings if one.severity is Severity.WARNING)
-        told = f", {counted(self.warnings, 'warning')} ({', '.join(rules)})" if rules else ""
-        return f"{self.outcome}{told}"
+        """The outcome, with the number and rules of any warnings: `runs, 2 warnings (RAPID, UNCUT)`."""
+        rules = dict.fromkeys(finding.code for finding in self.findings if finding.severity is Severity.WARNING)
+        warnings = f", {counted(self.warnings, 'warning')} ({', '.join(rules)})" if rules else ""
+        return f"{self.outcome}{warnings}"
 
     @property
     def uncompensated(self) -> bool:
-        """Whether compensation is asked for somewhere with radius 0."""
+        """True if the program asks for compensation with radius 0 anywhere."""
         return any(finding.code in RADIUS_ZERO for finding in self.findings)
 
     @property
     def why_said(self) -> str:
-        """What the control stops for as a sentence, empty where it does not."""
+        """The reason for the stop as a sentence, empty if the control does not stop."""
         return "" if self.why is None else sentence(self.why, self.unit)
 
     @property
     def missing(self) -> ToolId | None:
-        """The number or name of the tool for whose diameter the control stops, if it does."""
+        """The number or name of the tool whose diameter the control lacks when it stops, else None."""
         if self.stopped_at is None:
             return None
-        found = (_NO_SIZE.search(one.text) for one in self.findings if one.severity is Severity.ERROR)
-        return next((tool_id(one[1] or one[2]) for one in found if one), None)
+        matches = (_NO_SIZE.search(finding.text) for finding in self.findings if finding.severity is Severity.ERROR)
+        return next((tool_id(match[1] or match[2]) for match in matches if match), None)
 
     @property
     def count(self) -> int:
-        """Number of moves, the start point left out."""
+        """The number of moves, without the start point."""
         return len(self.moves) - 1 if self.moves is not None else 0
 
     def json(self) -> dict[str, object]:
-        """The machine-readable object, in program units."""
+        """Return the machine-readable object, in program units."""
         moves = [] if self.moves is None else [_move(move, self.unit) for move in self.moves]
-        told = [_finding(finding, self.unit) for finding in self.findings]
+        findings = [_finding(finding, self.unit) for finding in self.findings]
         return {
             "control": self.name,
             "units": self.unit.value,
@@ -155,12 +154,12 @@ class Answer:
             "parts_from": None if self.parting is None else _parts_from(self.parting, self.parting_of, self.unit),
             "stretches": self.stretches,
             "moves": moves,
-            "findings": told,
+            "findings": findings,
         }
 
 
 def answer(text: bytes, asked: Asked) -> Answer:
-    """One control's answer."""
+    """Return one control's answer."""
     done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
     row = _answer(done, judge_run(done), _foreign(done.control, text), "", shop=asked.shop)
@@ -168,7 +167,7 @@ def answer(text: bytes, asked: Asked) -> Answer:
 
 
 def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
-    """The answer; where a smaller tool would be clean, with the largest such at the fault's line."""
+    """Return the answer; if a smaller tool would be clean, with the largest such tool at the fault's line."""
     if not asked.fits or row.state not in (State.ALARM, State.GOUGES):
         return row
     fits = largest_tool(text, done, asked.tools, asked.library, asked.unit, progress)
@@ -176,22 +175,22 @@ def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, 
         return row
     fits = replace(fits, line=row.stopped_at or (row.gouge and row.gouge[1]))
     if row.state is State.GOUGES and _only_leads_gouge(row, done):
-        said = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
-        fits = replace(fits, text=said)
+        message = "Only a lead-in or lead-out gouges: move its far end. As it is, the largest tool that fits is {0}."
+        fits = replace(fits, text=message)
     return replace(row, fits=fits, findings=_by_line((*row.findings, fits)))
 
 
 def _is_of_no_use(fits: Finding, row: Answer, done: ControlRun) -> bool:
-    """Whether a tool less than half as large is named for a gouge of next to nothing.
+    """True if a shallow gouge would need a tool less than half as large.
 
-    LinuxCNC leaves such gouges at joints that are nearly tangent, of a drawing's short lines: with any tool in use.
+    LinuxCNC leaves such gouges at nearly tangent joints of a drawing's short lines, with any tool in use.
     """
     radius = max((stretch.radius for stretch in done.stretches), default=0.0)
     return row.gouge is not None and row.gouge[0] < SHALLOW * radius and fits.lengths[0] < radius
 
 
 def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
-    """Whether no move gouges but those that turn compensation on or off."""
+    """True if no move gouges except those that turn compensation on or off."""
     contours = set[int]()
     for stretch in done.stretches:
         lines = stretch.programmed.lines.tolist()
@@ -200,15 +199,15 @@ def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
 
 
 def _with_option(row: Answer, asked: Asked) -> Answer:
-    """The answer; what stops a control for want of a tool's size names the option that gives it."""
+    """Return the answer; a stop for lack of a tool's size names the option that gives it."""
     if not asked.names_options or row.why is None or row.stopped_at is None:
         return row
     why = replace(row.why, text=with_tool_option(row.why.text))
-    return replace(row, why=why, findings=tuple(why if one is row.why else one for one in row.findings))
+    return replace(row, why=why, findings=tuple(why if finding is row.why else finding for finding in row.findings))
 
 
 def with_tool_option(text: str) -> str:
-    """The text of an alarm; where it says that a tool's size is unknown, the command's option that gives it too."""
+    """Return the text of an alarm; if it says that a tool's size is unknown, with the option that gives it."""
     size = _NO_SIZE.search(text)
     if size is None and not _NO_TOOL.search(text):
         return text
@@ -217,14 +216,14 @@ def with_tool_option(text: str) -> str:
 
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
-    """The answer of a control that has run a text."""
+    """Return the answer of a control that has run a text."""
     return _answer(done, results, _foreign(done.control, text), "", shop=False)
 
 
 def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, ...]:
-    """Every control's answer, and where its path leaves that of the `reference`, which comes first.
+    """Return every control's answer, and where its path leaves that of the `reference`, which comes first.
 
-    Without one, or where it does not run the program, that of the first control that does.
+    Without a reference, or if it does not run the program, the first control that runs it is the one compared with.
     """
     asked = replace(asked, unit=asked.unit or Unit.IN)
     rows = compare(text, asked.tools, asked.unit, asked.library, reference)
@@ -233,13 +232,13 @@ def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, 
 
 def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
     if isinstance(row, OtherLanguage):
-        said = f"The program is in another control's language, and its contour is not compared: {row.why}."
-        told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
+        message = f"The program is in another control's language, and its contour is not compared: {row.why}."
+        findings = (Finding("LANGUAGE", Severity.INFO, message, line=1, column=1),)
         return Answer(
             row.control,
             Unit.MM,
             None,
-            told,
+            findings,
             None,
             "reads another language",
             parts=f"not compared: {row.why}",
@@ -251,82 +250,82 @@ def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answe
         compared_row = _with_option(with_largest_tool(compared_row, row.run, text, asked), asked)
         return replace(compared_row, parting=row.parts, parting_of=row.of)
     by = shown_name(row.by)
-    said = f"The program is in another control's language: only its contour was run, as {by} reads it, "
-    said += "with straight leads that cutcomp adds."
-    told = (Finding("LANGUAGE", Severity.INFO, said, line=1, column=1),)
+    message = f"The program is in another control's language: only its contour was run, as {by} reads it, "
+    message += "with straight leads that cutcomp adds."
+    findings = (Finding("LANGUAGE", Severity.INFO, message, line=1, column=1),)
     parts = f"its contour only{'; ' if parts else ''}{parts}"
-    found = _answer(row.run, row.results, told, parts, shop=asked.shop)
-    return replace(found, parting=row.parts, parting_of=row.of)
+    contour_row = _answer(row.run, row.results, findings, parts, shop=asked.shop)
+    return replace(contour_row, parting=row.parts, parting_of=row.of)
 
 
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     if reads(control, text):
         return ()
-    said = "The program is not written in this control's language. Comparing all controls takes its contour."
-    return (Finding("LANGUAGE", Severity.WARNING, said, line=1, column=1),)
+    message = "The program is not written in this control's language. Comparing all controls takes its contour."
+    return (Finding("LANGUAGE", Severity.WARNING, message, line=1, column=1),)
 
 
 def _answer(
     done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool
 ) -> Answer:
-    told = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
+    merged = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
-    told = _once(told, done.unit)
-    row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
+    merged = _without_repeats(merged, done.unit)
+    row = Answer(done.control, done.unit, done.moves, _by_line(merged), done.stopped_at, _outcome(done, results, why))
     gouge = deepest_gouge(results)
-    state = _state(done, results, why, told)
+    state = _state(done, results, why, merged)
     deepest = gouge if gouge[0] else None
     return replace(row, stretches=len(done.stretches), parts=parts, why=why, state=state, gouge=deepest)
 
 
-def _once(told: tuple[Finding, ...], unit: Unit) -> tuple[Finding, ...]:
-    """Passes at several depths find the same at the same place; what has no place is of each by itself."""
+def _without_repeats(findings: tuple[Finding, ...], unit: Unit) -> tuple[Finding, ...]:
+    """Drop equal findings of passes at several depths; findings without a place all stay."""
     known: dict[object, Finding] = {}
-    for number, one in enumerate(told):
-        place = number if one.line is None and one.at is None else (one.line, one.column)
-        known.setdefault((one.code, one.severity, place, sentence(one, unit)), one)
-    return tuple(_few_alike(known.values(), unit))
+    for number, finding in enumerate(findings):
+        place = number if finding.line is None and finding.at is None else (finding.line, finding.column)
+        known.setdefault((finding.code, finding.severity, place, sentence(finding, unit)), finding)
+    return tuple(_with_few_alike(known.values(), unit))
 
 
-def _few_alike(told: Iterable[Finding], unit: Unit) -> Iterator[Finding]:
-    """Information that repeats itself on many lines, as of the leads of a hundred holes, told MAX_ALIKE times."""
+def _with_few_alike(findings: Iterable[Finding], unit: Unit) -> Iterator[Finding]:
+    """Yield equal information, as on the leads of a hundred holes, only MAX_ALIKE times; count the rest."""
     alike = Counter[tuple[str, str]]()
     left_out: dict[str, list[int | None]] = {}
-    for one in told:
-        said = (one.code, sentence(one, unit))
-        alike[said] += 1
-        if one.severity is not Severity.INFO or alike[said] <= MAX_ALIKE:
-            yield one
+    for finding in findings:
+        repeated = (finding.code, sentence(finding, unit))
+        alike[repeated] += 1
+        if finding.severity is not Severity.INFO or alike[repeated] <= MAX_ALIKE:
+            yield finding
         else:
-            left_out.setdefault(one.code, []).append(one.line)
+            left_out.setdefault(finding.code, []).append(finding.line)
     yield from map(more_alike, left_out, left_out.values())
 
 
 def _state(
-    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, told: tuple[Finding, ...]
+    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, findings: tuple[Finding, ...]
 ) -> State:  # fmt: skip
-    """What came of a run, the worst first: an alarm before a gouge, a gouge before what cannot be judged."""
+    """Return the state of a run, the worst first: an alarm before a gouge, a gouge before what cannot be judged."""
     stopped = done.stopped_at is not None
     cases = (
-        (any(one.code == NOTHING for one in done.findings), State.EMPTY),
+        (any(finding.code == NOTHING for finding in done.findings), State.EMPTY),
         (stopped and why is not None and why.code in NOT_FOLLOWED, State.NOT_FOLLOWED),
         (stopped, State.ALARM),
         (deepest_gouge(results)[0] > 0.0, State.GOUGES),
         (first_unjudged(results)[0], State.UNJUDGED),
         (any(result.verdict.wrong_side for result in results), State.WRONG_SIDE),
-        (any(one.code in RADIUS_ZERO for one in done.findings), State.UNCOMPENSATED),
-        (any(one.severity is Severity.ERROR for one in told), State.ERRORS),
+        (any(finding.code in RADIUS_ZERO for finding in done.findings), State.UNCOMPENSATED),
+        (any(finding.severity is Severity.ERROR for finding in findings), State.ERRORS),
         (not done.moves.lines.any(), State.EMPTY),
     )
     return next((state for holds, state in cases if holds), State.CLEAN)
 
 
-def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    return tuple(sorted(told, key=lambda finding: finding.line or 0))
+def _by_line(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    return tuple(sorted(findings, key=lambda finding: finding.line or 0))
 
 
 def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None) -> str:
-    if any(one.code == NOTHING for one in done.findings):
+    if any(finding.code == NOTHING for finding in done.findings):
         return "has nothing to run"
     cut, line = deepest_gouge(results)
     place = f"at line {line}" if line else "in a lead"
@@ -345,17 +344,17 @@ def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None)
         return "runs on the wrong side"
     if not done.moves.lines.any():
         return "moves nothing"
-    if not any(one.code in RADIUS_ZERO for one in done.findings):
+    if not any(finding.code in RADIUS_ZERO for finding in done.findings):
         return "runs"
-    return f"runs, {'not all' if any(one.radius for one in done.stretches) else 'nothing'} compensated"
+    return f"runs, {'not all' if any(stretch.radius for stretch in done.stretches) else 'nothing'} compensated"
 
 
-def _last_error(told: tuple[Finding, ...]) -> Finding | None:
-    return next((one for one in reversed(told) if one.severity is Severity.ERROR), None)
+def _last_error(findings: tuple[Finding, ...]) -> Finding | None:
+    return next((finding for finding in reversed(findings) if finding.severity is Severity.ERROR), None)
 
 
 def _parting(parts: Parting, of: str, unit: Unit) -> str:
-    """Where the paths part, and by how much where they are farthest apart; short enough for a line of the screen."""
+    """Return where the paths part, their largest distance and its line; short enough for a line of the screen."""
     where = f"differs from {shown_name(of)} from line {parts.line}"
     return f"{where}, by {_length(parts.distance, unit)} at line {parts.farthest}"
 
@@ -366,7 +365,7 @@ def _length(value: float, unit: Unit) -> str:
 
 def _move(move: Move, unit: Unit) -> dict[str, object]:
     x, y, z = (from_mm(value, unit) for value in move.point)
-    told: dict[str, object] = {
+    document: dict[str, object] = {
         "type": "arc" if move.turn else "line",
         "mode": "rapid" if move.rapid else "feed",
         "line": move.line,
@@ -376,9 +375,9 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
     }
     if move.turn:
         cx, cy, cz = (from_mm(value, unit) for value in move.center)
-        told |= {"cx": cx, "cy": cy, "cz": cz, "plane": move.plane.name, "ccw": move.turn > 0}
-    told["feed"] = None if move.rapid else from_mm(move.feed, unit)
-    return told
+        document |= {"cx": cx, "cy": cy, "cz": cz, "plane": move.plane.name, "ccw": move.turn > 0}
+    document["feed"] = None if move.rapid else from_mm(move.feed, unit)
+    return document
 
 
 def _gouge(gouge: tuple[float, int | None], unit: Unit) -> dict[str, object]:
@@ -407,8 +406,8 @@ def _finding(finding: Finding, unit: Unit) -> dict[str, object]:
 
 
 def unreadable(file: str, why: str) -> dict[str, object]:
-    """The machine-readable object of a file that could not be read."""
-    told: dict[str, object] = {
+    """Return the machine-readable object of a file that could not be read."""
+    finding: dict[str, object] = {
         "rule": "UNREADABLE",
         "severity": "error",
         "line": None,
@@ -418,60 +417,60 @@ def unreadable(file: str, why: str) -> dict[str, object]:
     }
     nothing: dict[str, object] = {"control": None, "units": None, "state": State.UNREADABLE.value, "stopped_at": None}
     nothing |= {"deepest_gouge": None, "parts_from": None, "stretches": 0, "moves": []}
-    return {"file": file, **nothing, "findings": [told]}
+    return {"file": file, **nothing, "findings": [finding]}
 
 
-def lines(one: Answer) -> Iterator[str]:
-    """An answer as text, a line for each finding and one for the outcome."""
-    for finding in one.findings:
+def lines(row: Answer) -> Iterator[str]:
+    """Yield an answer as text, a line for each finding and one for the outcome."""
+    for finding in row.findings:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
-        yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
-    moves, stretches = counted(one.count, "move"), counted(one.stretches, "compensated stretch")
-    yield f"{one.name}: {one.outcome_and_warnings}; {moves}, {stretches}, {one.unit.value}."
+        yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, row.unit)}"
+    moves, stretches = counted(row.count, "move"), counted(row.stretches, "compensated stretch")
+    yield f"{row.name}: {row.outcome_and_warnings}; {moves}, {stretches}, {row.unit.value}."
 
 
 def counted(number: int, what: str) -> str:
-    """How many there are of something: `1 move`, `2 moves`, `2 compensated stretches`."""
+    """Return a count with its noun: `1 move`, `2 moves`, `2 compensated stretches`."""
     return f"{number} {what}" if number == 1 else f"{number} {what}{'es' if what.endswith('ch') else 's'}"
 
 
 def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
-    """What controls stop for, those that stop at one line for one reason together; then the largest tools that fit."""
+    """Yield each reason for a stop with the controls that stop at that line for it; then the largest tools that fit."""
     stopped: dict[str, list[str]] = {}
-    for one in answers:
-        if one.why:
-            stopped.setdefault(f"line {one.stopped_at} ({one.why.code}): {one.why_said}", []).append(one.name)
-    for said, names in stopped.items():
-        yield f"{' and '.join(filter(None, (', '.join(names[:-1]), names[-1])))} at {said}"
-    for one in answers:
-        if one.fits is not None:
-            yield f"{one.name}: {sentence(one.fits, one.unit)}"
+    for row in answers:
+        if row.why:
+            stopped.setdefault(f"line {row.stopped_at} ({row.why.code}): {row.why_said}", []).append(row.name)
+    for reason, names in stopped.items():
+        yield f"{' and '.join(filter(None, (', '.join(names[:-1]), names[-1])))} at {reason}"
+    for row in answers:
+        if row.fits is not None:
+            yield f"{row.name}: {sentence(row.fits, row.unit)}"
 
 
 def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tuple[str, ...]]:
-    """Whether two programs describe the same contours on the same sides, and what is to be said of each.
+    """Return whether two programs describe the same contours on the same sides, and a sentence about each contour.
 
-    A program in Klartext runs on that control, any other on the one asked for, LinuxCNC where that is not one.
+    A program in Klartext runs on that control, any other on the one asked for: LinuxCNC for `all` or Klartext.
     """
-    one, other = _read(first, asked), _read(second, asked)
-    pairs = contours(one, other)
-    told = [_pair(pair, one.unit, other.unit) for pair in pairs]
-    odd = len(one.stretches) != len(other.stretches)
+    first_run, second_run = _read(first, asked), _read(second, asked)
+    pairs = contours(first_run, second_run)
+    sentences = [_pair(pair, first_run.unit, second_run.unit) for pair in pairs]
+    odd = len(first_run.stretches) != len(second_run.stretches)
     if odd:
-        count = len(one.stretches)
+        count = len(first_run.stretches)
         which = "1 contour" if count == 1 else f"{count} contours"
-        told.append(f"The first program has {which}, the second {len(other.stretches)}.")
-    for name, done in (("first", one), ("second", other)):
+        sentences.append(f"The first program has {which}, the second {len(second_run.stretches)}.")
+    for name, done in (("first", first_run), ("second", second_run)):
         if done.stopped_at is not None:
-            told.append(_stopped(f"The {name} program", done))
-    if not told:
-        told.append("Neither program has a compensated contour.")
-    whole = one.stopped_at is None and other.stopped_at is None
-    return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(told)
+            sentences.append(_stopped(f"The {name} program", done))
+    if not sentences:
+        sentences.append("Neither program has a compensated contour.")
+    whole = first_run.stopped_at is None and second_run.stopped_at is None
+    return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(sentences)
 
 
 def _stopped(name: str, done: ControlRun) -> str:
-    why = next((one for one in done.findings if one.line == done.stopped_at and one.severity is Severity.ERROR), None)
+    why = next((err for err in done.findings if err.line == done.stopped_at and err.severity is Severity.ERROR), None)
     reason = "" if why is None else f" {with_tool_option(sentence(why, done.unit))}"
     return f"{name} stops at line {done.stopped_at}; what follows is not compared.{reason}"
 
@@ -487,11 +486,11 @@ def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
     if pair.same:
         return f"Contour {pair.number}: the same."
     ways = ((pair.first, first, "first"), (pair.second, second, "second"))
-    told = [
+    differences = [
         f"line {way.farthest} of the {name} is {_length(way.distance, unit)} {unit.value} off"
         for way, unit, name in ways
         if way
     ]
     if not pair.same_side:
-        told.append("the sides or planes differ")
-    return f"Contour {pair.number}: {', '.join(told)}."
+        differences.append("the sides or planes differ")
+    return f"Contour {pair.number}: {', '.join(differences)}."
