@@ -1,4 +1,4 @@
-"""Command output: what `cutcomp path` and `cutcomp lookahead` print, as JSON or as lines, in program units."""
+"""Formats what `cutcomp path` and `cutcomp lookahead` print, as JSON or as lines, in program units."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Document = dict[str, Any]
 
 
 def path_document(derived: Derived, number: int | None = None) -> Document:
-    """`cutcomp path --json`: the finish path of every block, or of block `number` alone."""
+    """Return `cutcomp path --json`: the finish path of every block, or of block `number` alone."""
     unit = derived.program.unit
     chosen = derived.blocks if number is None else (derived.block(number),)
     return {"units": str(unit), "blocks": [_block(block, unit) for block in chosen]}
@@ -45,9 +45,9 @@ def _block(block: DerivedBlock, unit: Unit) -> Document:
 
 
 def _segment(segment: SolvedSegment, block: DerivedBlock, unit: Unit) -> Document:
-    """One segment with the value of every field in program units, and its tag, null where it is typed.
+    """Return one segment with the value of every field in program units, and its tag, null if it is typed.
 
-    A number that is typed is given as the piece comes to it: where more is typed than is needed, the two may differ
+    A typed number is given with the value that the solved piece has: if more is typed than needed, the two may differ
     within the tolerance.
     """
     typed = block.block.segments[segment.number - 1]
@@ -71,7 +71,7 @@ def _segment(segment: SolvedSegment, block: DerivedBlock, unit: Unit) -> Documen
 
 
 def _as_solved(typed: float, solved: float | None, name: str) -> float:
-    """A typed number, or what the piece comes to where that differs."""
+    """Return the typed number, or the value of the solved piece if that differs."""
     if solved is None:
         return typed
     off = abs(typed - solved)
@@ -81,11 +81,11 @@ def _as_solved(typed: float, solved: float | None, name: str) -> float:
 
 
 TYPED_EXACTLY: Final = 1e-9
-"""A number that a piece comes to is the typed one where they differ by no more than this, in program units."""
+"""A piece's value that differs from the typed number by no more than this is the typed one; program units."""
 
 
 def _measured(piece: Piece, unit: Unit) -> dict[str, float]:
-    """What a piece comes to, by field name, in program units and degrees."""
+    """Return the values of a piece by field name, in program units and degrees."""
     values = {"x_end": from_mm(piece.end[0], unit), "y_end": from_mm(piece.end[1], unit)}
     x, y = piece.direction_at(piece.start)
     heading = degrees(atan2(y, x)) % 360.0
@@ -97,7 +97,7 @@ def _measured(piece: Piece, unit: Unit) -> dict[str, float]:
 
 
 def _run(run: SolvedRun, unit: Unit) -> Document:
-    """One run: which solution is in force (an index, null for none), and all of them, the shortest first."""
+    """Return one run: the solution in force (an index, null for none), and all of them, the shortest first."""
     return {
         "first": run.first,
         "last": run.last,
@@ -117,7 +117,7 @@ def _run(run: SolvedRun, unit: Unit) -> Document:
 
 
 def _clearance(block: DerivedBlock, unit: Unit) -> float | None:
-    """The smallest distance from the center path to the surface, blends included; None where there is none."""
+    """Return the smallest distance from the center path, blends included, to the surface; None without one."""
     verdict = None if block.paths is None else block.paths.verdict
     if verdict is None or not isfinite(verdict.clearance):
         return None
@@ -125,7 +125,7 @@ def _clearance(block: DerivedBlock, unit: Unit) -> float | None:
 
 
 def _clearance_at(block: DerivedBlock, unit: Unit) -> Document | None:
-    """The place of the smallest distance: the contour's segment and the point on it."""
+    """Return the place of the smallest distance: the contour's segment and the point on it."""
     place = nearest_place(block.paths)
     if place is None:
         return None
@@ -171,7 +171,7 @@ def _deleted(block: DerivedBlock, unit: Unit) -> list[Document]:
 
 
 def finding_document(finding: Finding, unit: Unit) -> Document:
-    """One finding with its place and value in program units."""
+    """Return one finding with its place and value in program units."""
     at = (None, None) if finding.at is None else tuple(from_mm(number, unit) for number in finding.at)
     return {
         "code": finding.code,
@@ -187,7 +187,7 @@ def finding_document(finding: Finding, unit: Unit) -> Document:
 
 
 def table_document(block: DerivedBlock, table: Table | None, unit: Unit) -> Document:
-    """`cutcomp lookahead --json` for one block: what becomes of the path at every value, and the table's notes."""
+    """Return `cutcomp lookahead --json` for one block: the path's result at every value, and the table's notes."""
     rows = () if table is None else table.rows
     return {
         "block": block.number,
@@ -209,12 +209,12 @@ def table_document(block: DerivedBlock, table: Table | None, unit: Unit) -> Docu
 
 
 def segment_number(number: float) -> int | float:
-    """A segment's number as an integer where it is one."""
+    """Return a segment's number, as an integer if it is one."""
     return int(number) if number == int(number) else number
 
 
 def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
-    """Every move of the center path, a line each, under a heading for its block."""
+    """Yield every move of the center path, a line each, under a heading for its block."""
     unit = derived.program.unit
     chosen = derived.blocks if number is None else (derived.block(number),)
     for block, document in zip(chosen, path_document(derived, number)["blocks"], strict=True):
@@ -230,7 +230,7 @@ def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
 
 
 def verdict_listing(block: DerivedBlock, unit: Unit) -> Iterator[str]:
-    """What the cutter does to the surface: the least distance and its place, and every stretch that is not reached."""
+    """Yield what the cutter does to the surface: the least distance and its place, and each stretch not reached."""
     place = nearest_place(block.paths)
     if place is not None and block.radius is not None:
         distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, block.radius))
@@ -269,7 +269,7 @@ def _move_line(move: dict[str, object], unit: Unit) -> str:
 
 
 def table_listing(block: DerivedBlock, table: Table | None, unit: Unit) -> Iterator[str]:
-    """The look-ahead table of one block, a line a value, and its notes."""
+    """Yield the look-ahead table of one block, a line per value, and its notes."""
     yield f"BLOCK {block.number}  LOOKAHEAD {block.lookahead.tag} {block.lookahead.value}"
     if table is None:
         yield "  There is no contour to compensate yet, or CUTTER COMP. is ON."

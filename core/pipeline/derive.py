@@ -1,4 +1,4 @@
-"""Derive: what follows from a program: fields, surface, paths, verdict, findings; the look-ahead table and remedies."""
+"""Derives all of a program: fields, surface, paths, verdict, findings; the look-ahead table and remedies."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ from core.units import Kind, decimals_shown, to_mm
 from core.verify.judge import judge_together
 
 OUTLINED = 0.4
-"""The part of the work on a block that is done when its fields are solved."""
+"""Share of the work on a block that is done when its fields are solved."""
 JUDGED = 0.9
-"""The part that is done when its paths are judged."""
+"""Share of that work that is done when the block's paths are judged."""
 
 
 def derive(program: Program, progress: Progress = silent) -> Derived:
-    """Everything that follows from a program; `progress` may raise Stopped."""
+    """Derive every block of a program; `progress` may raise Stopped."""
     count = len(program.blocks)
     blocks = (derive_block(program, at + 1, part(progress, at / count, (at + 1) / count)) for at in range(count))
     return Derived(program, tuple(blocks))
 
 
 def derive_block(program: Program, number: int, progress: Progress = silent) -> DerivedBlock:
-    """Everything that follows for block `number`, counted from 1."""
+    """Derive block `number`, counted from 1."""
     block = solve_block_fields(program, number)
     progress(OUTLINED)
     if not block.solved.pieces or block.radius is None:
@@ -64,25 +64,25 @@ def derive_block(program: Program, number: int, progress: Progress = silent) -> 
 
 
 def with_better_paths(derived: Derived) -> Derived:
-    """The same with the best path next to every control's path: what separates the two is among the findings."""
+    """Add to the findings what separates each posted control path from the best path."""
     blocks = (replace(block, findings=(*block.findings, *better_path(block))) for block in derived.blocks)
     return Derived(derived.program, tuple(blocks))
 
 
 def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
-    """How far the control's path is from the best one, where the control's path is the one that is posted."""
+    """Return how far the control's path is from the best one, if the control's path is the one posted."""
     work = block.paths
     if work is None or work.compensated is None or work.best is not None or block.side is None:
         return ()
     best = best_path(work.surface, block.side, work.compensated.radius, closed=block.solved.closed)
-    found = better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
-    # the corner over START is that of the last segment
+    findings = better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
+    # the corner at START belongs to the last segment
     last = float(work.surface.numbers[-1])
-    return tuple(one if one.segment is None else replace(one, segment=min(one.segment, last)) for one in found)
+    return tuple(item if item.segment is None else replace(item, segment=min(item.segment, last)) for item in findings)
 
 
 def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPaths:
-    """The surface of a block, its paths and the verdict on them."""
+    """Return the surface of a block, its paths and the verdict on them."""
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
     if block.side is None:
@@ -109,7 +109,7 @@ class _Contour:
     program: Program
 
     def control(self, radius: float) -> Compensated:
-        """The control's path."""
+        """Return the control's path."""
         return compensate(
             self.surface,
             self.side,
@@ -121,11 +121,11 @@ class _Contour:
         )
 
     def best(self, radius: float) -> BestPath:
-        """The true offset."""
+        """Return the true offset."""
         return best_path(self.surface, self.side, radius, closed=self.closed)
 
     def loops(self, control: Compensated, best: BestPath | None) -> tuple[Loop, ...]:
-        """What is posted: the control's path, or every loop of the best one with blends of its own."""
+        """Return what is posted: the control's path, or every loop of the best one, each with its own blends."""
         if best is None:
             return (Loop(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
         blend, overlap = parameter(self.program, "blend_offset"), parameter(self.program, "blend_overlap")
@@ -151,13 +151,13 @@ def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[
 
 
 def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> DerivedBlock:
-    """The block with its paths and their findings, and with what else forbids posting, such as a SPEED of 0."""
+    """Add a block's paths and their findings, and whatever else forbids posting, such as a SPEED of 0."""
     assert block.radius is not None
     closed = block.solved.closed
     back: tuple[Finding, ...] = ()
     trouble: tuple[Finding, ...] = ()
     if work.verdict is not None:
-        # what is typed wrong comes before what follows from it
+        # a typing mistake comes before its consequences
         back = turning_back(work.surface, closed=closed)
         trouble = (*path_findings(work), *size_warning(block.radius, work.surface))
         if block.side is not None:
@@ -172,13 +172,13 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
 
 
 def look_ahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
-    """The table of a derived block; None for ON and while there is nothing to compensate."""
+    """Return the table of a derived block; None for ON and while there is nothing to compensate."""
     setup = cutting_setup(block, program)
     return None if setup is None else judge_lookaheads(setup, progress)
 
 
 def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
-    """What a derived block cuts; None for ON and while there is nothing to compensate."""
+    """Return what a derived block cuts; None for ON and while there is nothing to compensate."""
     if block.paths is None or block.side is None or block.radius is None:
         return None
     return CuttingSetup(
@@ -197,9 +197,9 @@ def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
 def advice_for_block(
     block: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = never_canceled
 ) -> Advice | None:
-    """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none.
+    """Return what a derived block needs; `table` is its look-ahead table if known.  None if nothing is compensated.
 
-    `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
+    `wanted` is asked before each remedy is tried: once it returns False, the rest is not tried and the answer is None.
     """
     setup = cutting_setup(block, program)
     if setup is None:
@@ -208,9 +208,9 @@ def advice_for_block(
 
 
 def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
-    """What cuts a block clean that gouges: the look-ahead that the table recommends, else the largest tool that fits.
+    """Return what cuts a gouging block clean: the look-ahead that the table recommends, else the largest fitting tool.
 
-    None where the block does not gouge, and where neither helps.
+    None if the block does not gouge, and if neither helps.
     """
     setup = cutting_setup(block, program)
     if setup is None or not any(finding.code in OVERRIDABLE for finding in block.errors):

@@ -1,4 +1,4 @@
-"""What is known of a program, block by block.  Needs no numpy, so that a first screen can be shown without."""
+"""What is known of a program, block by block.  It needs no numpy, so that a first screen can do without."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.program.solve.solved import SolvedBlock
 
 
 class Tag(StrEnum):
-    """Whether a look-ahead was calculated or typed."""
+    """The origin of a look-ahead: calculated or typed."""
 
     CAL = "CAL"
     USR = "USR"
@@ -21,7 +21,7 @@ class Tag(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LookAhead:
-    """CUTCOMP LOOKAHEAD: the value in force, its tag, and what CAL would be."""
+    """CUTCOMP LOOKAHEAD: the value in force, its tag, and the calculated value."""
 
     value: int
     tag: Tag
@@ -30,11 +30,11 @@ class LookAhead:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DerivedBlock:
-    """One block with everything that follows from it.
+    """One block with everything derived from it.
 
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
-    `profile` is whether CUTTER COMP. is PROFILE LEFT or RIGHT: roughing comes in from MAX OFFSET.  `paths` is None
-    before they are made, and without a surface or a radius to make them of; `known` is whether that has been tried.
+    `profile`: CUTTER COMP. is PROFILE LEFT or RIGHT, so that roughing comes in from MAX OFFSET.  `paths` is None until
+    they are made, and without a surface or a radius to make them of; `known` is True once that has been tried.
     """
 
     number: int
@@ -50,7 +50,7 @@ class DerivedBlock:
 
     @property
     def postable(self) -> bool:
-        """Derived, with paths, and without a finding that is an error."""
+        """True if the block is derived, has paths, and has no finding that is an error."""
         return self.known and self.paths is not None and not self.errors
 
     @property
@@ -61,11 +61,11 @@ class DerivedBlock:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Derived:
-    """A program and all its blocks derived; `program` tells whether a late result is still the right one."""
+    """A program and all its blocks, derived; `program` identifies it, so that a late result can be discarded."""
 
     program: Program
     blocks: tuple[DerivedBlock, ...]
 
     def block(self, number: int) -> DerivedBlock:
-        """Block `number`, counted from 1."""
+        """Return block `number`, counted from 1."""
         return self.blocks[number - 1]

@@ -1,4 +1,4 @@
-"""The first stage: fields and the look-ahead calculated, nothing cut yet.  Needs no numpy."""
+"""The first stage calculates fields and the look-ahead, and cuts nothing yet.  It needs no numpy."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _SIDES = {
 
 
 def solve_fields(program: Program) -> Derived:
-    """Every block with its blanks calculated and its look-ahead, without geometry."""
+    """Return every block with its blanks and its look-ahead calculated, without geometry."""
     return Derived(program, tuple(solve_block_fields(program, number) for number in range(1, len(program.blocks) + 1)))
 
 
 def solve_block_fields(program: Program, number: int) -> DerivedBlock:
-    """Block `number`, counted from 1, with its blanks and its look-ahead calculated, without paths."""
+    """Return block `number`, counted from 1, with its blanks and its look-ahead calculated, without paths."""
     block = program.blocks[number - 1]
     solved = solve_block(block, program)
     lookahead = _look_ahead(block, solved, solved.every_finding)
@@ -56,7 +56,7 @@ def solve_block_fields(program: Program, number: int) -> DerivedBlock:
 
 
 def _look_ahead(block: Block, solved: SolvedBlock, findings: Iterable[Finding]) -> LookAhead:
-    """The look-ahead in force: the operator's value, or the calculated one."""
+    """Return the look-ahead in force: the operator's value, or the calculated one."""
     empty = sum(finding.code == "ZERO_LENGTH" for finding in findings)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:

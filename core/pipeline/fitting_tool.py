@@ -1,4 +1,4 @@
-"""The largest tool that fits: the NC program is run with smaller and smaller sizes of the tool that is too big."""
+"""Finds the largest tool that fits: runs an NC program with smaller and smaller sizes of a tool that is too big."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from core.progress import Progress, silent
 from core.units import Kind, Unit, decimals_shown, from_mm, to_mm
 
 MAX_MOVES: Final = 2_000
-"""Moves, and lines, of a program that is run again and again."""
+"""Most moves, and most lines, of a program that is run again and again."""
 
 MAX_TOOLS: Final = 8
-"""Tools of a program that are tried."""
+"""Most tools of a program that are tried."""
 
 SMALLEST_SHARE: Final = 20
 """The smallest size tried is the diameter divided by this: with a tiny tool every fault looks small."""
 
 _NAMED: Final = re.compile(rb'(?:[TD]|CALL|DEF)\s*(?:(\d+)|"([^"]+)")', re.IGNORECASE)
-"""Where a program names a tool or an offset."""
+"""How a program names a tool or an offset."""
 
 
 def largest_tool(
@@ -37,10 +37,10 @@ def largest_tool(
     unit: Unit | None,
     progress: Progress = silent,
 ) -> Finding | None:
-    """The tool that is too big for a program that alarms or gouges, and the largest diameter with which it is clean.
+    """Return the tool that is too big for a program that alarms or gouges, and the largest diameter that is clean.
 
-    `done` is the run with the tools as they are.  None where no smaller tool helps: the fault is another one.
-    Each trial tells `progress` how far it is by itself: nobody knows how many there will be.
+    `done` is the run with the tools as they are.  None if no smaller tool helps: the fault is a different one.
+    Each trial reports its own `progress`: the number of trials is not known beforehand.
     """
     if len(done.moves) > MAX_MOVES or text.count(b"\n") > MAX_MOVES:
         return None
@@ -63,13 +63,13 @@ def largest_tool(
         while fails - clean > 1:
             size = (clean + fails) // 2
             clean, fails = (size, fails) if fits(tool, size) else (clean, size)
-        said = f"Tool {tool.number} is too big; the largest that does not gouge: {{0}}."
-        return Finding("TOOL_FITS", Severity.INFO, said, lengths=(to_mm(step * clean, done.unit),))
+        message = f"Tool {tool.number} is too big; the largest that does not gouge: {{0}}."
+        return Finding("TOOL_FITS", Severity.INFO, message, lengths=(to_mm(step * clean, done.unit),))
     return None
 
 
 def _named(text: bytes, tools: ToolTable) -> tuple[CutterTool, ...]:
-    """The tools of the table that the text names."""
+    """Return the tools of the table that the text names."""
     names = dict.fromkeys(tool_id((number or name).decode(errors="replace")) for number, name in _NAMED.findall(text))
     named = map(tools.get, names)
     return tuple(tool for tool in named if tool is not None)[:MAX_TOOLS]

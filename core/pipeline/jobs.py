@@ -1,4 +1,4 @@
-"""Jobs: each derived block as passes and NC text are made of it."""
+"""Turns each derived block into a job, from which passes and NC text are made."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from core.units import Kind, Unit, from_mm, show, to_mm
 
 
 def jobs(derived: Derived) -> tuple[Job, ...]:
-    """One job a block, in the program's order."""
+    """Return one job per block, in the program's order."""
     return tuple(job(block, derived.program) for block in derived.blocks)
 
 
 def job(block: DerivedBlock, program: Program) -> Job:
-    """One block's job; what is not known yet is zero there and is among the findings."""
+    """Return one block's job; a value that is not known yet is zero and has a finding."""
     solved, tag = block.solved, f"{block.lookahead.tag} {block.lookahead.value}"
     finish_tool = _whole(block.block.finish_tool)
     return Job(
@@ -55,7 +55,7 @@ def job(block: DerivedBlock, program: Program) -> Job:
 
 
 def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
-    """What whoever runs the file should know of the part: segments that are not cut, and surface that stays."""
+    """Yield what the person who runs the file should know: segments that are not cut, and surface that stays."""
     work = block.paths
     if work is None or work.compensated is None or work.verdict is None:
         return

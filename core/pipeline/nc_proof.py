@@ -1,4 +1,4 @@
-"""NC proof: an NC program as a control runs it, with its moves, findings and verdicts, and how it is drawn."""
+"""Proves an NC program: runs it as a control does, judges its compensated stretches, and draws it."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from core.units import Unit
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Proof:
-    """A run and the verdicts on its compensated stretches; none of them while they are not worked out."""
+    """A run and the verdicts on its compensated stretches; no verdicts until they are worked out."""
 
     run: ControlRun
     results: tuple[Judged, ...]
 
     @property
     def plane(self) -> Plane:
-        """The plane that is drawn: that of the first compensated stretch, XY without any."""
+        """The plane that is drawn: that of the first compensated stretch, XY if there is none."""
         return self.run.stretches[0].plane if self.run.stretches else Plane.XY
 
 
@@ -44,18 +44,18 @@ def run_program(
     library: ProgramLibrary = NO_LIBRARY,
     progress: Progress = silent,
 ) -> Proof | UnknownControl:
-    """The program on a control, without the verdicts, which take longer than the run."""
+    """Run the program on a control, without the verdicts, which take longer than the run."""
     result = run(text, control, tools, unit, library, progress=progress)
     return result if isinstance(result, UnknownControl) else Proof(result, ())
 
 
 def with_verdicts(proof: Proof, progress: Progress = silent) -> Proof:
-    """The proof with a verdict on every compensated stretch; `progress` may raise Stopped."""
+    """Add a verdict on every compensated stretch; `progress` may raise Stopped."""
     return Proof(proof.run, judge_run(proof.run, progress))
 
 
 def fixed_scene(proof: Proof) -> Scene:
-    """All that does not depend on the cursor: rapids, other moves, surfaces, center paths, gouges, what is uncut."""
+    """Return all that does not depend on the cursor: rapids, other moves, surfaces, center paths, gouges, uncut."""
     moves, plane = proof.run.moves, proof.plane
     feeds = ~moves.rapid
     for result in proof.results:
@@ -68,7 +68,7 @@ def fixed_scene(proof: Proof) -> Scene:
 
 
 def _parts(moves: Moves, plane: Plane, chosen: NDArray[np.bool_]) -> Iterator[Path]:
-    """The runs of the chosen moves on the plane."""
+    """Yield the paths of consecutive chosen moves on the plane."""
     wanted = np.flatnonzero(chosen[1:]) + 1
     if not len(wanted):
         return
@@ -87,7 +87,7 @@ def _stretch_scene(result: Judged) -> Scene:
 
 
 def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
-    """The fixed scene with the moves of a line and the cutter where they end, or where the line before left it."""
+    """Add the moves of a line, and the cutter where they end, or where a line above left it."""
     moves, plane = proof.run.moves, proof.plane
     layers = [Layer(path, Style.CURRENT) for path in _moves_of(moves, plane, line)]
     at, row = cutter_at_line(proof, line)
@@ -98,7 +98,7 @@ def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
 
 
 def dotted_path(proof: Proof, plane: Plane) -> tuple[Layer, ...]:
-    """The feed moves of a run on a plane, dotted, to lie under the scene of another control's run."""
+    """Return the feed moves of a run on a plane, dotted, to lie under the scene of another control's run."""
     moves = proof.run.moves
     return tuple(Layer(path, Style.UNTAKEN, dashed=True) for path in _parts(moves, plane, ~moves.rapid))
 
@@ -112,7 +112,7 @@ def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
 
 
 def cutter_at_line(proof: Proof, line: int) -> tuple[Point, int]:
-    """Where the cutter is after a line, on the plane drawn, and the row of the move that brought it there.
+    """Return where the cutter is after a line, on the plane drawn, and the row of the move that brought it there.
 
     A line without moves leaves it where the last move of a line above it did.
     """
@@ -127,6 +127,6 @@ def cutter_at_line(proof: Proof, line: int) -> tuple[Point, int]:
 
 
 def _stretch_at(proof: Proof, row: int) -> Stretch | None:
-    """The compensated stretch a move belongs to, the nearest one below it, or the last one."""
+    """Return the compensated stretch that a move belongs to, else the next one, else the last one."""
     later = [stretch for stretch in proof.run.stretches if row < stretch.last]
     return later[0] if later else proof.run.stretches[-1] if proof.run.stretches else None

@@ -1,4 +1,4 @@
-"""Parameters in force: as typed or the default of `program.fields`; and the stock each roughing pass leaves."""
+"""Gives parameters in force, as typed or the default of `program.fields`, and the stock of each roughing pass."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MAX_SIDE_PASSES: Final = 1000
 
 
 def parameter(program: Program, name: str) -> float:
-    """A program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
+    """Return a program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
     typed = getattr(program.parameters, name)
     value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
     if value is None:
@@ -23,7 +23,7 @@ def parameter(program: Program, name: str) -> float:
 
 
 def setup_value(program: Program, name: str) -> float:
-    """A number of PART SETUP as typed or its default, in program units."""
+    """Return a number of PART SETUP as typed or its default, in program units."""
     typed = getattr(program.setup, name)
     value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
     assert value is not None
@@ -31,10 +31,10 @@ def setup_value(program: Program, name: str) -> float:
 
 
 def stocks(block: DerivedBlock, program: Program) -> tuple[float, ...]:
-    """What each pass before the finish path leaves on the surface, in millimeters, outermost first.
+    """Return what each pass before the finish path leaves on the surface, in millimeters, outermost first.
 
-    PROFILE comes in from MAX OFFSET, each pass overlapping the one before by POCKET OVERLAP percent of the cutter's
-    diameter; a finish tool has a roughing pass in front of it that leaves FINISH XY.
+    PROFILE comes in from MAX OFFSET; each pass overlaps the one before by POCKET OVERLAP percent of the cutter's
+    diameter.  A finish tool follows a roughing pass that leaves FINISH XY.
     """
     assert block.solved.tool_diameter is not None
     finishing = block.solved.finish_diameter is not None

@@ -1,4 +1,4 @@
-"""Plot: a derived block as a drawing: surface, paths, blends, what is deleted, gouged and left, and the cutter."""
+"""Draws a derived block: surface, paths, blend moves, the cutter, and what is deleted, gouged and left uncut."""
 
 from __future__ import annotations
 
@@ -44,21 +44,21 @@ from core.units import Unit
 from core.verify.verdict import Verdict
 
 DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
-"""Roles of layers that are parts of the surface: they cannot widen what spans the drawing."""
+"""Roles of layers that repeat parts of the surface: they cannot widen the bounds of a drawing."""
 OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT, Style.UNTAKEN})
-"""Roles of the surface and its faults."""
+"""Roles of the surface and of its faults."""
 LOUPE: Final = 4.6
-"""Radii of the tool that a loupe is high."""
+"""Height of a loupe in tool radii."""
 FEWEST_DOTS: Final = 2.6
-"""Dots of the tool's radius from which on the tool's path is drawn beside the surface."""
+"""The tool's path is drawn next to the surface only if the tool radius has at least this many dots."""
 FEWEST_DOTS_FOR_NUMBERS: Final = 3.0
 """The same for the numbers of segments."""
 NARROW: Final = 44
-"""In a drawing of no more columns numbers of segments would crowd."""
+"""Segment numbers would crowd in a drawing of this many columns or fewer."""
 
 
 def nearest_segment(block: DerivedBlock, at: Point) -> int | None:
-    """The number of the segment nearest to a point (mm); None in a block of which no segment is determined."""
+    """Return the number of the segment nearest to a point (mm); None if the block has no determined segment."""
     if not block.solved.pieces:
         return None
     numbers, pieces = zip(*block.solved.pieces, strict=True)
@@ -69,19 +69,19 @@ def nearest_segment(block: DerivedBlock, at: Point) -> int | None:
 
 
 def svg_of(derived: Derived, *, title: str) -> str:
-    """The whole program as one SVG drawing."""
+    """Return the whole program as one SVG drawing."""
     scenes = [block_scene(block, None, derived.program.unit) for block in derived.blocks]
     return svg(joined_scenes(scenes), title=title)
 
 
 def dxf_of(derived: Derived) -> str:
-    """The whole program as one DXF drawing."""
+    """Return the whole program as one DXF drawing."""
     unit = derived.program.unit
     return dxf(joined_scenes([block_scene(block, None, unit) for block in derived.blocks]), unit)
 
 
 def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
-    """The block with the cursor on `segment` (0 is START, None nowhere), or with the path of a row of the table."""
+    """Return the block with the cursor on `segment` (0 is START, None nowhere), or with the path of a table row."""
     work, solved = block.paths, block.solved
     loops, control, verdict = (
         ((), None, None) if work is None else (work.loops, _posted_control_path(work), work.verdict)
@@ -112,12 +112,12 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Subject:
-    """What of a block a drawing shows; points and lengths in millimeters.
+    """What a drawing shows of a block; points and lengths in millimeters.
 
     `segment` is the one with the cursor (0 is START, None none), `row` a row of the look-ahead table that is drawn in
-    place of the path in force.  `near` is the middle of a loupe, None shows the whole part; `view` shows neither, but
-    what somebody zoomed to.  An `outline` shows the surface alone, with the number of each place of `trouble`.  The
-    `cross` is where the operator points to.
+    place of the path in force.  `near` is the center of a loupe, None shows the whole part; `view`, what the operator
+    zoomed to, overrides both.  An `outline` shows the surface alone, with the number of each place of `trouble`.  The
+    `cross` is where the operator points.
     """
 
     block: DerivedBlock
@@ -131,14 +131,14 @@ class Subject:
     cross: Point | None = None
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
-        """The picture in columns x rows cells; None where there is nothing to be seen."""
+        """Return the picture in columns x rows cells; None if there is nothing to see."""
         return _block_drawn(self, columns, rows, mode)
 
 
 class Drawn(NamedTuple):
-    """A picture of a block, the view it shows, and a scale bar in program units to stand in its frame.
+    """A picture of a block, the view it shows, and a scale bar in program units for its frame.
 
-    `bounds` is the box (mm) around all that is drawn.
+    `bounds` is the box (mm) around everything drawn.
     """
 
     picture: Picture
@@ -149,14 +149,14 @@ class Drawn(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SceneSubject:
-    """A scene that is drawn as it is; `view` is what somebody zoomed to, None shows all of it."""
+    """A scene that is drawn as it is; `view` is what the operator zoomed to, None shows all of it."""
 
     scene: Scene
     unit: Unit
     view: View | None = None
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
-        """The picture in columns x rows cells; None where there is nothing to be seen."""
+        """Return the picture in columns x rows cells; None if there is nothing to see."""
         bounds = self.scene.extent(without=DRAWN_AGAIN)
         if bounds is None or columns < 1 or rows < 1:
             return None
@@ -196,7 +196,7 @@ def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
 
 
 def _outlined(scene: Scene, subject: Subject) -> Scene:
-    """The surface and what is wrong with it: where the cutter is a few dots wide, the rest would be one blob."""
+    """Return the surface and its faults alone: if the cutter is a few dots wide, the rest would be one blob."""
     layers = tuple(layer for layer in scene.layers if layer.style in OF_SURFACE)
     if subject.outline:
         return Scene(layers, marks=subject.trouble, axes=False)
@@ -205,7 +205,7 @@ def _outlined(scene: Scene, subject: Subject) -> Scene:
 
 
 def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
-    """What is gouged and what is left uncut, as regions; with dots of this width (mm) on a screen."""
+    """Return what is gouged and what is left uncut as regions; `dot` is the width (mm) of a dot on the screen."""
     block, block_paths = subject.block, subject.block.paths
     if block_paths is None or block.radius is None or block.side is None:
         return ()
@@ -214,19 +214,19 @@ def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
     if verdict is None or not (verdict.gouges or len(verdict.uncut)):
         return ()
     part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
-    found = []
+    areas = []
     if len(verdict.uncut):
         stretch = parts_between(block_paths.surface, verdict.uncut.ends).paths
         thick = verdict.uncut.thickness.tolist()
         if len(stretch) == len(thick):
-            found.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))
+            areas.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))
     if verdict.gouges:
-        found.append(Area(gouged(part, paths, block.radius, dot), Style.GOUGE_AREA))
-    return tuple(found)
+        areas.append(Area(gouged(part, paths, block.radius, dot), Style.GOUGE_AREA))
+    return tuple(areas)
 
 
 def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
-    """The numbers of the segments, on the part's side of their middles."""
+    """Return the numbers of the segments, on the part's side of their midpoints."""
     labels = []
     for number, segment in enumerate(block.solved.segments, 1):
         if segment.piece is not None and segment.piece.length > 0.0:
@@ -237,7 +237,7 @@ def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
 
 
 def _over_run(surface: Path, verdict: Verdict) -> PathParts:
-    """What of the surface lies beyond the crossing of its ends: lead-in and lead-out."""
+    """Return the parts of the surface beyond the crossing of its ends: lead-in and lead-out."""
     if verdict.over_run_at is None:
         return NO_PARTS
     crossing, numbers = complex(*verdict.over_run_at), surface.numbers[[0, -1]]
@@ -249,12 +249,12 @@ def _over_run(surface: Path, verdict: Verdict) -> PathParts:
 
 
 def _posted_control_path(work: BlockPaths) -> Compensated | None:
-    """The control's path where it is the one that is posted: only then do its deletions mean anything."""
+    """Return the control's path if it is the one that is posted: only then do its deletions matter."""
     return work.compensated if work.best is None else None
 
 
 def _dashed_paths(work: BlockPaths | None) -> list[Path]:
-    """The roughing passes, and the control's path where another one is posted."""
+    """Return the roughing passes, and the control's path if another one is posted."""
     if work is None:
         return []
     passes = [loop.whole for rough in work.rough for loop in rough.loops]
@@ -269,7 +269,7 @@ def _surface(block: DerivedBlock) -> Path:
 
 
 def _sketches(block: DerivedBlock) -> PathParts:
-    """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
+    """Return what is known of segments not determined yet, or the solutions that the operator picks from."""
     pieces: list[Piece] = []
     for segment in block.solved.segments[block.solved.determined :]:
         run = block.solved.run_of(segment.number)
@@ -283,10 +283,10 @@ def _sketches(block: DerivedBlock) -> PathParts:
 
 
 def _apart(pieces: Sequence[Piece]) -> PathParts:
-    """Pieces that need not join, as parts of one path."""
+    """Return pieces that need not join as parts of one path."""
     if not pieces:
         return NO_PARTS
-    # between each and the next a line that is not drawn
+    # a line that is not drawn leads from each piece to the next
     parts = [part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))] + [
         pieces[-1]
     ]
@@ -294,7 +294,7 @@ def _apart(pieces: Sequence[Piece]) -> PathParts:
 
 
 def _run_sketches(run: SolvedRun) -> list[Piece]:
-    """A run that is not determined: all its solutions, or what is known of its pieces."""
+    """Return all solutions of a run that is not determined, or what is known of its pieces."""
     answers = [piece for answer in run.answers for _, piece in answer.pieces]
     return answers or list(run.sketch)
 
@@ -323,7 +323,7 @@ def _cutter(
 
 
 def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> Point | None:
-    """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
+    """Return the end of a segment's path, the path's start for START, or where the path passes a deleted segment."""
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
         if not segment and parts:
@@ -340,7 +340,7 @@ def _point(row: Floats) -> Point:
 
 
 def _meeting(control: Compensated, segment: float) -> Point | None:
-    """The meeting that deleted a segment; where a later one has deleted a piece of that pair too, the later one."""
+    """Return the meeting that deleted a segment, or a later one that also deleted a piece of that pair."""
     deleted = {deletion.segment: deletion for deletion in control.deleted}
     later = last = deleted.get(segment)
     while later is not None:

@@ -1,4 +1,4 @@
-"""Post: a derived program as NC text, of the tool's center or for a control that compensates by itself."""
+"""Posts a derived program as NC text, for the tool center or for a control that compensates by itself."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from core.tolerance import CLOSED
 
 
 def post_center_path(derived: Derived, *, name: str, override: str | None = None) -> Posted | Refusal:
-    """The NC text of the tool center's path, or why there is none; `override` as in `center_path_program`."""
+    """Return the NC text of the tool center path, or the refusal; `override` as in `center_path_program`."""
     program = derived.program
     return center_path_program(jobs(derived), program.unit, name=name, part=program.setup.name, override=override)
 
 
 def post_control_program(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
-    """The program of a control by its full name, as the registry has it, or why there is none."""
+    """Return the program for a control, by its full name in the registry, or the refusal."""
     unit, all_jobs = derived.program.unit, jobs(derived)
     best = _best_path_refused(derived) if any(job.comp != "ON" for job in all_jobs) else ()
     against = (*control_program_errors(all_jobs, unit), *best)
@@ -37,7 +37,7 @@ def post_control_program(derived: Derived, *, name: str, control: str) -> Posted
 
 
 def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
-    """The best path is a path of the tool's center: no control makes it of a contour."""
+    """Refuse the best path: it is a tool center path that no control makes from a contour."""
     if derived.program.parameters.path is not PathChoice.BEST:
         return ()
     text = "PATH is BEST, which no control's own compensation runs.  Post the center path, or choose PATH CONTROL."
@@ -52,7 +52,7 @@ def _cuts(block: DerivedBlock, job: Job) -> list[PassToWrite]:
 
 
 def _uncompensated(a_pass: Pass, job: Job) -> UncompensatedPass:
-    """A pass with nothing to compensate: the tool's center runs on the contour."""
+    """Return a pass with nothing to compensate: the tool center runs on the contour."""
     heights = [motion.z for motion in a_pass.motions]
     return UncompensatedPass(
         travels=tuple(_travels(a_pass.motions)),
@@ -71,7 +71,7 @@ def _uncompensated(a_pass: Pass, job: Job) -> UncompensatedPass:
 
 
 def _travels(motions: Sequence[Motion]) -> Iterator[CenterMove]:
-    """The moves; an arc that ends next to its start is a line, or two halves, which no control takes for a full circle.
+    """Yield the moves; an arc whose end is next to its start becomes a line, or two halves, not a full circle.
 
     The digits of most controls cannot tell such an end from the start.
     """
@@ -90,7 +90,7 @@ def _travels(motions: Sequence[Motion]) -> Iterator[CenterMove]:
 
 
 def _compensated(block: DerivedBlock, job: Job, a_pass: Pass) -> Compensated:
-    """The compensated run that a pass goes along."""
+    """Return the compensated run that a pass follows."""
     work = block.paths
     assert work is not None
     assert work.compensated is not None

@@ -1,4 +1,4 @@
-"""A derived program's setup sheet, as text or as a page with a drawing of each block."""
+"""Makes a derived program's setup sheet, as text or as a page with a drawing of each block."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from core.units import sentence
 
 
 def sheet_of(derived: Derived, *, name: str, day: str) -> Sheet:
-    """The sheet of a program called `name`, printed on `day` (any text)."""
+    """Return the sheet of a program called `name`, printed on `day` (any text)."""
     program = derived.program
     made = sheet(jobs(derived), program.unit, name, program.setup.name, day)
     further = [*(remedy_for_gouge(block, program) for block in derived.blocks), unit_question(derived)]
-    told = tuple(sentence(finding, program.unit) for finding in further if finding is not None)
-    return replace(made, errors=(*made.errors, *told)) if made.errors else replace(made, notes=(*told, *made.notes))
+    texts = tuple(sentence(finding, program.unit) for finding in further if finding is not None)
+    return replace(made, errors=(*made.errors, *texts)) if made.errors else replace(made, notes=(*texts, *made.notes))
 
 
 def sheet_text(derived: Derived, *, name: str, day: str) -> str:
-    """The sheet as plain text."""
+    """Return the sheet as plain text."""
     return as_text(sheet_of(derived, name=name, day=day))
 
 
 def sheet_page(derived: Derived, *, name: str, day: str) -> str:
-    """The sheet as an HTML page, with the exact drawing of every block."""
+    """Return the sheet as an HTML page, with the exact drawing of every block."""
     unit = derived.program.unit
     drawings = [svg(block_scene(block, None, unit), title=f"BLOCK {block.number}") for block in derived.blocks]
     return as_page(sheet_of(derived, name=name, day=day), drawings)

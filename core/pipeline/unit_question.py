@@ -1,4 +1,4 @@
-"""Unit question: whether a part's size looks as if it was typed in the other unit."""
+"""Asks about the unit if a part's size looks as if it was typed in the other one."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from core.pipeline.derived import Derived
 from core.units import Unit
 
 SMALL_PART: Final = {Unit.IN: 6.35, Unit.MM: 6.0}
-"""Millimeters below which a whole part is seldom meant."""
+"""Millimeters: a whole part is seldom meant to be smaller."""
 TOOL_SHARE: Final = 0.5
-"""The part of the part's smaller side that a tool seldom exceeds."""
+"""Fraction of the part's smaller side that a tool seldom exceeds."""
 
 
 def unit_question(derived: Derived) -> Finding | None:
-    """INCH or MM?, where the tool is large or the whole part small; None where nothing is unusual.
+    """Return the question INCH or MM? if the tool is large or the whole part small; None if nothing is unusual.
 
-    The part is what all closed contours enclose together: of an open one nobody knows how far the part goes.
+    The part is what all closed contours enclose together; how far a part extends at an open contour is not known.
     """
     closed = [
         block
@@ -32,11 +32,11 @@ def unit_question(derived: Derived) -> Finding | None:
     sides = sorted((boxes[2:].max(axis=1) - boxes[:2].min(axis=1)).tolist())
     diameter = max(2 * (block.radius or 0.0) for block in closed)
     unit = derived.program.unit
-    said = f"The program is in {'INCH' if unit is Unit.IN else 'MM'}."
+    unit_text = f"The program is in {'INCH' if unit is Unit.IN else 'MM'}."
     if sides[1] < SMALL_PART[unit]:
-        text = f"INCH or MM? The part is only {{0}} by {{1}}. {said}"
+        text = f"INCH or MM? The part is only {{0}} by {{1}}. {unit_text}"
         return Finding("INCH_OR_MM", Severity.WARNING, text, lengths=(sides[1], sides[0]))
     if diameter > TOOL_SHARE * sides[0]:
-        text = f"INCH or MM? The tool is {{0}} across, more than half of the part's smaller side, {{1}}. {said}"
+        text = f"INCH or MM? The tool is {{0}} across, more than half of the part's smaller side, {{1}}. {unit_text}"
         return Finding("INCH_OR_MM", Severity.WARNING, text, lengths=(diameter, sides[0]))
     return None
