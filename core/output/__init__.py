@@ -1,1 +1,1 @@
-"""What leaves the program: NC text, drawings, sheets."""
+"""Writes what leaves the program: NC text, drawings, sheets."""

@@ -1,6 +1,6 @@
-"""Control program: jobs posted as contours with G41 or G42, RL or RR; or why not.
+"""Posts jobs as contours that a control compensates with G41 or G42, RL or RR; or says why not.
 
-`controls.write` writes the text and reads it back; here stand what forbids posting it and the remarks at its head.
+`controls.write` writes the text and reads it back; this module has what forbids posting it, and its header comments.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ CLIMBS: Final = (
 
 
 def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
-    """What forbids posting at all, and what a control's own compensation cannot do.
+    """Return what forbids posting at all, and what a control's own compensation cannot do.
 
-    Nothing can be overridden here: the path that is cut is the control's, which the verdict has not judged.
+    Nothing can be overridden here: the control makes the path that is cut, and the verdict has not judged it.
     """
     errors = list(posting_errors(jobs, Grid(unit), override=None))
     for job in jobs:
@@ -49,7 +49,7 @@ def control_program(
     control: str,
     part: str = "",
 ) -> Posted | Refusal:
-    """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order.
+    """Return the program for a control, given by its full name, or the refusal; `cuts` are those of the jobs, in order.
 
     `name` is the program's name, `part` the PART NAME.
     """
@@ -58,12 +58,12 @@ def control_program(
         return Refusal(against, unit)
 
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
-        # a semicolon would end the block even inside a remark, or begin another one
+        # a semicolon would end the block even inside a comment, or begin another comment
         texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
         lines = [line for text in texts for line in comments(text.replace(";", ","))]
         return [line[1:-1] for line in lines] if is_klartext(control) else lines
 
-    # a name every control takes: letters, digits, a dash
+    # a name that every control accepts: letters, digits, a dash
     short_name = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:24]
     frame = Frame(unit, jobs[0].work_offset)
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
@@ -79,12 +79,12 @@ def control_program(
 def _for_the_operator(
     jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str
 ) -> tuple[Finding, ...]:
-    """What has to be looked after at the control."""
+    """Return what the operator has to look after at the control."""
     return (*_left_out(cuts), *_no_work_offset(jobs, control), *_no_coolant(jobs, control), *_inch_feed(unit, control))
 
 
 def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
-    """Says that a smaller tool would not cut what was typed: what the look-ahead deleted is not in the program."""
+    """Warn that a smaller tool may cut another contour: segments deleted by the look-ahead are not written."""
     diameters = [cut.diameter for cut in cuts if isinstance(cut, CompensatedPass) and len(cut.compensated.deleted)]
     if not diameters:
         return ()
@@ -96,7 +96,7 @@ def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
 
 
 def _inch_feed(unit: Unit, control: str) -> tuple[Finding, ...]:
-    """That controls with Klartext differ in the unit of F in a program in inches."""
+    """Warn that Klartext controls differ in the unit of F in a program in inches."""
     if unit is not Unit.IN or not is_klartext(control):
         return ()
     text = "F is in inches per minute. A control that takes tenths of an inch per minute feeds ten times too slowly."
@@ -104,7 +104,7 @@ def _inch_feed(unit: Unit, control: str) -> tuple[Finding, ...]:
 
 
 def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
-    """That this control has no word for the jobs' work offset."""
+    """Warn if the control has no word for the jobs' work offset."""
     style = STYLES.get(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
         name = shown_name(control)
@@ -114,7 +114,7 @@ def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
 
 
 def _no_coolant(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
-    """That coolant is left to whoever runs a control's own program: not every control knows M7 and M8."""
+    """Warn that coolant is not written: not every control knows M7 and M8."""
     wanted = dict.fromkeys(str(job.coolant) for job in jobs if job.coolant is not Coolant.OFF)
     if not wanted:
         return ()
@@ -129,7 +129,7 @@ def _header(
     control: str,
     notes: Sequence[Finding],
 ) -> Iterator[str]:
-    """The sentences of the header below its titles."""
+    """Yield the sentences of the header below its titles."""
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     contour = "THE CONTOUR WITHOUT ITS DELETED SEGMENTS" if _left_out(cuts) else "THE CONTOUR AS TYPED"
@@ -148,7 +148,7 @@ def _header(
 
 
 def _offsets(cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[str]:
-    """The offsets an operator must enter."""
+    """Yield the offsets that the operator must enter."""
     style = STYLES.get(control)
     if style is None or style.radius is not Radius.OFFSET:
         return

@@ -1,6 +1,6 @@
-"""A scene as a DXF drawing: LINE, ARC and CIRCLE of R12, which every CAD system reads, on a layer for each role.
+"""Writes a scene as a DXF drawing: LINE, ARC and CIRCLE of R12, which every CAD system reads, on a layer for each role.
 
-Lengths are in the program's unit.  $INSUNITS names it, though R12 does not define that variable; who reads it knows it.
+Lengths are in the program's unit.  $INSUNITS names it; R12 does not define that variable, but readers know it.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ _UNIT_CODES: Final[Mapping[Unit, tuple[int, int]]] = MappingProxyType({Unit.IN: 
 
 
 def dxf(scene: Scene, unit: Unit) -> str:
-    """The drawing as the text of a DXF file; what is not finite, and segments not determined yet, are left out."""
+    """Return the drawing as the text of a DXF file, without segments not determined yet and anything not finite."""
     lines = (*_header(unit), *_tables(), *_section("ENTITIES"), *_entities(scene, unit), "0", "ENDSEC", "0", "EOF")
     return "\n".join(lines) + "\n"
 
@@ -63,7 +63,7 @@ def _header(unit: Unit) -> Iterator[str]:
 
 
 def _tables() -> Iterator[str]:
-    """The line type and the layers."""
+    """Yield the line type and the layers."""
     yield from (*_section("TABLES"), "0", "TABLE", "2", "LTYPE", "70", "1")
     yield from ("0", "LTYPE", "2", "CONTINUOUS", "70", "0", "3", "Solid line", "72", "65", "73", "0", "40", "0.0")
     yield from ("0", "ENDTAB", "0", "TABLE", "2", "LAYER", "70", str(len(_PENS)))
@@ -75,19 +75,19 @@ def _tables() -> Iterator[str]:
 def _entities(scene: Scene, unit: Unit) -> Iterator[str]:
     for layer in scene.layers:
         if layer.style in _PENS and not _is_sketch(layer):
-            # the contour is whole on its layer, also where a screen shows a part of it in another role
+            # the contour's layer has all of it, even parts that a screen draws in another role
             for path in [layer.path] if layer.style is Style.SURFACE else layer.parts:
                 for piece in path:
                     yield from _entity(piece, _PENS[layer.style].layer, unit)
 
 
 def _is_sketch(layer: Layer) -> bool:
-    """Segments that are not determined yet are dashed surface."""
+    """True for segments that are not determined yet: they are dashed surface."""
     return layer.dashed and layer.style is Style.SURFACE
 
 
 def _entity(piece: Piece, layer: str, unit: Unit) -> Iterator[str]:
-    """A piece as LINE, ARC or CIRCLE; arcs of DXF run counterclockwise."""
+    """Yield a piece as LINE, ARC or CIRCLE; arcs of DXF run counterclockwise."""
     center = () if isinstance(piece, Line) else piece.center
     if not np.isfinite((*piece.start, *piece.end, *center)).all():
         return

@@ -1,8 +1,8 @@
-"""Rounding for NC text: coordinates as whole numbers of the last posted digit, and arcs that survive it.
+"""Rounds for NC text: coordinates as whole numbers of the last posted digit, and arcs that survive the rounding.
 
-A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends around its center the
-other way, which a control reads as a full circle; or it may make them one point, which it reads as a full circle too.
-Every arc is therefore measured again as written.
+A machine travels what is written, not what was meant.  Rounding may swap the order of a short arc's ends around its
+center, or make them one point; a control reads either as a full circle.  Every arc is therefore measured again as
+written.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from core.units import Kind, Unit, from_mm, show
 NC_DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FEED_DECIMALS: Final = 3
 FINER: Final = 1
-"""Further decimals of I and J, which keep the two radii of an arc equal."""
+"""Additional decimals of I and J, which keep the two radii of an arc equal."""
 MAX_END_ERROR: Final = 4.0
-"""How far, in last digits, an arc as written may end from where it should, measured along it."""
+"""Largest distance, in last digits and along the arc, of an arc's written end from where it should be."""
 MIN_RADIUS: Final = 160.0
-"""An arc of a smaller radius, in last digits, is written as chords: LinuxCNC refuses it as one without a radius."""
+"""Smallest radius of an arc, in last digits; LinuxCNC refuses a smaller one as zero, so chords replace it."""
 MIN_ANGLE: Final = 1e-5
-"""Radians.  Controls take an angle much smaller than this for none at all, and so the arc for a full circle."""
+"""Smallest angle of an arc, in radians: controls take a much smaller one for zero, or a full circle."""
 MAX_CHORD_HEIGHT: Final = 0.5
-"""A chord that leaves its arc by no more than this, in last digits, is the arc as well as can be written."""
+"""A chord that deviates from its arc by no more than this, in last digits, is as good as the arc."""
 
 Steps = tuple[int, int]
 
@@ -44,19 +44,19 @@ class Grid:
         return NC_DECIMALS[self.unit]
 
     def fine(self, value: float) -> float:
-        """Millimeters in last digits, not rounded."""
+        """Return millimeters in last digits, not rounded."""
         return from_mm(value, self.unit) * 10.0**self.decimals
 
     def steps(self, value: float) -> int:
-        """Millimeters in whole last digits."""
+        """Return millimeters in whole last digits."""
         return round(self.fine(value))
 
     def point(self, point: Point) -> Steps:
-        """A point in whole last digits."""
+        """Return a point in whole last digits."""
         return self.steps(point[0]), self.steps(point[1])
 
     def text(self, steps: int, further: int = 0) -> str:
-        """A whole number of last digits as a decimal number: at least one decimal, no more than needed, no -0."""
+        """Return a whole number of last digits as a decimal number: at least one decimal, none needless, no -0."""
         decimals = self.decimals + further
         digits = f"{abs(steps):0{decimals + 1}d}"
         decimal = digits[-decimals:].rstrip("0") or "0"
@@ -65,7 +65,7 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class ArcPart:
-    """A part of an arc: it ends at `end` after `share` of the arc, 0 to 1.
+    """A part of an arc: it ends at `end` after the fraction `share` of the arc, 0 to 1.
 
     `center` is counted from the start as written, in last digits of I and J; None for a chord.
     """
@@ -76,7 +76,7 @@ class ArcPart:
 
 
 def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> Iterator[ArcPart]:
-    """The arc from one share to another in parts that mean the same after rounding, in order: mostly one arc."""
+    """Yield the arc from one share to another in parts that rounding does not change, in order: mostly one arc."""
     start, end = (_point_at(arc, share) for share in (first, last))
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
     (cx, cy), (x, y) = arc.center, grid.point(start)
@@ -97,9 +97,9 @@ def _point_at(arc: Arc, share: float) -> Point:
 
 
 def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: float, grid: Grid) -> bool:
-    """The arc as written turns as far as meant, and ends at its start only if it is the full circle.
+    """True if the arc as written turns as far as meant, and ends at its start only if it is the full circle.
 
-    An end within `CLOSED` of the start is one that controls with fewer digits take for it.
+    Controls with fewer digits take an end within `CLOSED` of the start for the start.
     """
     first, last = grid.point(start), grid.point(end)
     if start == end:
@@ -116,11 +116,11 @@ def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: flo
 
 
 def feed_text(feed: float, grid: Grid) -> str:
-    """A feed in program units per minute, without needless zeros."""
+    """Return a feed in program units per minute, without needless zeros."""
     whole, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
     return f"{whole}.{decimal.rstrip('0') or '0'}"
 
 
 def length_text(value: float, unit: Unit) -> str:
-    """Millimeters in program units, with the decimals of the form."""
+    """Return millimeters in program units, with the decimals of the form."""
     return show(from_mm(value, unit), Kind.LENGTH, unit)

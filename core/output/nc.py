@@ -1,10 +1,10 @@
-"""NC: jobs as the ISO G-code that LinuxCNC runs: the tool center's path, no G41 or G42.
+"""Writes jobs as the ISO G-code that LinuxCNC runs: the tool center path, without G41 or G42.
 
-What every file states before anything moves: G17 XY plane, G20 or G21, G40 no cutter compensation, G49 no tool length,
+Every file states before the first move: G17 XY plane, G20 or G21, G40 no cutter compensation, G49 no tool length,
 the work offset, G80 no canned cycle, G90 absolute, G91.1 I and J from the arc's start, G94 feed per minute, and
 G64 P: the machine may round a corner by no more than P.  Only inside corners of the path are corners, and rounding
 those keeps the cutter off the part.  G43 H names the tool's own length offset, so that no other is in force.
-The first move after a tool change is straight up.  G53 is not used: where its zero lies is the machine's affair.
+The first move after a tool change is straight up.  G53 is not used: the position of its zero depends on the machine.
 There is no % line: LinuxCNC needs none, and a lone one would end the file.
 """
 
@@ -26,14 +26,14 @@ from core.program.model import Coolant
 from core.units import Unit, located_sentence
 
 COMMENT_WIDTH: Final = 72
-"""Characters inside the brackets; longer text goes on in a further comment."""
+"""Characters inside the parentheses; longer text continues in another comment."""
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
-"""A comment that begins like this is an order to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
+"""A comment that begins like this is a command to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
 READABLE: Final = str.maketrans({"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"})
 
 
 def comments(text: str) -> Iterator[str]:
-    """The comment lines that say `text`: one, or several where it is long; none for blank text."""
+    """Yield the comment lines for `text`: one, or several if it is long; none for blank text."""
     plain = text.translate(READABLE).encode("ascii", "replace").decode("ascii")
     spaced = "".join(character if character.isprintable() else " " for character in plain)
     for line in wrap(spaced, COMMENT_WIDTH):
@@ -42,7 +42,7 @@ def comments(text: str) -> Iterator[str]:
 
 @dataclass(frozen=True, slots=True)
 class ToolPosition:
-    """Where the tool is, in millimeters, and the feed in force as text; an axis whose place is not known is None."""
+    """The tool's position in millimeters, and the feed in force as text; an axis not known yet is None."""
 
     x: float | None = None
     y: float | None = None
@@ -52,7 +52,7 @@ class ToolPosition:
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """One line to be: its G word, where it ends, and for an arc its I and J."""
+    """One future line: its G word, its end, and for an arc its I and J."""
 
     word: str
     target: ToolPosition
@@ -60,10 +60,10 @@ class _Step:
 
 
 def _nc_lines(motions: Iterable[Motion], place: ToolPosition, grid: Grid) -> tuple[list[str], ToolPosition]:
-    """The motions as text, begun at `place`, and where the tool is after them.
+    """Return the motions as text, starting at `place`, and the tool's position after them.
 
-    A rapid never moves Z together with X and Y: up comes before, down after.  What would be no move as written is
-    left out.
+    A rapid never moves Z together with X and Y: up comes before, down after.  A motion that is no move as written
+    is left out.
     """
     texts: list[str] = []
     for motion in motions:
@@ -84,7 +84,7 @@ def _steps(motion: Motion, place: ToolPosition, grid: Grid) -> Iterator[_Step]:
 
 
 def _rapid(motion: Motion, place: ToolPosition) -> Iterator[_Step]:
-    """Up, across, down: whichever of them there is."""
+    """Yield the rapid's steps: up, across, down."""
     high = motion.z if place.z is None else max(motion.z, place.z)
     yield _Step("G0", replace(place, z=high))
     yield _Step("G0", ToolPosition(motion.x, motion.y, high, place.feed))
@@ -108,7 +108,7 @@ def _arc(motion: Motion, place: ToolPosition, feed: str, grid: Grid) -> Iterator
 
 
 def _line(step: _Step, place: ToolPosition, grid: Grid) -> str:
-    """The step as text, empty if nothing moves."""
+    """Return the step as text, empty if nothing moves."""
     target, axes = step.target, ""
     for name, old, new in (("X", place.x, target.x), ("Y", place.y, target.y), ("Z", place.z, target.z)):
         moved = new is not None and (old is None or grid.steps(old) != grid.steps(new))
@@ -120,7 +120,7 @@ def _line(step: _Step, place: ToolPosition, grid: Grid) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Posted:
-    """NC text, the errors that were overridden to have it, and what is to be said with it."""
+    """NC text, the errors that were overridden to get it, and notes for the operator."""
 
     text: str
     overridden: tuple[Finding, ...] = ()
@@ -143,9 +143,9 @@ class Refusal:
 def center_path_program(
     jobs: Sequence[Job], unit: Unit, *, name: str, part: str = "", override: str | None = None
 ) -> Posted | Refusal:
-    """The NC text of all jobs, or the findings that forbid it.
+    """Return the NC text of all jobs, or the findings that forbid it.
 
-    `name` is the program's name and `part` the PART NAME; both stand at its head as comments, whatever they contain.
+    `name` is the program's name and `part` the PART NAME; both become comments at the top, whatever they contain.
     `override` counts only if it is the sentence `core.output.objections.OVERRIDE`, and only against findings on a path
     that is known; the header then says what was overridden.
     """
@@ -164,7 +164,7 @@ def center_path_program(
 
 
 def program_titles(name: str, part: str) -> tuple[str, ...]:
-    """What stands at the head of every NC file: the program's name, and the part's where it has one."""
+    """Return the titles at the top of every NC file: the program's name, and the part's if it has one."""
     return (f"PROGRAM {name}", f"PART {part}") if part.strip() else (f"PROGRAM {name}",)
 
 
@@ -185,7 +185,7 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
 
 
 def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:
-    """Every tool once, in order of use, with what it does."""
+    """Return every tool once, in order of use, with its role."""
     roles: dict[Cutter, str] = {}
     for job in jobs:
         for cutter, role in ((job.cutter, "" if job.finisher is None else "ROUGH"), (job.finisher, "FINISH")):
@@ -211,7 +211,7 @@ def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
 
 
 def _raised_safe_z(safe: float, highest: Job, unit: Unit) -> Iterator[str]:
-    """Say so, and why, where SAFE Z alone would not clear every block; `highest` is the one that needs most."""
+    """Yield a comment, with the reason, if SAFE Z alone would not clear every block; `highest` needs most."""
     clear = clear_height(highest)
     if clear > safe:
         over, top = length_text(highest.retract_clearance, unit), length_text(highest.z_start, unit)
@@ -245,7 +245,7 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
 
 
 def _coolant_change(now: Coolant, then: Coolant) -> Iterator[str]:
-    """M7 is mist, M8 flood; M9 switches both off."""
+    """Yield the coolant words: M7 is mist, M8 flood; M9 switches both off."""
     if now is then:
         return
     if now is not Coolant.OFF:
@@ -262,7 +262,7 @@ def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:
 
 
 def _with_length(lines: Sequence[str], tool: int) -> Iterator[str]:
-    """The first moves of a tool, of which the first one goes to SAFE Z, with its length in that block.
+    """Yield the first moves of a tool, with its length offset in the block of the first, which goes to SAFE Z.
 
     On some controls G43 in a block of its own moves Z by the length at once.
     """
@@ -278,7 +278,7 @@ def _title(a_pass: Pass, unit: Unit) -> str:
 
 
 def _pass_number(a_pass: Pass) -> str:
-    """Which side pass, and which peck of it, where there are several."""
+    """Return which side pass this is, and which peck of it, if there are several."""
     side = (f"SIDE PASS {a_pass.side} OF {a_pass.sides}",) if a_pass.sides > 1 else ()
     peck = (f"PECK {a_pass.number} OF {a_pass.count}",) if a_pass.count > 1 else ()
     return " ".join((*side, *peck)) or "PASS 1 OF 1"

@@ -1,4 +1,4 @@
-"""Objections: the findings that forbid posting, and which of them the operator may override."""
+"""Finds what forbids posting, and which of it the operator may override."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from core.output.passes import CenterPath, Job, rough_runs
 from core.tolerance import JOINED, LARGEST
 
 OVERRIDE: Final = "POST WITH GOUGE"
-"""What an operator must type to have a path posted that gouges."""
+"""What an operator must type to post a path that gouges."""
 
 OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
-"""Findings on a path that is whole and known; whatever is unread, missing or undetermined cannot be overridden."""
+"""Findings on a path that is whole and known; what is unread, missing or undetermined cannot be overridden."""
 
 MAX_LISTED: Final = 6
-"""Segments named in one sentence."""
+"""Most segments named in one sentence."""
 
 MAX_PECKS: Final = 2000
 """More depths than this are a typing mistake in PECK DEPTH."""
 
 
 def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
-    """The errors that forbid posting, each named once; those the operator overrode are left out."""
+    """Return the errors that forbid posting, each once, without those that the operator overrode."""
     errors = [] if jobs else [Finding("NO_BLOCK", Severity.ERROR, "There is no block to post.")]
     for job in jobs:
         errors += [replace(finding, block=job.block) for finding in (*job.errors, *job_errors(job, grid))]
@@ -40,7 +40,7 @@ def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> 
 
 
 def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
-    """What is wrong with a job that none of its errors names: fields without an error, and a path without a cause."""
+    """Yield what is wrong with a job that its errors do not name: a field without an error, a path without a cause."""
     errors = job.errors
     fields = {finding.field for finding in errors}
     explained = any(finding.code not in OVERRIDABLE for finding in errors)
@@ -52,7 +52,7 @@ def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
 
 
 def overridable_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
-    """Errors of the jobs that `OVERRIDE` may waive."""
+    """Return the errors of the jobs that `OVERRIDE` may waive."""
     return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
 
 
@@ -134,7 +134,7 @@ def _no_feed(feed: float, grid: Grid) -> bool:
 
 
 def _unfed(job: Job, grid: Grid) -> set[int]:
-    """Segments that some run cuts without a feed."""
+    """Return the segments that some run cuts without a feed."""
     fed = {floor.number for floor in job.floors if floor.feed is not None and not _no_feed(floor.feed, grid)}
     used = {int(number) for run in (*job.finish, *job.rough) for number in np.unique(run.path.numbers).tolist()}
     return used - fed

@@ -1,20 +1,20 @@
-"""Passes: one MILL CONTOUR block as a job, and the motions that cut it, in millimeters, mm per minute and radians.
+"""Turns one MILL CONTOUR block, as a job, into the motions that cut it, in millimeters, mm per minute and radians.
 
-Words: a *run* is one center path with its blend moves, cut in one go at one depth; the *plunge point* is where it
-begins; a segment's *floor* is the height its Z START and Z END give it.
+Terms: a *run* is one center path with its blend moves, cut in one go at one depth; the *plunge point* is where it
+begins; a segment's *floor* is the height that its Z START and Z END give it.
 
-Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run is
-ever deeper than one peck next to stock another run should have taken.  Without a finish tool the run at full size is
-the last at each depth.  FINISH TOOL follows in one pass at full depth; it pecks only where it is smaller than TOOL,
-because it then cuts corners that are still solid.
+Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run
+is ever deeper than one peck in stock that another run should have taken.  Without a finish tool, the run at full size
+is the last at each depth.  FINISH TOOL follows in one pass at full depth; it pecks only if it is smaller than TOOL,
+since corners are then still solid, or if it cuts a segment that no roughing run has cut.
 
 PECK, for every run: feed down to the depth, mill the contour, rapid up to the retract clearance over Z START, rapid
 back to the plunge point, rapid down to the last depth there plus the peck clearance, feed one peck deeper.
 
-A segment's floor rises evenly with the part of the programmed line or arc that has been traveled.  A piece of a run
-lies over the part of its segment that stands square to it, so a piece shortened at an inside corner begins and ends
-at the height the drawing gives there; where two such heights differ, the tool moves straight up or down between them.
-A corner arc keeps the height of its corner.
+A segment's floor rises evenly along the programmed line or arc.  A piece of a run takes its heights from the points of
+its segment that lie square to it, so a piece shortened at an inside corner begins and ends at the height that the
+drawing gives there; where two such heights differ, the tool moves straight up or down between them.  A corner arc
+keeps the height of its corner.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
 
 WRAPPED: Final = 1e-6
-"""Radians by which rounding may put an arc's first point before its segment's first point."""
+"""Angle by which rounding may put an arc's first point before its segment's first point, in radians."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cutter:
-    """A tool as the table has it: `diameter` in millimeters."""
+    """A tool in the tool table: `diameter` in millimeters."""
 
     number: int
     diameter: float
@@ -62,7 +62,7 @@ class CenterPath:
 
     @property
     def plunge_point(self) -> Point | None:
-        """Where the tool goes down; None for a run without pieces."""
+        """The point where the tool goes down; None for a run without pieces."""
         whole = self.whole
         return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
@@ -81,16 +81,16 @@ class Floor:
 class Job:
     """One block, ready for passes.
 
-    `surface` is the programmed contour; piece numbers of it and of every run are those of `floors`, k + 1/2 for the
-    corner arc after k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None when the block
+    `surface` is the programmed contour; its piece numbers and those of every run are those of `floors`, k + 1/2 for the
+    corner arc after k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None if the block
     names none or the table has none, and then a finding says so.
 
     `finish` are the runs at full size, in order: one, or one for each loop of the best path.  `rough` are the runs
     before them, outermost first, cut by `cutter`: PROFILE's passes, and with a finish tool also the run that leaves
     FINISH XY.  Without a finish tool `cutter` cuts `finish` too.
 
-    `finish_z` is the stock roughing leaves on the floor when a finish tool follows.  `peck_depth` 0 is full depth in
-    one pass.  `rapid_rate` is in mm a minute, `rapid_assumed` where nobody has typed it.  `lookahead` is text such as
+    `finish_z` is the stock that roughing leaves on the floor if a finish tool follows.  `peck_depth` 0 means full depth
+    in one pass.  `rapid_rate` is in mm per minute; `rapid_assumed` if nobody has typed it.  `lookahead` is text such as
     "CAL 8", empty for ON.  `findings` are all of the block's; any error among them blocks posting.  `notes` are further
     sentences for the posted header.
     """
@@ -123,7 +123,7 @@ class Job:
 
     @property
     def levels(self) -> frozenset[tuple[float, float, float | None]]:
-        """Z START, Z END and feed of the floors, each triple once."""
+        """The floors' start height, end height and feed, each triple once."""
         return frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
 
     @property
@@ -134,9 +134,9 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """One move from where the tool is to (x, y, z).
+    """One move from the tool's position to (x, y, z).
 
-    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `center`, in the XY plane, and z
+    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `center` in the XY plane, and z
     changes evenly with the angle; an arc that ends where it began in XY is one full turn.
     """
 
@@ -149,7 +149,7 @@ class Motion:
 
     @property
     def rapid(self) -> bool:
-        """No feed: as fast as the machine can."""
+        """True without a feed: the move is as fast as the machine can."""
         return self.feed is None
 
 
@@ -157,9 +157,9 @@ class Motion:
 class Pass:
     """One run at one depth, from above its plunge point to above its end.
 
-    `side` of `sides` widths from outside in, of which one may be several runs, and `number` of `count` depths, at
-    `level`; `stock` is what the run leaves on the side; `finishing`: the finish tool cuts it.  The first motion is a
-    rapid in XY at a height that clears everything.
+    `side` of `sides` counts widths from outside in, each of which may be several runs; `number` of `count` counts
+    depths, this one at `level`.  `stock` is what the run leaves on the side; `finishing`: the finish tool cuts it.  The
+    first motion is a rapid in XY at a height that clears everything.
     """
 
     block: int
@@ -176,15 +176,15 @@ class Pass:
 
 
 def level_floor(job: Job) -> bool:
-    """No segment rises above Z BOTTOM."""
+    """True if no segment rises above Z BOTTOM."""
     return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.levels)
 
 
 def heights(job: Job, run: CenterPath) -> Floats:
-    """(n, 2) height of the floor under both ends of each piece of `run.whole`.
+    """Return the (n, 2) heights of the floor under both ends of each piece of `run.whole`.
 
-    The blend-in lies as high as the path's first point, the blend-out as its last; an overlap past the start is lifted
-    where the segment below it is higher.
+    The blend-in has the height of the path's first point, the blend-out that of its last; an overlap past the start is
+    lifted where the segment below it is higher.
     """
     if level_floor(job):
         return np.full((len(run.whole), 2), job.z_bottom)
@@ -195,10 +195,10 @@ def heights(job: Job, run: CenterPath) -> Floats:
 
 
 def z_steps(job: Job) -> list[ZStep]:
-    """Where the finish paths go straight up or down between two of their pieces.
+    """Return the steps of the finish paths: where they go straight up or down between two of their pieces.
 
-    A segment that climbs or falls and of which a blend arc, an inside corner or the look-ahead takes the end leaves
-    its neighbors at different heights; so does a Z END on a segment without length.
+    If a blend arc, an inside corner or the look-ahead removes the end of a segment that climbs or falls, its neighbors
+    are at different heights; so they are after a Z END on a segment without length.
     """
     if level_floor(job):
         return []
@@ -232,7 +232,7 @@ def _floor_heights(job: Job, path: Path) -> Floats:
 
 
 def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float, float]:
-    """Heights at a piece's two ends; a corner is as high as the end of the segment before it."""
+    """Return the heights at a piece's two ends; a corner has the height at the end of the segment before it."""
     number = float(path.numbers[piece])
     floor, row = floors.floors[int(number)], floors.rows.get(int(number))
     if number != int(number) or row is None:
@@ -243,7 +243,7 @@ def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float,
 
 
 def _fractions(ends: Floats, sweep: float, floors: _Floors, row: int) -> tuple[float, float]:
-    """Which part of the segment has been traveled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
+    """Return how far along its segment a piece's two ends are, 0 to 1; `sweep` is the piece's own angle."""
     surface = floors.surface
     if surface.turns[row] == 0:
         run = surface.ends[row] - surface.starts[row]
@@ -255,7 +255,7 @@ def _fractions(ends: Floats, sweep: float, floors: _Floors, row: int) -> tuple[f
 
 
 def _turned(surface: Path, row: int, point: Floats) -> float:
-    """Radians from the arc's start to the ray through `point`, in the arc's direction."""
+    """Return the angle from the arc's start to the ray through `point`, in the arc's direction, in radians."""
     center, start = surface.centers[row], surface.starts[row]
     angles: Floats = np.arctan2(*(np.array((start, point)) - center).T[::-1])
     turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
@@ -263,10 +263,10 @@ def _turned(surface: Path, row: int, point: Floats) -> float:
 
 
 def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
-    """Depths from the first peck to `bottom`, which is always the last; `peck` 0 goes there at once (mm).
+    """Return the depths from the first peck to `bottom`, which is always the last; `peck` 0 goes there at once (mm).
 
-    Each is counted from Z START, so that rounding does not add up, and a rest thinner than a machine can show is
-    part of the last pass.
+    Each is counted from Z START, so that rounding does not add up; a rest too thin for a machine to show is part of the
+    last pass.
     """
     depth = z_start - bottom
     count = max(ceil((depth - LAST_PASS) / peck), 1) if peck > 0.0 else 1
@@ -275,7 +275,7 @@ def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Stage:
-    """What one tool does: `runs` at each depth of `levels`, leaving `floor_stock` on the floor."""
+    """The work of one tool: `runs` at each depth of `levels`, leaving `floor_stock` on the floor."""
 
     cutter: Cutter
     runs: tuple[CenterPath, ...]
@@ -285,12 +285,12 @@ class _Stage:
 
 
 def passes(job: Job) -> tuple[Pass, ...]:
-    """All passes of a block, in order.  The job must be one without posting errors."""
+    """Return all passes of a block, in order.  The job must have no posting errors."""
     return tuple(a_pass for stage in _stages(job) for a_pass in _cut(job, stage))
 
 
 def rough_runs(job: Job) -> tuple[CenterPath, ...]:
-    """What TOOL cuts: its own runs, and those at full size when no finish tool does.
+    """Return the runs that TOOL cuts: its own, and those at full size if no finish tool cuts them.
 
     With CUTTER COMP. ON there is no stock on the side, and both tools run the contour itself.
     """
@@ -300,7 +300,7 @@ def rough_runs(job: Job) -> tuple[CenterPath, ...]:
 
 
 def clear_height(job: Job) -> float:
-    """The retract clearance's height over Z START."""
+    """Return the height of the retract clearance over Z START."""
     return job.z_start + job.retract_clearance
 
 
@@ -322,7 +322,7 @@ def _stages(job: Job) -> Iterator[_Stage]:
 
 
 def meets_solid(job: Job) -> frozenset[int]:
-    """Segments that the finish tool cuts and no roughing run has cut: it meets solid material there."""
+    """Return the segments that the finish tool cuts in solid material: no roughing run has cut them."""
     return frozenset() if job.finisher is None else _segments(job.finish) - _segments(job.rough[-1:])
 
 
@@ -361,7 +361,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
 
 
 def _down(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[Motion]:
-    """Rapid over the plunge point at `height`, down to the clearance, feed to `depth`; `before` was reached there."""
+    """Yield rapids to the plunge point and the clearance, then a feed to `depth`; `before` is the last depth there."""
     assert run.plunge_point is not None
     x, y = run.plunge_point
     near = clear_height(job) if before is None else min(before + job.peck_clearance, clear_height(job))
@@ -372,7 +372,7 @@ def _down(job: Job, run: CenterPath, depth: float, before: float | None, height:
 
 
 def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[Motion]:
-    """The run at `level`, held up where the floor is higher."""
+    """Yield the run at `level`, lifted where the floor is higher."""
     whole = run.whole
     feeds = _feeds(job, run)
     z = max(level, float(floors[0, 0]))
@@ -384,14 +384,14 @@ def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator
 
 
 def _feeds(job: Job, run: CenterPath) -> list[float]:
-    """Feed of each piece: its segment's; a blend move has that of the path's end it leads to or from."""
+    """Return each piece's feed: its segment's; a blend move has that of the path's end which it leads to or from."""
     by_number = {floor.number: floor.feed or 0.0 for floor in job.floors}
     path = [by_number[int(number)] for number in run.path.numbers.tolist()]
     return [path[0]] * len(run.lead_in) + path + [path[-1]] * len(run.lead_out)
 
 
 def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level: float) -> Iterator[Motion]:
-    """One piece over a floor from `floor[0]` to `floor[1]`, never below `level`: in two where the floor meets it."""
+    """Yield one piece over a floor from `floor[0]` to `floor[1]`, never below `level`; split where they meet."""
     low, high = floor
     if (low - level) * (high - level) < 0.0:
         part = (level - low) / (high - low)

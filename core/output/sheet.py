@@ -1,6 +1,6 @@
-"""Sheet: the setup sheet an operator needs at the machine, as values, as plain text, and as one HTML page.
+"""Makes the setup sheet that an operator needs at the machine, as values, as plain text, and as one HTML page.
 
-It is made from the same jobs as the NC text, and never calls a program ready that `core.output.nc` would refuse.
+It uses the same jobs as the NC text, and never calls a program ready that `core.output.nc` would refuse.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from core.units import Kind, Unit, from_mm, located_sentence, show
 PAGE_COLUMNS: Final = 78
 """Columns of the plain text."""
 LABEL: Final = 18
-"""Columns of a label in it."""
+"""Columns of a label in the plain text."""
 READY: Final = "READY to post."
 READY_BUT: Final = "READY to post. Know before you run it:"
 NOT_READY: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
@@ -58,7 +58,7 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A whole sheet.  `errors` say why the program must not run as it is; empty for one that is ready.
+    """A whole sheet.  `errors` say why the program must not run as it is, and are empty if it is ready.
 
     `notes` say, block by block, what is not cut as drawn: segments that the look-ahead deletes, and what stays uncut.
     """
@@ -72,14 +72,14 @@ class Sheet:
 
     @property
     def verdict(self) -> tuple[str, tuple[str, ...]]:
-        """The line that says whether the program is ready, and what stands below it."""
+        """The line that says whether the program is ready, and the sentences below it."""
         if self.errors:
             return NOT_READY, self.errors
         return (READY_BUT, self.notes) if self.notes else (READY, ())
 
 
 def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
-    """The sheet of a program's jobs, with its name, the part's and the day; lengths on it are in program units."""
+    """Return the sheet of a program's jobs, with its name, the part's and the day; its lengths are in program units."""
     head: tuple[Pair, ...] = (
         ("PROGRAM", program),
         ("PART NAME", part or "-"),
@@ -95,7 +95,7 @@ def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: st
 
 
 def _times(jobs: Sequence[Job], unit: Unit) -> Iterator[Pair]:
-    """The time of the whole program, and the rapid rate that it is based on."""
+    """Yield the time of the whole program, and the rapid rate that it is based on."""
     ready = [job for job in jobs if not posting_errors([job], Grid(unit), override=OVERRIDE)]
     if ready:
         yield "TIME", times_text(program_times(ready, ready[0].rapid_rate))
@@ -108,7 +108,7 @@ def _feed(value: float | None, unit: Unit) -> str:
 
 
 def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
-    """Every tool once, with the blocks that use it."""
+    """Return every tool once, with the blocks that use it."""
     used: dict[Cutter, list[str]] = {}
     for job in jobs:
         for cutter, role in ((job.cutter, ""), (job.finisher, " finish")):
@@ -167,7 +167,7 @@ def _place(point: Sequence[float], unit: Unit) -> str:
 
 
 def _reach(job: Job, unit: Unit) -> str:
-    """The rectangle the cutters stay in, for the clamps."""
+    """Return the rectangle that the cutters stay in, for placing the clamps."""
     stages = ((job.cutter, rough_runs(job)), (job.finisher, job.finish))
     swept = [
         run.whole.boxes.T + np.array([-1.0, -1.0, 1.0, 1.0]) * cutter.diameter / 2
@@ -183,7 +183,7 @@ def _reach(job: Job, unit: Unit) -> str:
 
 
 def _feeds(job: Job, unit: Unit) -> str:
-    """Feeds with the segments they hold for: 1-4 12.0, 5 8.0."""
+    """Return the feeds with their segments, such as `12.0 (segments 1-4), 8.0 (segment 5)`."""
     parts = []
     for feed, floors in groupby(job.floors, key=lambda floor: _feed(floor.feed, unit)):
         numbers = [floor.number for floor in floors]
@@ -202,7 +202,7 @@ def _pass_table(all_passes: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...]
 
 
 def as_text(sheet: Sheet) -> str:
-    """The sheet, lines ended by a line feed."""
+    """Return the sheet as plain text, each line ended by a line feed."""
     lines = ["SETUP SHEET", "=" * PAGE_COLUMNS, *_text_pairs(sheet.head), ""]
     first, rest = sheet.verdict
     mark = "!!" if sheet.errors else "!"
@@ -213,7 +213,7 @@ def as_text(sheet: Sheet) -> str:
 
 
 def _printable_line(text: str) -> str:
-    """Text on one line, with a question mark for what does not print."""
+    """Return text on one line, with a question mark for each character that does not print."""
     return "".join(sign if sign.isprintable() else "?" for sign in text)
 
 
@@ -237,7 +237,7 @@ def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Columns as wide as their longest text, numbers under their headings' right end."""
+    """Yield rows with columns as wide as their longest text, aligned right."""
     widths = [max(len(_printable_line(row[column])) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
         yield "  ".join(f"{_printable_line(text):>{width}}" for text, width in zip(row, widths, strict=True))
@@ -248,7 +248,7 @@ def _wrapped(text: str) -> list[str]:
 
 
 def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
-    """The page; `drawings` are SVG texts of `core.output.svg`, one a block."""
+    """Return the sheet as an HTML page; `drawings` are SVG texts of `core.output.svg`, one per block."""
     title = f"Setup sheet: {_escaped(sheet.title)}"
     lines = (
         "<!DOCTYPE html>",

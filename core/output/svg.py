@@ -1,4 +1,4 @@
-"""A scene as an SVG drawing: exact arcs, line weights by role, a legend.  Lengths in it are millimeters, Y up."""
+"""Writes a scene as an SVG drawing: exact arcs, line weights by role, a legend.  Millimeters, Y up."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from core.units import from_mm, to_mm
 
 SVG_DECIMALS: Final = 6
 DRAWING_WIDTH: Final = 960
-"""Width of the drawing on a screen, in its pixels; the height follows."""
+"""Width of the drawing on a screen in pixels; the height follows from it."""
 TEXT: Final = 0.024
-"""Height of letters, as a part of the drawing's larger side."""
+"""Height of letters as a fraction of the drawing's larger side."""
 MARGIN: Final = 0.06
 
 
 @dataclass(frozen=True, slots=True)
 class Pen:
-    """How a role is drawn: `weight` in pixels, dashes as SVG writes them, and its words in the legend."""
+    """The look of a role: `weight` in pixels, `dashes` in SVG's notation, and its `words` in the legend."""
 
     color: str
     weight: float
@@ -60,7 +60,7 @@ PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
 
 
 def svg(scene: Scene, *, title: str) -> str:
-    """The drawing as the text of an SVG file; what is not finite is left out."""
+    """Return the drawing as the text of an SVG file, without anything that is not finite."""
     x0, y0, x1, y1 = scene.bounds or (-1.0, -1.0, 1.0, 1.0)
     size = max(x1 - x0, y1 - y0) or 1.0
     roles = _roles(scene)
@@ -81,9 +81,9 @@ def svg(scene: Scene, *, title: str) -> str:
 
 
 def outline(piece: Piece) -> str:
-    """The SVG path commands that go on from a piece's start: L, or A once or twice.
+    """Return the SVG path commands that continue from a piece's start: L, or A once or twice.
 
-    An arc of more than a half turn is written as two halves: a control point never has to tell a full circle from none.
+    An arc of more than a half turn is written as two halves, so that no viewer has to tell a full circle from none.
     """
     if isinstance(piece, Line):
         return f"L{_at(piece.end)}"
@@ -94,7 +94,7 @@ def outline(piece: Piece) -> str:
 
 
 def _arc(arc: Arc, end: Point) -> str:
-    """Half a turn or less of an arc; SVG's positive angles run clockwise on a drawing whose Y is up."""
+    """Return half a turn or less of an arc; SVG's positive angles run clockwise on a drawing whose Y is up."""
     radius = _number(arc.radius)
     return f"A{radius} {radius} 0 0 {0 if arc.turn > 0 else 1} {_at(end)}"
 
@@ -137,7 +137,7 @@ def _head(box: Box, title: str) -> Iterator[str]:
 
 
 def _axes(scene: Scene, box: Box) -> Iterator[str]:
-    """The axes as far as the drawing goes."""
+    """Yield the axes within the drawing."""
     x0, y0, x1, y1 = box
     if scene.axes and y0 <= 0.0 <= y1:
         yield _drawn(Style.AXIS, f"M{_at((x0, 0.0))} L{_at((x1, 0.0))}")
@@ -146,7 +146,7 @@ def _axes(scene: Scene, box: Box) -> Iterator[str]:
 
 
 def _path(path: Path, layer: Layer) -> str:
-    """One path of a layer; pieces that are not finite leave a gap."""
+    """Return one path of a layer; pieces that are not finite leave a gap."""
     values = np.hstack((path.starts, path.ends, path.centers))
     sound: list[bool] = np.logical_and.reduce(np.isfinite(values), axis=1).tolist()
     words, joined = [], False
@@ -168,7 +168,7 @@ def _circle(circle: Circle) -> str:
 
 
 def _mark(mark: Mark, size: float) -> str:
-    """An arrow head along the travel, a cross where something is wrong, a ring where the tool starts or plunges."""
+    """Return an arrowhead along the travel, a cross where something is wrong, or a ring at a start or plunge point."""
     ahead = complex(*mark.direction)
     ahead = ahead / abs(ahead) * size * 0.8 if abs(ahead) > 0.0 and _finite(*mark.direction) else complex(size)
     here, half = complex(*mark.at), size * 0.35
@@ -193,7 +193,7 @@ def _legend(roles: tuple[Style, ...], corner: Point, size: float, line: float) -
 
 
 def _scale(scene: Scene, corner: Point, size: float) -> Iterator[str]:
-    """A bar of a round length in program units, at the right."""
+    """Yield a bar of a round length in program units, at the right."""
     if scene.unit is None:
         return
     (x, y), letters = corner, size * TEXT
@@ -209,5 +209,5 @@ def _text(at: Point, text: str, size: float) -> str:
 
 
 def _plain(text: str) -> str:
-    """Text as XML may hold it: escaped, and without the control characters XML forbids."""
+    """Return text that XML allows: escaped, with a space for each character that does not print."""
     return escape("".join(character if character.isprintable() else " " for character in text))

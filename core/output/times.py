@@ -1,7 +1,7 @@
-"""Times: how long a block cuts and moves at rapid, from the moves that are posted.
+"""Calculates how long a block cuts and moves at rapid, from the moves that are posted.
 
-A feed move takes its length over its programmed feed, a rapid its length over the rapid rate.  Acceleration, tool
-changes and overrides are not counted.
+A feed move takes its length divided by its programmed feed, a rapid its length divided by the rapid rate.
+Acceleration, tool changes and overrides are not counted.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from core.output.passes import Job, Motion, at_one_safe_z, passes
 
 @dataclass(frozen=True, slots=True)
 class Times:
-    """Minutes of cutting and of rapid moves; infinite where a feed is too slow for a number."""
+    """Minutes of cutting and of rapid moves; infinite if a feed is too slow for a number."""
 
     cut: float = 0.0
     rapid: float = 0.0
 
     @property
     def total(self) -> float:
-        """Minutes together."""
+        """Minutes of both together."""
         return self.cut + self.rapid
 
     def __add__(self, other: Times) -> Times:
@@ -32,7 +32,7 @@ class Times:
 
 
 def block_times(job: Job, rapid_rate: float) -> Times:
-    """The times of a job that can be posted; `rapid_rate` in millimeters a minute."""
+    """Return the times of a job that can be posted; `rapid_rate` in millimeters per minute."""
     runs = [a_pass.motions for a_pass in passes(job)]
     if not runs:
         return Times()
@@ -47,7 +47,7 @@ def block_times(job: Job, rapid_rate: float) -> Times:
 
 
 def program_times(jobs: Sequence[Job], rapid_rate: float) -> Times:
-    """The times of jobs that are posted together: of each block, and of the rapids from block to block at SAFE Z."""
+    """Return the times of jobs posted together: of each block, and of the rapids between blocks at SAFE Z."""
     level = at_one_safe_z(jobs)
     runs = [[motion for a_pass in passes(job) for motion in a_pass.motions] for job in level]
     across = (dist((left[-1].x, left[-1].y), (met[0].x, met[0].y)) for left, met in pairwise(filter(None, runs)))
@@ -56,7 +56,7 @@ def program_times(jobs: Sequence[Job], rapid_rate: float) -> Times:
 
 
 def _travel(before: Motion, motion: Motion) -> float:
-    """Millimeters of a move."""
+    """Return the length of a move in millimeters."""
     ends = (before.x, before.y), (motion.x, motion.y)
     straight = motion.turn is Turn.NONE
     piece = Line(*ends) if straight else Arc(*ends, motion.center, motion.turn)
@@ -64,13 +64,13 @@ def _travel(before: Motion, motion: Motion) -> float:
 
 
 def times_text(times: Times) -> str:
-    """Cut, rapid and total in words, such as `cut 2:05, rapid 0:12, total 2:17 (min:s)`."""
+    """Return cut, rapid and total in words, such as `cut 2:05, rapid 0:12, total 2:17 (min:s)`."""
     parts = ((name, getattr(times, name)) for name in ("cut", "rapid", "total"))
     return ", ".join(f"{name} {minutes_text(value)}" for name, value in parts)
 
 
 def minutes_text(minutes: float) -> str:
-    """Minutes as `2:05` (minutes and seconds), from an hour on `1:02:05`."""
+    """Return minutes as `2:05` (minutes and seconds), from an hour on as `1:02:05`."""
     if not isfinite(minutes):
         return "-"
     seconds = round(60.0 * minutes)
