@@ -147,15 +147,15 @@ def started_at_corner(contour: Contour, step: int) -> Contour:
     if not contour.closed or contour.circle is not None:
         return contour
     whole = _undivided(contour)
-    # a start between two corners goes to the nearer end of its piece first
+    # a start between two corners first goes to the end of its piece, in the step's direction
     ahead = step - 1 if len(whole.pieces) < len(contour.pieces) and step > 0 else step
     return _started_on(whole, (ahead + (0 if whole is contour else 1)) % len(whole.pieces), 0.0)
 
 
 def started_at_side(contour: Contour, step: int) -> Contour:
-    """A closed contour from the middle of the piece on that is `step` pieces after that of its start (or before).
+    """Start a closed contour at the middle of the piece that is `step` pieces after (or before) the one it starts on.
 
-    From a corner the first step leads to the middle of the piece that begins there.
+    From a corner the first step leads to the middle of the piece that begins there.  A circle moves by quarter turns.
     """
     if not contour.closed:
         return contour

@@ -121,13 +121,13 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     progress("cleaning", 0, 1)
     cleaned = clean_up(pieces, options.tolerance)
     progress("chaining", 0, 1)
-    made = chained([item.piece for item in cleaned.pieces], options.tolerance)
-    contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in made.chains]
+    result = chained([item.piece for item in cleaned.pieces], options.tolerance)
+    contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in result.chains]
     contours = [contour for contour in contours if contour.pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
     notes = list(drawing.notes)
-    if made.given_up:
+    if result.given_up:
         notes.append("There are too many branches: closed contours may be listed as open ones. Choose fewer layers.")
     return ContourList(
         drawing,
@@ -137,7 +137,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
         cleaned.duplicates,
         cleaned.overlaps,
         max((contour.gap for contour in ordered), default=0.0),
-        _branches(made.branches, ordered, options.tolerance),
+        _branches(result.branches, ordered, options.tolerance),
         tuple(notes),
     )
 
@@ -215,11 +215,11 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     """Return the contours in list order with nesting, direction and start; open ones last, longest first."""
     closed = _by_size([contour for contour in contours if contour.closed])
     inside = containers([contour.pieces for contour in closed])
-    met = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
+    crossed = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
     areas = [contour.area for contour in closed]
-    direct = [min(outer, key=areas.__getitem__, default=None) for outer in inside]
+    parents = [min(outer, key=areas.__getitem__, default=None) for outer in inside]
     children: dict[int | None, list[int]] = {}
-    for row, parent in enumerate(direct):
+    for row, parent in enumerate(parents):
         children.setdefault(parent, []).append(row)
     order: list[int] = []
     waiting = list(reversed(children.get(None, [])))
@@ -230,17 +230,17 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
     numbers = {row: number for number, row in enumerate(order, 1)}
     listed = []
     for row in order:
-        parent, depth = direct[row], len(inside[row])
+        parent, depth = parents[row], len(inside[row])
         contour = replace(closed[row], kind=_kind(depth), depth=depth)
         if not contour.number or contour.kind is not closed[row].kind:
             contour = _directed(contour)
-        problems = (f"touches or crosses chain {numbers[met[row]]}",) if row in met else ()
+        problems = (f"touches or crosses chain {numbers[crossed[row]]}",) if row in crossed else ()
         number = numbers[row]
         listed.append(
             replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=problems)
         )
-    loose = sorted((contour for contour in contours if not contour.closed), key=_by_length)
-    return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(loose, 1)]
+    open_contours = sorted((contour for contour in contours if not contour.closed), key=_by_length)
+    return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(open_contours, 1)]
 
 
 def _kind(depth: int) -> ContourKind:
@@ -298,8 +298,8 @@ def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> li
 def _with_gap(contour: Contour, gap: float, other: int, contours: Sequence[Contour], unit: Unit) -> Contour:
     number = contours[other].number
     length = show(from_mm(gap, unit), Kind.LENGTH, unit)
-    to = "its other end" if number == contour.number else f"chain {number}"
-    text = f"gap {length} to {to}: TOLERANCE {_rounded_up(gap, unit)} would join it"
+    target = "its other end" if number == contour.number else f"chain {number}"
+    text = f"gap {length} to {target}: TOLERANCE {_rounded_up(gap, unit)} would join it"
     return replace(contour, open_gap=gap, open_gap_to=number, problems=(*contour.problems, text))
 
 

@@ -45,35 +45,35 @@ def read_nc(
     text: bytes, control: str, tools: ToolTable, *, unit: Unit | None = None, center: CenterPathTool | None = None
 ) -> NcProgram:
     """Return the contours of a program on a control.  Raises NcError; `center` is needed if nothing is compensated."""
-    made = run(text, control, tools, unit)
-    if isinstance(made, UnknownControl):
-        raise NcError(made.text)
-    _refuse_alarm(made)
-    words = _Words.of(text, klartext=is_klartext(made.control))
-    if made.stretches:
-        passes = [contour for stretch in made.stretches for contour in _programmed(made, stretch, words)]
+    result = run(text, control, tools, unit)
+    if isinstance(result, UnknownControl):
+        raise NcError(result.text)
+    _refuse_alarm(result)
+    words = _Words.of(text, klartext=is_klartext(result.control))
+    if result.stretches:
+        passes = [contour for stretch in result.stretches for contour in _programmed(result, stretch, words)]
     elif center is None:
-        words_needed = "The program runs the tool's center: its side and the tool's diameter are needed."
-        raise NcError(words_needed, needs_center=True)
+        message = "The program runs the tool's center: its side and the tool's diameter are needed."
+        raise NcError(message, needs_center=True)
     else:
-        passes = list(_center_passes(made, center, words))
+        passes = list(_center_passes(result, center, words))
     if not passes:
         raise NcError("The program has no move in the XY plane at a feed.")
-    return NcProgram(made.unit, tuple(_grouped(passes)), _run_notes(made))
+    return NcProgram(result.unit, tuple(_grouped(passes)), _run_notes(result))
 
 
-def _refuse_alarm(made: ControlRun) -> None:
-    if made.stopped_at is None:
+def _refuse_alarm(result: ControlRun) -> None:
+    if result.stopped_at is None:
         return
-    errors = [finding for finding in made.findings if finding.severity is Severity.ERROR]
-    why = next((finding for finding in errors if finding.line == made.stopped_at), errors[0] if errors else None)
-    words = "" if why is None else f": {sentence(why, made.unit)}"
-    raise NcError(f"{made.control} stops at line {made.stopped_at}{words}")
+    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
+    why = next((finding for finding in errors if finding.line == result.stopped_at), errors[0] if errors else None)
+    words = "" if why is None else f": {sentence(why, result.unit)}"
+    raise NcError(f"{result.control} stops at line {result.stopped_at}{words}")
 
 
-def _run_notes(made: ControlRun) -> tuple[str, ...]:
-    errors = [finding for finding in made.findings if finding.severity is Severity.ERROR]
-    return tuple(f"line {finding.line}: {sentence(finding, made.unit)}" for finding in errors)
+def _run_notes(result: ControlRun) -> tuple[str, ...]:
+    errors = [finding for finding in result.findings if finding.severity is Severity.ERROR]
+    return tuple(f"line {finding.line}: {sentence(finding, result.unit)}" for finding in errors)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +114,7 @@ def _last_before(values: Sequence[tuple[int, float]], line: int) -> float | None
     return next((value for at, value in reversed(values) if at <= line), None)
 
 
-def _programmed(made: ControlRun, stretch: Stretch, words: _Words) -> Iterator[NcContour]:
+def _programmed(result: ControlRun, stretch: Stretch, words: _Words) -> Iterator[NcContour]:
     """Yield the contours of a compensated stretch as programmed."""
     if stretch.plane is not Plane.XY:
         line = int(stretch.programmed.lines[-1])
@@ -123,7 +123,7 @@ def _programmed(made: ControlRun, stretch: Stretch, words: _Words) -> Iterator[N
         line = int(stretch.programmed.lines[stretch.changes[0].programmed])
         raise NcError(f"Line {line}: the side or the radius changes within the contour.")
     rows = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit)
-    plunge = _plunge_feed(made.moves, stretch.first)
+    plunge = _plunge_feed(result.moves, stretch.first)
     for cuts, notes in _contours(list(_cuts(rows)), stretch.side):
         yield replace(_contour(cuts, stretch.side, stretch.radius, words, plunge), notes=notes)
 
@@ -235,9 +235,9 @@ def _tangent(first: Piece, second: Piece) -> bool:
     return abs(ux * vy - uy * vx) <= TANGENT and ux * vx + uy * vy > 0.0
 
 
-def _center_passes(made: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:
+def _center_passes(result: ControlRun, center: CenterPathTool, words: _Words) -> Iterator[NcContour]:
     """Yield the contours of a program of the tool center."""
-    moves, radius = made.moves, to_mm(center.diameter, made.unit) / 2.0
+    moves, radius = result.moves, to_mm(center.diameter, result.unit) / 2.0
     for first, last in _feed_runs(moves):
         plunge = _plunge_feed(moves, first)
         cuts = list(_cuts(moves.part(first, last)))
@@ -246,8 +246,8 @@ def _center_passes(made: ControlRun, center: CenterPathTool, words: _Words) -> I
             continue
         for part, notes in _contours(cuts, center.side):
             surface, needed = offset_back(part, center.side, radius)
-            made_contour = _contour(surface, center.side, radius, words, plunge)
-            yield replace(made_contour, lookahead=needed, notes=notes)
+            contour = _contour(surface, center.side, radius, words, plunge)
+            yield replace(contour, lookahead=needed, notes=notes)
 
 
 def _feed_runs(moves: Moves) -> Iterator[tuple[int, int]]:

@@ -53,9 +53,9 @@ def control_program(
 
     `name` is the program's name, `part` the PART NAME.
     """
-    against = control_program_errors(jobs, unit)
-    if against:
-        return Refusal(against, unit)
+    errors = control_program_errors(jobs, unit)
+    if errors:
+        return Refusal(errors, unit)
 
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
         # a semicolon would end the block even inside a comment, or begin another comment

@@ -150,9 +150,9 @@ def center_path_program(
     that is known; the header then says what was overridden.
     """
     grid = Grid(unit)
-    against = posting_errors(jobs, grid, override=override)
-    if against:
-        return Refusal(against, unit)
+    errors = posting_errors(jobs, grid, override=override)
+    if errors:
+        return Refusal(errors, unit)
     safe, highest = max(job.safe_z for job in jobs), max(jobs, key=clear_height)
     waived = overridable_errors(jobs)
     lines = (

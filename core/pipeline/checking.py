@@ -353,10 +353,10 @@ def _last_error(findings: tuple[Finding, ...]) -> Finding | None:
     return next((finding for finding in reversed(findings) if finding.severity is Severity.ERROR), None)
 
 
-def _parting(parts: Parting, of: str, unit: Unit) -> str:
+def _parting(parting: Parting, of: str, unit: Unit) -> str:
     """Return where the paths part, their largest distance and its line; short enough for a line of the screen."""
-    where = f"differs from {shown_name(of)} from line {parts.line}"
-    return f"{where}, by {_length(parts.distance, unit)} at line {parts.farthest}"
+    where = f"differs from {shown_name(of)} from line {parting.line}"
+    return f"{where}, by {_length(parting.distance, unit)} at line {parting.farthest}"
 
 
 def _length(value: float, unit: Unit) -> str:
@@ -455,8 +455,8 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
     first_run, second_run = _read(first, asked), _read(second, asked)
     pairs = contours(first_run, second_run)
     sentences = [_pair(pair, first_run.unit, second_run.unit) for pair in pairs]
-    odd = len(first_run.stretches) != len(second_run.stretches)
-    if odd:
+    counts_differ = len(first_run.stretches) != len(second_run.stretches)
+    if counts_differ:
         count = len(first_run.stretches)
         which = "1 contour" if count == 1 else f"{count} contours"
         sentences.append(f"The first program has {which}, the second {len(second_run.stretches)}.")
@@ -465,8 +465,8 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
             sentences.append(_stopped(f"The {name} program", done))
     if not sentences:
         sentences.append("Neither program has a compensated contour.")
-    whole = first_run.stopped_at is None and second_run.stopped_at is None
-    return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(sentences)
+    complete = first_run.stopped_at is None and second_run.stopped_at is None
+    return bool(pairs) and complete and not counts_differ and all(pair.same for pair in pairs), tuple(sentences)
 
 
 def _stopped(name: str, done: ControlRun) -> str:
@@ -485,11 +485,11 @@ def _read(text: bytes, asked: Asked) -> ControlRun:
 def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
     if pair.same:
         return f"Contour {pair.number}: the same."
-    ways = ((pair.first, first, "first"), (pair.second, second, "second"))
+    partings = ((pair.first, first, "first"), (pair.second, second, "second"))
     differences = [
-        f"line {way.farthest} of the {name} is {_length(way.distance, unit)} {unit.value} off"
-        for way, unit, name in ways
-        if way
+        f"line {parting.farthest} of the {name} is {_length(parting.distance, unit)} {unit.value} off"
+        for parting, unit, name in partings
+        if parting
     ]
     if not pair.same_side:
         differences.append("the sides or planes differ")

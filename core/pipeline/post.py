@@ -29,9 +29,9 @@ def post_control_program(derived: Derived, *, name: str, control: str) -> Posted
     """Return the program for a control, by its full name in the registry, or the refusal."""
     unit, all_jobs = derived.program.unit, jobs(derived)
     best = _best_path_refused(derived) if any(job.comp != "ON" for job in all_jobs) else ()
-    against = (*control_program_errors(all_jobs, unit), *best)
-    if against:
-        return Refusal(against, unit)
+    errors = (*control_program_errors(all_jobs, unit), *best)
+    if errors:
+        return Refusal(errors, unit)
     cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
     return control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
 
