@@ -1,4 +1,4 @@
-"""One contour of a drawing: its values in the list, and the operator's changes of it."""
+"""One contour of a drawing: its values in the list, and the operator's changes to it."""
 
 from __future__ import annotations
 

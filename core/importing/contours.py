@@ -42,10 +42,10 @@ BRANCH_REACH: Final = 2.0
 """A contour ends at a branch if its end is within this many tolerances of it."""
 
 SAME_PLACE: Final = 1e-4
-"""Millimeters that replace a smaller tolerance there."""
+"""Least tolerance in millimeters that this reach is based on."""
 
 MAX_CROSSING_CHECK: Final = 2000
-"""Above this many closed contours, crossings are not searched."""
+"""Most closed contours that are checked for touching and crossing."""
 
 Progress = Callable[[str, int, int], None]
 

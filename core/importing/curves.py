@@ -37,16 +37,16 @@ MAX_BEND: Final = 0.55 * pi
 """Largest turn of a curve within one biarc, in radians."""
 
 STRAIGHT: Final = 1e-6
-"""Largest distance in millimeters of a curve that counts as a line from its chord."""
+"""A curve counts as a line if it deviates from its chord by no more than this, in millimeters."""
 
 MAX_RADIUS: Final = 100_000.0
 """Largest radius of an arc in millimeters: beyond it the center is out of a form's range."""
 
 SAME_ARC: Final = 1e-6
-"""Two arcs are one if centers and radii differ by no more than this: millimeters, times a radius above 1."""
+"""Two arcs are one if centers and radii differ by no more than this in mm, times a radius above 1 mm."""
 
 ROUND: Final = 1e-9
-"""Largest relative difference of an ellipse's semi-diameters that makes it a circle."""
+"""An ellipse is a circle if its semi-diameters differ by no more than this fraction."""
 
 SHORTEST: Final = 10.0
 """Shortest arc as a multiple of FIT; shorter ones remain only if FIT requires them."""
@@ -136,7 +136,7 @@ def _interpolated(rows: Row, share: Floats) -> tuple[Row, Row]:
 
 
 def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
-    """Return an ellipse, or part of one, as arcs; a circle is one arc, or a line if it is flat within FIT."""
+    """Return an ellipse or part of one as arcs; a circle is one arc, or a line if huge (MAX_RADIUS) and flat (FIT)."""
     a, b = abs(shape.first), abs(shape.second)
     across = abs((shape.first.conjugate() * shape.second).real)
     if abs(a - b) <= ROUND * max(a, b) and across <= ROUND * a * b:

@@ -52,7 +52,7 @@ LARGEST_SAGITTA: Final = 0.005
 """Largest sagitta, in the drawing's unit, of an arc read as a line because its center is out of range."""
 
 ROUND: Final = 1e-9
-"""Two angles within this, in radians, of equal or of a full turn apart are the full circle."""
+"""A sweep within this of 0 or of a full turn, in radians, is the full circle."""
 
 STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
@@ -158,7 +158,7 @@ class _Reader:
                 self.skipped[f"{kind} in paper space"] += count
 
     def _compare(self, entities: list[DXFGraphic], scan: Scan) -> None:
-        """Find the line of each entity, and refuse a file of which ezdxf has lost an entity."""
+        """Find the line of each entity, and refuse a file from which ezdxf has lost an entity."""
         self.scanned = scan.blocks
         in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
         self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)

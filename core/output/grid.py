@@ -25,7 +25,7 @@ MAX_END_ERROR: Final = 4.0
 MIN_RADIUS: Final = 160.0
 """Smallest radius of an arc, in last digits; LinuxCNC refuses a smaller one as zero, so chords replace it."""
 MIN_ANGLE: Final = 1e-5
-"""Smallest angle of an arc, in radians: controls take a much smaller one for zero, or a full circle."""
+"""Smallest angle of an arc, in radians: controls take a much smaller one for zero, and the arc for a full circle."""
 MAX_CHORD_HEIGHT: Final = 0.5
 """A chord that deviates from its arc by no more than this, in last digits, is as good as the arc."""
 
