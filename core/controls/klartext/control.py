@@ -78,6 +78,11 @@ def _run_blocks(state: State, progress: Progress) -> None:
             state.stop("LIMIT", text, block)
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
+        if block.more and block.head != "CYCL":
+            text = (
+                "A ~ continues this block on the next line, which cutcomp reads in CYCL DEF only. Write it on one line."
+            )
+            state.stop("BEYOND", text, block)
         HEADS.get(block.head, setup_blocks.unknown)(state, block)
         if state.cycle_due:
             state.cycle_due = False

@@ -89,9 +89,11 @@ def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
     continued = False
     for number, raw in enumerate(lines, start=1):
         code = raw.partition(";")[0].rstrip()
-        continuation, continued = continued, code.endswith("~") or raw.endswith("~")
+        continuation, continued = continued, bool(code or continued) and (code.endswith("~") or raw.endswith("~"))
         if continuation:
-            if block and len(code) <= MAX_LINE_LENGTH:
+            if block and len(code) > MAX_LINE_LENGTH:
+                block = block._replace(head=TOO_LONG)
+            elif block:
                 block = block._replace(more=(*block.more, capitals(code.removesuffix("~")).strip()))
             continue
         if block:
