@@ -107,7 +107,8 @@ SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
 
 _PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
 _NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590, 1540, *HAAS_SYSTEMS))
-_TO_MACHINE: Final = frozenset((280, 300, 530))
+_HOME: Final = frozenset((280, 300))
+_TO_MACHINE: Final = _HOME | {530}
 _UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
 _UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
 _CALLS: Final = frozenset((980, 990))
@@ -310,7 +311,9 @@ class Fanuc(VectorQueue, Control):
             # after a G40 without movement the tool is still off the programmed point
             self.straight(element, self.here)
             return
-        if self.side is None or not element.moves:
+        # on the way to the intermediate point of G28 the vector is dropped (5003#2 = 0)
+        homing = self.block is not None and not _HOME.isdisjoint(self.block.g)
+        if self.side is None or not element.moves or homing:
             super().travel(element)
             return
         self._read_radius(element.line, 1)

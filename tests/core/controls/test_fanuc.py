@@ -243,6 +243,13 @@ def test_a_new_origin_ends_compensation_for_a_while_and_starts_it_again() -> Non
     assert told(done, "FN-G5")
 
 
+@pytest.mark.parametrize("code", ["G28", "G30"])
+def test_the_way_to_an_intermediate_point_is_not_compensated(code: str) -> None:
+    done = ran(f"{ENTERED}{code} X50 Y10\nG0 X90 Y40\nG1 X120\nG40 Y90\nM30")
+    assert [finding.line for finding in told(done, "FN-WHERE")] == [6]
+    assert ends(done)[2:4] == [(50.0, 5.0), (50.0, 10.0)]
+
+
 def test_a_move_to_the_reference_point_leaves_the_axis_nowhere_known() -> None:
     done = ran(f"{HEAD}G1 X10\nG91 G28 X0\nX5\nM30")
     assert alarms(done) == [("FN-WHERE", 4)]

@@ -43,7 +43,7 @@ def test_a_block_that_goes_on_in_the_next_line_is_refused_but_for_a_cycle(blocks
 
 
 def test_a_comment_alone_continues_nothing() -> None:
-    assert points(runs("L X+0 Y+0 F9", "; SLOWLY ~", "L X+5"))[-1][0] == 5.0
+    assert runs("L X+0 Y+0 F9", "; SLOWLY ~", "L X+5").moves.points[-1, 0] == 5.0
 
 
 def test_a_line_too_long_that_continues_a_cycle_is_refused() -> None:
