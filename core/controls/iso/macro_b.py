@@ -168,7 +168,7 @@ _RANKS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
 
 def from_bcd(value: float) -> float:
     """Return BIN of a value: the number whose decimal digits are the value's groups of four bits."""
-    return float(f"{round(value):x}")
+    return float(int(f"{round(value):x}"))
 
 
 def to_bcd(value: float) -> float:
@@ -383,7 +383,10 @@ def words_of(
             value = _word_value(reader, first, begin)
             reader.note_use(value)
             if not isinstance(value, Vacant):
-                words.append(f"{first}{plain(value)}")
+                number = plain(value)
+                # the point of a number that is written with one still counts
+                point = "." if "." in text[begin : reader.at] and "." not in number else ""
+                words.append(f"{first}{number}{point}")
                 columns.append(line.columns[begin] + 1)
         else:
             raise FaultError("WORD", not_a_word(text[begin:]), begin)

@@ -27,7 +27,7 @@ from core.units import Unit
 MAX_ROWS_RUN_AGAIN: Final = 200_000
 MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
 MAX_ROWS_WITHOUT_PROGRESS: Final = 20_000
-"""Rows after which a program counts as endless; a row's first run counts only toward MAX_ROWS_WITHOUT_MOVEMENT."""
+"""Rows after which a program counts as endless; a row's first run does not count."""
 
 BUILDER_PROGRAMS: Final = range(9000, 10_000)
 """Program numbers that usually belong to the machine builder, as for a probe or the tool changer."""
@@ -242,11 +242,11 @@ class MacroFlow(Flow):
         return first, self.begins[index] if index < len(self.begins) else len(self.lines)
 
     def count_repeat(self, line: int) -> None:
-        """Count rows that run again and rows since the last movement; stop a program that does not end."""
-        self.rows_without_movement += 1
+        """Count rows that run again, and those since the last movement; stop a program that does not end."""
         if len(self.machine.control.tape) != self.tape_length:
             self.tape_length, self.rows_without_movement = len(self.machine.control.tape), 0
         if self.ran[line - 1]:
+            self.rows_without_movement += 1
             self.rows_run_again += 1
             self.rows_without_progress += 1
         self.ran[line - 1] = True

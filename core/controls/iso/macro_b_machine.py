@@ -32,6 +32,9 @@ EXTENDED_SYSTEM: Final = 100_000
 HAAS_SYSTEMS: Final = tuple(range(1100, 1300, 10))
 """G110 to G129 of a Haas, the same as its G154 P1 to P20."""
 
+LEAST_FACTOR: Final = 0.01
+"""A smaller factor of G51 is a P that was meant to have a decimal point."""
+
 FIRST_BUILDER_CODE: Final = 1000
 """G codes from G100 on that the control does not have may call macros."""
 
@@ -421,6 +424,9 @@ class MacroMachine(Machine):
             self.log.stop("BEYOND", text, block.line, block.column("G", 510))
         number = words["P"]
         factor = number / 1000 if block.written_without_point("P") else number
+        if 0.0 < factor < LEAST_FACTOR:
+            text = f"P of G51 without a decimal point counts thousandths: here it is a factor of {factor:g}. "
+            self.log.stop("BEYOND", f"{text}Write P1. or P1000 for 1.", block.line, block.column("P"))
         if factor <= 0.0:
             self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.line, block.column("P"))
         x, y, z = (self._absolute(axis, words) for axis in range(3))

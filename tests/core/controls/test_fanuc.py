@@ -421,6 +421,8 @@ def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: 
         ("#1=#4999", "PS0115"),
         (f"#1={'1+' * 45}{'#' * 45}1", "PS0118"),
         ("#1=#<_x>", "BEYOND"),
+        # bits 0001 1110 0101 are no decimal digits
+        ("#1=BIN[485]", "PS0119"),
         ("DO4", "PS0126"),
         ("END1", "PS0124"),
         ("IF[1EQ1]X5", "PS0114"),
@@ -622,6 +624,16 @@ def test_a_rotation_programmed_incrementally_may_be_added() -> None:
     assert told(ran(f"{HEAD}G91 G68 X0 Y0 R45.\nX5. Y1.\nM30"), "FN-ROTATION")
 
 
+@pytest.mark.parametrize("scale", ["G51 X#1 Y0 P2.", "G51 X[0] Y0 P2000", "#2=2000\nG51 X0 Y0 P#2"])
+def test_a_scale_keeps_its_decimal_point_beside_variables(scale: str) -> None:
+    assert ends(ran(f"{HEAD}#1=0\n{scale}\nX5. Y1.\nM30")) == [(10.0, 2.0)]
+
+
+def test_a_scale_of_thousandths_that_was_meant_as_a_factor_is_refused() -> None:
+    for scale in ("G51 X0 Y0 P2", "#2=2.\nG51 X0 Y0 P#2"):
+        assert [code for code, _ in alarms(ran(f"{HEAD}{scale}\nX5. Y1.\nM30"))] == ["BEYOND"]
+
+
 def test_a_mirrored_contour_is_compensated_on_the_other_side() -> None:
     # mirrored in x = 0, G41 along +X becomes a path along -X with the tool on its right, above it
     done = ran(f"{HEAD}G51.1 X0\nX-20 Y0\nG41 D1 X0\nX50\nG40 X60\nM30")
@@ -646,6 +658,11 @@ def test_a_rounding_and_a_chamfer_are_moves_of_the_program() -> None:
 )
 def test_a_variable_has_the_code_in_force(before: str, variable: int, code: float) -> None:
     assert ends(ran(f"{HEAD}{before}G0 X#{variable}\nM30")) == [(code, 0.0)]
+
+
+def test_many_rows_that_move_nothing_are_no_endless_loop() -> None:
+    done = ran(f"{HEAD}" + "#1=1\n" * 100_100 + "X5.\nM30")
+    assert (alarms(done), ends(done)) == ([], [(5.0, 0.0)])
 
 
 def test_a_rounding_between_slanted_moves_is_tangent_to_both() -> None:
