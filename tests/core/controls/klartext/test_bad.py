@@ -10,7 +10,7 @@ import pytest
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from core.finding import Severity
-from tests.core.controls.klartext.klartext_runs import DATA, points, runs
+from tests.core.controls.klartext.klartext_runs import DATA, runs
 
 FILES = sorted((DATA / "bad" / "klartext").glob("*.h"))
 WANTED = re.compile(r"; (\w+) at line (\d+) column (\d+)")
