@@ -110,7 +110,7 @@ class _Writer:
         yield from (WrittenLine(text) for text in self.style.tail)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
-        """Yield the changes of tool, tool data and speed."""
+        """Yield the changes of tool, tool data and speed.  F stands again after a tool change: a run may restart there."""
         speed = f"S{speed_text(cut.speed)}"
         changed = before is None or before.tool != cut.tool
         if changed and before is not None:
@@ -118,7 +118,7 @@ class _Writer:
         if self.style.radius is Radius.DATA and (before is None or changed or before.stock != cut.stock):
             yield WrittenLine(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
         if before is None or changed:
-            self.height = ""
+            self.feed = self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
             if self.style.length:
                 # in a block of its own, some controls would move Z by the length at once

@@ -130,6 +130,15 @@ def test_a_whole_program_in_klartext() -> None:
     ]
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series:a", "rosettacnc:nist", "klartext"])
+def test_the_first_plunge_of_every_tool_has_its_feed(control: str) -> None:
+    first = replace(cut(), feeds=dict.fromkeys(range(1, 6), 20.0 * INCH))
+    lines = posted(control, first, cut(tool=2)).text.splitlines()
+    plunges = [line for line in lines if "Z-" in line or "Z -" in line]
+    assert len(plunges) == 2
+    assert all("F20" in line for line in plunges), plunges
+
+
 def test_offsets_that_an_operator_enters_stand_in_the_header_once() -> None:
     lines = posted("nine-series:b-g39", cut(0.02), cut(0.02), cut(), cut(tool=2, diameter=0.375)).text.splitlines()
     assert [line for line in lines if line.startswith(("(TOOL", "(OFFSET"))] == [
