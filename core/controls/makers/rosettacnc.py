@@ -115,7 +115,7 @@ class RosettaCnc(Control):
         if tool is None and number:
             column = block.column("D") if "D" in block.words else block.side_column()
             log.stop("C1", missing_tool(number), block.line, column)
-        if tool is None:
+        if tool is None and "I" not in block.words:
             text = "No tool is loaded and there is no D, so the radius is 0."
             machine.nothing_compensated(text, block.line, block.side_column())
         if tool is not None:

@@ -151,7 +151,7 @@ class ThreeBlock(ElementQueue, Control):
 
     def _again(self, side: Side, block: Block) -> None:
         column = block.side_column()
-        if (self.offset > 0.0) != (side is Side.LEFT) and self._radius(block) > 0.0:
+        if self._radius(block) * side.sign * self.offset < 0.0:
             text = "G41 and G42 cannot be swapped while compensation is on. Write G40 before."
             self.log.stop("B8-SIDE", text, block.line, column)
         text = "Compensation is on already on this side. cutcomp assumes that is allowed; the manual does not say."

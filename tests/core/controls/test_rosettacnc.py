@@ -135,3 +135,9 @@ def test_no_plane_origin_or_machine_point_is_taken_under_compensation(entry: str
     text = "G21 G17 G90\nT1 M6\nG0 X-20 Y0\nF100\nG41 D1\nG1 X10\nX20\n{}X40\nG40\nG0 X80\nM2\n"
     assert ran(text.format("G17\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at is None
     assert ran(text.format(f"{code}\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at == 8
+
+
+def test_a_wear_in_i_without_a_tool_compensates_and_is_not_told_as_nothing() -> None:
+    done = ran("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
+    assert [stretch.radius for stretch in done.stretches] == [3.0]
+    assert not told(done, "RADIUS0")

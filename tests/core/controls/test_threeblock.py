@@ -181,3 +181,11 @@ def test_arcs_by_radius_are_run_and_reported() -> None:
 def test_g99_between_tangent_moves_is_reported_once() -> None:
     done = sample("threeblock-circle.nc", "threeblock", t1=0.5)
     assert [finding.line for finding in told(done, "G99")] == [5]
+
+
+@pytest.mark.parametrize("diameter", [0.5, -0.5])
+def test_the_side_cannot_be_swapped_whatever_the_sign_of_the_diameter(diameter: float) -> None:
+    swapped = ran(f"{HEAD}X4.Y3.\nG42X0.Y3.\nG40X0.Y9.\nM2\n", "threeblock", t1=diameter)
+    assert [finding.line for finding in told(swapped, "B8-SIDE")] == [swapped.stopped_at] == [5]
+    again = ran(f"{HEAD}X4.Y3.\nG41X0.Y3.\nG40X0.Y9.\nM2\n", "threeblock", t1=diameter)
+    assert [finding.severity for finding in told(again, "B8-SIDE")] == [Severity.WARNING]
