@@ -99,12 +99,6 @@ class SegmentField(NumberField):
     ]
     letters = "".join(NEW_SEGMENTS)
 
-    def on_key(self, event: events.Key) -> None:
-        """Only digits are typed here, and letters are commands."""
-        character = (event.character or "").lower()
-        if event.is_printable and not character.isdigit() and character not in self.letters:
-            event.prevent_default()
-
 
 class ContourScreen(FormScreen):
     """The form of one block; the cursor stands on SEGMENT or in a field."""
@@ -567,7 +561,9 @@ class ContourScreen(FormScreen):
         text, session = widget.value.strip(), self.current_session
         last = len(session.block.segments)
         widget.restore()
-        if not (text.isascii() and text.isdigit()):
+        if not text:
+            self.quiet()
+        elif not (text.isascii() and text.isdigit()):
             self.say(f"{text} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR)
         elif int(text) > last:
             self.say(f"No segment {text}. 0 to {last}, or right arrow past {last} for a new one.", Tone.ERROR)

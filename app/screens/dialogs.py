@@ -238,6 +238,7 @@ class NumberForm(Dialog[tuple[float, ...]]):
         if isinstance(value, Unreadable):
             self._say(value.reason)
         elif here + 1 < len(inputs):
+            self._say("")
             inputs[here + 1].focus()
         else:
             self._take(inputs)

@@ -19,7 +19,7 @@ from app.widgets.field import ChoiceField, NumberField
 from app.widgets.form import Form
 from core.finding import Severity
 from core.program.edit import Edited, Refused
-from core.program.fields import Field, read_typed
+from core.program.fields import Field, read_typed, text_refusal
 from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
@@ -342,7 +342,8 @@ class FormScreen(BaseScreen):
             return None
         unused = widget.resting in ("", "?") or isinstance(self.value(field.name), Unread)
         still = "" if unused else f" Still using {widget.resting}."
-        return Sentence(f"{widget.value.strip()} is not a number.{still}")
+        outside = text_refusal(widget.value, field, self.current_session.program.unit)
+        return Sentence(f"{outside or f'{widget.value.strip()} is not a number.'}{still}")
 
     def trouble(self, field: Field) -> Sentence | None:
         """What the verdict on any block says of a field that all blocks share."""

@@ -110,7 +110,7 @@ class _Writer:
         yield from (WrittenLine(text) for text in self.style.tail)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
-        """Yield the changes of tool, tool data and speed.  F stands again after a tool change: a run may restart there."""
+        """Yield the changes of tool, tool data and speed; F is written again after one, where a run may restart."""
         speed = f"S{speed_text(cut.speed)}"
         changed = before is None or before.tool != cut.tool
         if changed and before is not None:

@@ -317,3 +317,19 @@ async def test_a_repeated_segment_ends_what_was_said_of_the_undo_before():
             await user.press(*("enter",) * 5)
             assert user.session.history.undo_count == 1
             assert "Undone" not in user.prompt
+
+
+@pytest.mark.parametrize("typed", ["I1.2", "2,400.5", "1-2"])
+async def test_a_coordinate_typed_on_segment_is_refused_and_goes_nowhere(typed):
+    async with operator() as user:
+        await user.press(f"'{typed}", "enter")
+        assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
+        assert user.session.place.segment == 0
+
+
+async def test_a_number_out_of_range_is_not_called_no_number_while_it_is_typed():
+    async with operator() as user:
+        assert isinstance(user.screen, ContourScreen)
+        user.screen.focus_field("plunge_feed")
+        await user.press("'-6")
+        assert user.prompt == "PLUNGE FEED must be above 0, at most 10000, not -6. Still using 5.0."

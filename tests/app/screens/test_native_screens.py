@@ -315,6 +315,8 @@ async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
         await user.press(*"1a5", "enter")
         assert user.app.screen.query("#number-trouble")
         assert "type a number" in str(user.app.screen.query_one("#number-trouble", Static).content)
+        await user.press("home", *("delete",) * 4, "1", "enter")
+        assert str(user.app.screen.query_one("#number-trouble", Static).content) == ""
         await user.press("escape")
         assert user.session.history.undo_count == 0
 
