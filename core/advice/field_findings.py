@@ -22,6 +22,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
     yield from _safe_z(solved, program)
     yield from _blank_feeds(block, solved, program)
     yield from _allowances_without_finish_tool(block, program)
+    yield from _finish_tool_without_allowance(block, program)
     yield from _no_clearance(solved, program)
     yield from _one_pass(block, solved, program)
     yield from _one_segment(solved)
@@ -99,6 +100,16 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         text = f"{label} {{value}} has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
+
+
+def _finish_tool_without_allowance(block: Block, program: Program) -> Iterator[Finding]:
+    """Say that a finish tool finds nothing left to cut: it runs the contour once more."""
+    tool = block.finish_tool
+    if not isinstance(tool, Number) or tool.value == 0.0:
+        return
+    if not any(_parameter(name, program) for name in ("finish_xy", "finish_z")):
+        text = f"FINISH TOOL {tool.value:g} has nothing to cut: FINISH XY and FINISH Z are 0. F4 sets them."
+        yield Finding("NOTHING_LEFT", Severity.INFO, text, 0, "finish_tool")
 
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:

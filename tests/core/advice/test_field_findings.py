@@ -332,3 +332,15 @@ def test_a_typed_look_ahead_is_told_with_the_calculated_one():
     warning = typed_lookahead_warning(4, 8)
     assert (warning.code, warning.severity, warning.field) == ("USR_LOOKAHEAD", Severity.WARNING, "lookahead")
     assert warning.text == "USR 4 in force, CAL is 8. F3 goes back to CAL."
+
+
+def test_a_finish_tool_for_which_nothing_is_left_is_told():
+    def part(**allowances):
+        parameters = ProgramParameters(**allowances)
+        return program(block(NOTCH, CutterComp.LEFT, finish_tool=Number(1)), parameters=parameters)
+
+    ((one, _),) = told(part(), "NOTHING_LEFT")
+    assert (one.severity, one.field) == (Severity.INFO, "finish_tool")
+    assert not told(part(finish_xy=Number(0.02)), "NOTHING_LEFT")
+    assert not told(part(finish_z=Number(0.02)), "NOTHING_LEFT")
+    assert not told(program(block(NOTCH, CutterComp.LEFT)), "NOTHING_LEFT")
