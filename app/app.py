@@ -1,4 +1,4 @@
-"""The App: owns the session, opens the screens, runs the workers."""
+"""CutcompApp owns the session, opens the screens and runs the workers."""
 
 from __future__ import annotations
 
@@ -43,22 +43,22 @@ if TYPE_CHECKING:
     from core.pipeline.checking import Asked
 
 MESSAGE_GOES: Final = 0.2
-"""Seconds between two looks at whether a message has gone."""
+"""Seconds between two checks whether a message has disappeared."""
 
 
 def _actions() -> type[Provider]:
-    """The palette's commands.  All screens but the first are imported when they are opened: it stands sooner."""
+    """Return the palette's commands.  Only the first screen is imported at startup, so that it appears sooner."""
     from app.screens.palette import Actions
 
     return Actions
 
 
 NOT_UNDER_DIALOGS: Final = frozenset({"undo", "redo", "quit", "save", "save_as", "home", "new"})
-"""Actions whose keys wait until a dialog is answered."""
+"""Actions whose keys do nothing while a dialog is open."""
 
 
 class CutcompApp(TransformActions):
-    """The screens' actions, and how the program begins."""
+    """The App: its startup, and the actions that all screens share."""
 
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
@@ -100,12 +100,12 @@ class CutcompApp(TransformActions):
         self.settings_file = settings_file or SettingsFile()
         self.settings = self.settings_file.held
         document = None if opened is None else opened.document
-        # beside an NC text the program is a new one
+        # an NC text opens over a new program
         self.document = document if isinstance(document, ContourDocument) else self.service.new().document
         self.character_sets = character_sets
         self.set_reactive(CutcompApp.characters, character_sets[0])
         self.posted_for = CENTER_PATH
-        """The control for which an NC file was posted last, or the center path."""
+        """The control of the last posted NC file, or the center path."""
         self.set_reactive(CutcompApp.session, session)
         self.set_reactive(CutcompApp.shown, session)
         for each in theme.themes():
@@ -113,7 +113,7 @@ class CutcompApp(TransformActions):
         self.theme = theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK
 
     def get_line_filters(self) -> Sequence[LineFilter]:
-        """Nothing that a file holds may move the terminal's cursor, wherever it is shown."""
+        """Add a filter so that no text from a file can move the terminal's cursor, wherever it is shown."""
         return [*super().get_line_filters(), PRINTABLE]
 
     def notify(
@@ -125,13 +125,13 @@ class CutcompApp(TransformActions):
         timeout: float | None = None,
         markup: bool = True,
     ) -> None:
-        """What has been done, over the screen; brackets in a file's name stay what they are."""
+        """Show a message over the screen; brackets in a file name stay plain text."""
         text = escape(message) if markup else message
         super().notify(text, title=title, severity=severity, timeout=timeout, markup=markup)
         self.set_timer(timeout or self.NOTIFICATION_TIMEOUT, self._paint_behind_messages)
 
     def _paint_behind_messages(self) -> None:
-        """Textual may leave a piece of a message standing where something else changes as it goes."""
+        """Repaint once the messages are gone: Textual may leave part of one if something else changes then."""
         if not self.screen_stack:
             # the program is ending
             return
@@ -141,16 +141,16 @@ class CutcompApp(TransformActions):
             self.screen.refresh()
 
     def get_default_screen(self) -> Screen[None]:
-        """MILL CONTOUR."""
+        """Return MILL CONTOUR."""
         return ContourScreen()
 
     def on_mount(self) -> None:
-        """The first screen, before the first key is read."""
+        """Show HOME first if asked to, before the first key is read."""
         if self._home:
             self.action_home()
 
     def on_ready(self) -> None:
-        """Once the first screen is painted, work out what follows from the program; ask what is to be asked."""
+        """Start the first calculation once the first screen is painted; show the opened file and its question."""
         self.call_after_refresh(self._first_painted)
         if self.drawing is not None:
             self.show_drawing(self.drawing, fresh=True)
@@ -163,13 +163,13 @@ class CutcompApp(TransformActions):
             self.tell_and_ask(self._opened)
 
     def on_app_blur(self, event: AppBlur) -> None:
-        """A look at another window takes nothing: a field keeps the cursor and what is half-typed in it."""
+        """Ignore a switch to another window: the field keeps the cursor and its half-typed text."""
         event.prevent_default()
 
     def _first_painted(self) -> None:
-        """The numeric libraries come now: the first paint does without them, and without the garbage collector."""
+        """Turn the garbage collector on and start calculating; the first paint waits for neither."""
         if not gc.isenabled():
-            # what stands by now stays to the end
+            # all objects so far live until the program ends
             gc.freeze()
             gc.enable()
         if not self._deriving:
@@ -178,25 +178,25 @@ class CutcompApp(TransformActions):
     # ---- keys and actions of all screens
 
     def on_key(self, event: Key) -> None:
-        """Keys that nobody took: of what a slow link has split, and of what was pasted in part, say so."""
+        """Warn about a key that a slow link has split, or a paste that came without its end."""
         if event.key in TOLD:
             self.say(TOLD[event.key], Tone.WARNING)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Under a dialog nothing is done to files and edits; Esc ends the guide only with nothing else to take back."""
+        """Block file and edit actions under a dialog; let Esc end the guide only if it has nothing else to do."""
         if action == "leave_guide":
             return self.guided and isinstance(self.screen, BaseScreen) and self.screen.at_rest
         dialog = isinstance(self.screen, ModalScreen) and not isinstance(self.screen, CommandPalette)
         return not (dialog and action in NOT_UNDER_DIALOGS) and super().check_action(action, parameters)
 
     def action_leave_guide(self) -> None:
-        """The prompt is the screens' own again; what was typed stays."""
+        """End the guide; what was typed stays."""
         self.end_guide("The guide is off, what you typed stays. GUIDED FIRST PART in Ctrl+K begins it anew.")
 
     # ---- screens
 
     def bring(self, kind: type[BaseScreen]) -> None:
-        """The screen of this kind to the front: the one that is open under others, else a new one over all."""
+        """Bring the open screen of this kind to the front, or open a new one on top."""
         depths = [depth for depth, screen in enumerate(self.screen_stack) if isinstance(screen, kind)]
         if not depths:
             self.push_screen(kind())
@@ -207,7 +207,7 @@ class CutcompApp(TransformActions):
 
     @work(group="question")
     async def _bring_over_proofs(self, depth: int) -> None:
-        """The same where NC texts are open over it: they are closed, and asked about first."""
+        """Bring the screen at `depth` to the front; ask about the NC texts on top of it and close them."""
         over = self.screen_stack[depth + 1 :]
         documents = [proof.document for proof in self.proofs if proof in over]
         if await self.may_close("LEAVE NC PROOF?", documents):
@@ -215,31 +215,31 @@ class CutcompApp(TransformActions):
             self._uncover(depth)
 
     def action_command_palette(self) -> None:
-        """The palette of all actions."""
+        """Open the palette of all actions."""
         from app.screens.palette import Palette
 
         if isinstance(self.screen, BaseScreen):
-            # without Textual's id: the palette of a moment ago may still be going
+            # without Textual's id, as the previous palette may still be closing
             self.push_screen(Palette())
 
     def action_segment(self, number: int) -> None:
-        """MILL CONTOUR with the cursor on a segment."""
+        """Show MILL CONTOUR with the cursor on a segment."""
         self.action_contour()
         self.move(FormPlace(self.session.place.block, number))
 
     def action_contour(self) -> None:
-        """MILL CONTOUR, the form of the block with the cursor."""
+        """Show MILL CONTOUR, the form of the block with the cursor."""
         self.bring(ContourScreen)
 
     def action_program(self) -> None:
-        """PROGRAM, the list of blocks."""
+        """Show PROGRAM, the list of blocks."""
         from app.screens.program import ProgramScreen
 
         self.drop_empty_segment()
         self.bring(ProgramScreen)
 
     def action_home(self) -> None:
-        """HOME, the files of a folder; once more, they are listed anew."""
+        """Show HOME, the files of a folder; on HOME, refresh the list."""
         from app.screens.home import HomeScreen
 
         if isinstance(self.screen, HomeScreen):
@@ -250,37 +250,37 @@ class CutcompApp(TransformActions):
             self.push_screen(HomeScreen(current_folder() if file is None else file.absolute().parent))
 
     def action_parameters(self) -> None:
-        """PROGRAM PARAMETERS."""
+        """Show PROGRAM PARAMETERS."""
         from app.screens.parameters import ParametersScreen
 
         self.bring(ParametersScreen)
 
     def action_part_setup(self) -> None:
-        """PART SETUP."""
+        """Show PART SETUP."""
         from app.screens.parameters import PartSetupScreen
 
         self.bring(PartSetupScreen)
 
     def action_tools(self) -> None:
-        """TOOL SETUP."""
+        """Show TOOL SETUP."""
         from app.screens.tools import ToolsScreen
 
         self.bring(ToolsScreen)
 
     def action_lookahead(self) -> None:
-        """LOOKAHEAD TABLE."""
+        """Show LOOKAHEAD TABLE."""
         from app.screens.lookahead import LookaheadScreen
 
         self.bring(LookaheadScreen)
 
     def action_draw(self) -> None:
-        """DRAW."""
+        """Show DRAW."""
         from app.screens.draw import DrawScreen
 
         self.bring(DrawScreen)
 
     def action_post(self) -> None:
-        """POST NC, with the program's name; a part of unusual size is asked about first, once."""
+        """Show POST NC with the program's name; first, once, ask about the unit if the part's size is unusual."""
         if not self._unit_settled and (text := self._unit_question()):
             self._ask_unit(text)
         else:
@@ -291,11 +291,13 @@ class CutcompApp(TransformActions):
         from app.documents.questions import GO_BACK, Answer
         from app.screens.dialogs import Question
 
-        own = "INCH" if self.session.program.unit is Unit.IN else "MM"
-        answers = [Answer(word, "as it is: go on" if word == own else "PROGRAM PARAMETERS") for word in ("INCH", "MM")]
-        word = await self.push_screen_wait(Question("INCH or MM?", [text], answers, own))
+        program_unit = "INCH" if self.session.program.unit is Unit.IN else "MM"
+        answers = [
+            Answer(word, "as it is: go on" if word == program_unit else "PROGRAM PARAMETERS") for word in ("INCH", "MM")
+        ]
+        word = await self.push_screen_wait(Question("INCH or MM?", [text], answers, program_unit))
         self._unit_settled = word != GO_BACK
-        if word == own:
+        if word == program_unit:
             self._show_post()
         elif word != GO_BACK:
             self.action_parameters()
@@ -309,20 +311,20 @@ class CutcompApp(TransformActions):
         self.push_screen(PostScreen("part.nc" if file is None else str(file.with_suffix(".nc"))))
 
     def action_sheet(self) -> None:
-        """SETUP SHEET, with the program's name."""
+        """Show SETUP SHEET with the program's name."""
         from app.screens.sheet import SheetScreen
 
         file = self.session.file
         self.push_screen(SheetScreen("part.html" if file is None else str(file.with_suffix(".html"))))
 
     def action_import_tools(self) -> None:
-        """IMPORT TOOL TABLE, in the program's unit."""
+        """Show IMPORT TOOL TABLE, starting with the program's unit."""
         from app.screens.import_tools import ImportToolsScreen
 
         self.push_screen(ImportToolsScreen("tool.tbl", self.session.program.unit))
 
     def action_help(self) -> None:
-        """HELP for what has the cursor."""
+        """Show HELP for the field with the cursor and its screen."""
         from app.screens.help import HelpScreen
 
         if isinstance(self.screen, HelpScreen) or not isinstance(self.screen, BaseScreen):
@@ -330,15 +332,15 @@ class CutcompApp(TransformActions):
         self.push_screen(HelpScreen(self.screen.current_field, self.screen.help_lines()))
 
     def action_redraw(self) -> None:
-        """Send the whole screen again: others may have written on the terminal."""
-        # the driver needs a terminal, which not every system has
+        """Send the whole screen again: other programs may have written to the terminal."""
+        # imported here: not every system has the terminal interface that the driver needs
         from app.terminal.driver import redraw
 
         redraw(self)
 
     def action_mouse(self) -> None:
-        """Take the mouse, or leave it to the terminal, from now on."""
-        # the driver needs a terminal, which not every system has
+        """Turn the mouse on, or leave it to the terminal, from now on."""
+        # imported here: not every system has the terminal interface that the driver needs
         from app.terminal.driver import has_mouse, take_mouse
 
         take_mouse(self, not has_mouse(self))
@@ -349,7 +351,7 @@ class CutcompApp(TransformActions):
         self.keep_settings(replace(self.settings, mouse=has_mouse(self)))
 
     def action_next_characters(self) -> None:
-        """Draw with the next set of characters that the terminal has, from now on."""
+        """Switch to the terminal's next character set, from now on."""
         if len(self.character_sets) == 1:
             self.say("LANG or TERM says that there is no UTF-8: drawings are made of ASCII.")
             return
@@ -359,7 +361,7 @@ class CutcompApp(TransformActions):
         self.keep_settings(replace(self.settings, characters=self.characters))
 
     def action_light_or_dark(self) -> None:
-        """The other of the two themes, from now on; sixteen colors have none."""
+        """Switch between light and dark, from now on; a sixteen-color terminal has only one theme."""
         if self.theme == theme.SIXTEEN:
             self.say("This terminal has its own sixteen colors: its settings make it light or dark.")
             return
@@ -368,11 +370,11 @@ class CutcompApp(TransformActions):
         self.keep_settings(replace(self.settings, theme="light" if light else "dark"))
 
     def go_to(self, entry: Entry) -> None:
-        """MILL CONTOUR with the cursor on the place of a finding."""
+        """Show MILL CONTOUR with the cursor on a finding's segment and field."""
         segment = entry.segment or 0
         self.action_contour()
         self.move(FormPlace(self.session.place.block, segment), entry.field or SEGMENT)
 
     def now(self) -> datetime:
-        """The time of day, in its zone."""
+        """Return the local date and time with its time zone."""
         return datetime.now().astimezone()

@@ -1,6 +1,6 @@
-"""What the App does with files: open, new, save, save as, leave, and every edit put on the disk at once.
+"""FileActions opens, creates, saves and closes files, and writes every edit to disk at once.
 
-The document service decides and knows no screen; what it asks is asked here in a dialog.
+The document service makes the decisions and knows no screens; this module shows its questions as dialogs.
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ ANSWERS: Final = "The folder answers again: all work is on the disk."
 
 
 class FileActions(DerivationActions):
-    """The App's side of files: all work on them is done by `disk`, one piece after the other.
+    """The App's part for files: `disk` does all work on them, one task after the other.
 
-    The keys wait half a second for it; then they go on, and what is edited meanwhile is kept when the folder answers.
+    Keys wait half a second for a task; then they go on, and later edits are written once the folder answers.
     """
 
     service: DocumentService
@@ -72,24 +72,24 @@ class FileActions(DerivationActions):
     def __init__(self, *, ansi_color: bool | None = None) -> None:
         super().__init__(ansi_color=ansi_color)
         self.disk = Disk()
-        self._behind = set[Future[Any]]()
+        self._pending = set[Future[Any]]()
         self._edited_meanwhile = False
 
     def show_drawing(self, path: Path, *, fresh: bool = False) -> None:
-        """IMPORT on a drawing: its contours go to the open program, which takes the drawing's unit if it is `fresh`."""
-        # shapely and numpy are not needed by the first paint
+        """Open IMPORT on a drawing for the open program, which takes the drawing's unit if it is `fresh`."""
+        # imported here: the first paint must not load shapely and numpy
         from app.screens.import_drawing import ImportScreen
 
         self.push_screen(ImportScreen(path, fresh=fresh))
 
-    # ---- the disk, which may not answer
+    # ---- the disk, which may not respond
 
     def _ask_disk(self, work: Callable[[], Result]) -> Future[Result]:
-        """Have work done on the disk; waits for it a moment, unless the disk is behind already."""
+        """Queue work on the disk and wait for it briefly, unless earlier work is still pending."""
         future = self.disk.do(work)
-        if not self._behind:
+        if not self._pending:
             wait([future], DISK)
-        self._behind.add(future)
+        self._pending.add(future)
         if not future.done():
             self.say(NO_ANSWER, Tone.WARNING)
         return future
@@ -98,36 +98,36 @@ class FileActions(DerivationActions):
         try:
             return future.result() if future.done() else await asyncio.wrap_future(future)
         finally:
-            self._behind.discard(future)
+            self._pending.discard(future)
             if self._edited_meanwhile:
-                # behind what the caller makes of the answer
+                # after the caller has used the result
                 self.call_later(self._keep_rest)
 
     async def on_disk(self, work: Callable[[], Result]) -> Result:
-        """What work on the disk returns; only in a worker."""
+        """Do work on the disk and return its result; call only in a worker."""
         return await self._answer(self._ask_disk(work))
 
     def disk_is_behind(self) -> bool:
-        """Whether the disk has still to answer; then it says so."""
-        if self._behind:
+        """True if disk work is still pending; then also say so."""
+        if self._pending:
             self.say(NO_ANSWER, Tone.WARNING)
-        return bool(self._behind)
+        return bool(self._pending)
 
-    # ---- every edit on the disk
+    # ---- every edit goes to disk
 
     def keep(self, session: Session) -> None:
-        """Put what was edited on the disk, before the next key is read."""
+        """Write the session's edits to disk before the next key is read."""
         self.document = self.document.edited(session.history, session.place, session.cursor.field or SEGMENT)
         self.keep_document(self.document)
 
     def keep_document(self, document: Document) -> None:
-        """Put what was edited in a document on the disk."""
+        """Write a document's edits to disk, later if earlier disk work is still pending."""
         if self.disk_is_behind():
             self._edited_meanwhile = True
             return
         future = self._ask_disk(lambda: self.service.keep(document))
         if future.done():
-            self._behind.discard(future)
+            self._pending.discard(future)
             self.tell(future.result())
         else:
             self._kept_late(future)
@@ -137,15 +137,15 @@ class FileActions(DerivationActions):
         self.tell(await self._answer(future) or Notice(ANSWERS))
 
     def _keep_rest(self) -> None:
-        """Keep what was edited while the disk was behind."""
-        if self._behind or not self._edited_meanwhile:
+        """Write what was edited while the disk did not answer."""
+        if self._pending or not self._edited_meanwhile:
             return
         self._edited_meanwhile = False
         for document in self._all_open():
             self.keep_document(document)
 
     def apply(self, edited: Edited, label: str) -> bool:
-        """Take an edit, or say why it is refused; whether it was taken."""
+        """Apply an edit, or say why it is refused; return whether it was applied."""
         if isinstance(edited, Refused):
             self.say(edited.text, Tone.ERROR)
             return False
@@ -159,27 +159,27 @@ class FileActions(DerivationActions):
     def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field.
 
-        A new segment in which nothing was typed is gone once the cursor has left it.
+        Remove a new segment that is still empty when the cursor leaves it.
         """
         session, here = self.session, self.session.place
-        if place != here and (rest := session.without_empty()) is not session:
-            session = rest
+        if place != here and (without_empty := session.without_empty()) is not session:
+            session = without_empty
             if place.block == here.block and place.segment > here.segment:
                 place = FormPlace(place.block, place.segment - 1)
         self._change(session.at(place, field))
 
     def action_undo(self) -> None:
-        """Take one edit back; what is half-typed is forgotten."""
+        """Undo one edit; discard half-typed text."""
         label = self.session.history.undo_label
         self._turn("undo", label, self.session.undone, f"Undone: {label}. Ctrl+Y brings it back.")
 
     def action_redo(self) -> None:
-        """Make one undone edit again; what is half-typed is forgotten."""
+        """Redo one edit; discard half-typed text."""
         label = self.session.history.redo_label
         self._turn("redo", label, self.session.redone, f"Done again: {label}.")
 
     def _turn(self, action: str, label: str | None, turned: Callable[[], Session], done: str) -> None:
-        """Undo or redo, on a screen with a document of its own that document's."""
+        """Undo or redo; a screen with its own document does so on that document instead."""
         if isinstance(self.screen, BaseScreen):
             if self.screen.take_over(action):
                 return
@@ -191,10 +191,10 @@ class FileActions(DerivationActions):
         self.say(done)
 
     def _change(self, session: Session) -> None:
-        """The journal first, then the session, then what follows from it."""
+        """Write the journal, then set the session, then start the calculation."""
         before = self.session
         if session is before:
-            # such as a number typed over with the same one
+            # for example, a number was retyped unchanged
             self.try_out(None)
             return
         self.keep(session)
@@ -205,24 +205,24 @@ class FileActions(DerivationActions):
             self._derive(Request(session.program))
 
     def drop_empty_segment(self) -> None:
-        """Take a new segment with the cursor away in which nothing was typed."""
+        """Remove the new segment with the cursor if nothing was typed in it."""
         self._change(self.session.without_empty())
 
     def tell(self, notice: Notice | None) -> None:
-        """What the service has to say."""
+        """Show the service's notice, if any."""
         if notice is not None:
             self.say(notice.text, Tone.WARNING if notice.warning else Tone.PLAIN)
 
     @property
     def looking(self) -> str:
-        """Why nothing may be changed: somebody else has the file open; empty where it may."""
+        """Why the program is read-only: someone else has the file open; empty if it may be edited."""
         holder = self.document.file.holder
         if holder is None:
             return ""
         return f"{held_sentence(holder, self.service.clock())} SAVE AS (Ctrl+K) makes a copy of your own."
 
     def keep_settings(self, settings: Settings) -> None:
-        """Settings as they are from now on."""
+        """Use these settings from now on and save them."""
         self.settings = settings
         if text := self.settings_file.keep(settings):
             self.say(text, Tone.WARNING)
@@ -230,7 +230,7 @@ class FileActions(DerivationActions):
     # ---- open
 
     def adopt(self, opened: Opened[Any]) -> None:
-        """Work on a document that was opened, and ask what is to be asked about it."""
+        """Show an opened document, then its notice and its question."""
         document = opened.document
         if isinstance(document, NcDocument):
             proof = self.proof
@@ -247,14 +247,14 @@ class FileActions(DerivationActions):
         self.tell_and_ask(opened)
 
     def tell_and_ask(self, opened: Opened[Any]) -> None:
-        """Say what there is to say of a document that was opened, and ask about work that was left."""
+        """Show the notice of an opened document and ask its question, such as whether to restore unsaved work."""
         self.tell(opened.notice)
         if opened.offer is not None:
             self._ask_offer(opened.document, opened.offer)
 
     @work(group="offer", description="offer")
     async def _ask_offer(self, document: AnyDocument, offer: Offer) -> None:
-        """Ask, and work on what comes of the answer; where nothing does, the screen stays, HOME too."""
+        """Ask, then adopt the resulting document; if it is the same one, the screen stays, even HOME."""
         word = await self.ask(offer.ask)
         opened = await self.on_disk(lambda: self.service.answer(document, offer, word))
         if opened.document is not document:
@@ -263,14 +263,14 @@ class FileActions(DerivationActions):
             self.tell_and_ask(opened)
 
     async def ask(self, ask: Ask) -> str:
-        """The word of the answer to a question; only in a worker."""
+        """Ask a question and return the answer's word; call only in a worker."""
         return await self.push_screen_wait(Question(ask.title, ask.lines, ask.answers, ask.safe, ask.details))
 
     @work(group="question")
     async def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
-        """Work on a file, or show a folder; of a kept copy the work is offered on the file that it is about.
+        """Open a file or a drawing, or show a folder; a kept copy is offered as work on its original file.
 
-        What is not saved is asked about first.
+        Ask first about unsaved changes.
         """
         if self.disk_is_behind():
             return
@@ -296,7 +296,7 @@ class FileActions(DerivationActions):
             await self._begun(result)
 
     async def _open_drawing(self, path: Path) -> None:
-        """IMPORT on a drawing, into a new program, or into the open one, which is asked unless that is new itself."""
+        """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
         program, fresh = self.document.program, self.document.is_new
         if not fresh:
             word = await self.ask(into_which(path, self.document))
@@ -309,7 +309,7 @@ class FileActions(DerivationActions):
         self.show_drawing(path, fresh=fresh)
 
     async def _begun(self, opened: Opened[Any]) -> None:
-        """Work on what was opened; of programs there is only one."""
+        """Show an opened document; a program first closes everything else, as only one can be open."""
         document = opened.document
         if isinstance(document, ContourDocument):
             if not await self.may_close("OPEN?", self._all_open()):
@@ -321,7 +321,7 @@ class FileActions(DerivationActions):
     async def _open_already(
         self, trouble: Trouble, opened: Callable[[], Opened[Any] | Trouble | Path], *, again: bool
     ) -> None:
-        """Show what is open; read it again where its file is another by now, or where a copy of it is wanted."""
+        """Show the document that is already open; reopen it if its file has changed or a kept copy was chosen."""
         document = trouble.open_already
         assert document is not None
         again = again or await self.on_disk(lambda: self.service.changed(document))
@@ -341,18 +341,18 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def action_new(self, unit: str) -> None:
-        """A new program in this unit."""
+        """Start a new program in this unit."""
         if await self._new("NEW PROGRAM?", Unit(unit)):
             self.keep_settings(replace(self.settings, unit=Unit(unit)))
 
     @work(group="question")
     async def action_guide(self) -> None:
-        """A first part, step by step."""
+        """Start the guided first part."""
         if await self._new("GUIDED FIRST PART?", Unit.IN):
             self.guided = True
 
     async def _new(self, title: str, unit: Unit) -> bool:
-        """Work on a new program where everything that is open may be closed; whether it may."""
+        """Start a new program if everything open may be closed; return whether it was started."""
         if self.disk_is_behind() or not await self.may_close(title, self._all_open()):
             return False
         await self.close_documents(self._all_open())
@@ -363,7 +363,7 @@ class FileActions(DerivationActions):
         return [self.document, *(proof.document for proof in self.proofs)]
 
     async def may_close(self, title: str, documents: Iterable[Document]) -> bool:
-        """Whether documents may be closed: they are saved, they have just been saved, or their changes are given up."""
+        """Return whether documents may be closed: they are saved, or the operator saves or discards the changes."""
         openings = {document.file.opening for document in documents}
         proofs = [proof for proof in self.proofs if proof.document.file.opening in openings]
         if not all(proof.take_lines() for proof in proofs):
@@ -379,7 +379,7 @@ class FileActions(DerivationActions):
         return not ours or not self.document.unsaved or await self.saved(None)
 
     async def close_documents(self, documents: Iterable[Document]) -> None:
-        """Neither journal nor lock of these stays."""
+        """Close documents: remove their journals and locks."""
         closing = tuple(documents)
 
         def close() -> None:
@@ -389,7 +389,7 @@ class FileActions(DerivationActions):
         await self.on_disk(close)
 
     def show_nc(self, document: NcDocument, asked: Asked | None = None) -> None:
-        """NC PROOF on a text, with the control, the tools and the unit that were asked for at the start."""
+        """Open NC PROOF on a text; `asked` holds the control, tools and unit of the command line."""
         from app.nc_proof.screen import ProofScreen
 
         path, settings = document.file.path, self.settings
@@ -397,7 +397,7 @@ class FileActions(DerivationActions):
         self.push_screen(ProofScreen(document, self.keep_document, asked, settings.control, remembered))
 
     def show_folder(self, folder: Path, at: Path | None = None) -> None:
-        """HOME with the files of a folder, the cursor on one of them."""
+        """Open HOME on a folder, with the cursor on the file `at`."""
         from app.screens.home import HomeScreen
 
         self.push_screen(HomeScreen(folder, at))
@@ -405,7 +405,7 @@ class FileActions(DerivationActions):
     # ---- save
 
     def action_save(self) -> None:
-        """Save under the name the program, or the NC text in front, has, or ask for one."""
+        """Save the NC text in front, or else the program, under its name; ask for a name if it has none."""
         if self.disk_is_behind() or not self.take_typed():
             return
         if self.proof is not None:
@@ -416,7 +416,7 @@ class FileActions(DerivationActions):
             self._save(None)
 
     def action_save_as(self) -> None:
-        """Ask for a name."""
+        """Ask for a name to save under."""
         from app.screens.save_and_open import SaveAsScreen
 
         path = self.document.file.path if self.proof is None else self.proof.document.file.path
@@ -431,7 +431,7 @@ class FileActions(DerivationActions):
         self.push_screen(OpenPathScreen(f"{folder}/" if folder else ""))
 
     def save_as(self, text: str) -> None:
-        """Save under a typed name; while a folder does not answer, only a copy on another disk."""
+        """Save under a typed name; while the disk does not answer, write only a copy elsewhere."""
         proof = self.proofs[-1] if self.proofs and self.screen_stack[-2:-1] == self.proofs[-1:] else None
         if self.disk_is_behind():
             if proof is not None and not proof.take_lines():
@@ -445,7 +445,7 @@ class FileActions(DerivationActions):
 
     @work(group="question")
     async def _save_copy(self, document: AnyDocument, path: Path) -> None:
-        """Write a copy of what the disk does not take yet; it asks nothing, so it replaces no file."""
+        """Write a copy elsewhere while the disk does not answer; it asks nothing and never replaces a file."""
 
         def write() -> str:
             named = chosen(path, document.file.path)
@@ -475,7 +475,7 @@ class FileActions(DerivationActions):
             self._leave_save_as()
 
     async def saved_nc(self, proof: ProofScreen, path: Path | None) -> bool:
-        """Save an NC text, asking what is to be asked; whether it was saved."""
+        """Save an NC text, asking questions as needed; return whether it was saved."""
         if not proof.take_lines():
             return False
         result = await self._written(proof.document, path)
@@ -485,9 +485,9 @@ class FileActions(DerivationActions):
         return isinstance(result, Saved)
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
-        """Write what is made of the program under a typed name: in words where it stands, and its text; None for none.
+        """Write the text from `make` under a typed name; return where it was written and the text, None if it was not.
 
-        Asks before a file is replaced; says what `make` and the disk refuse.  Only in a worker.
+        Ask before replacing a file; report the errors of `make` and the disk.  Call only in a worker.
         """
         file = self.session.file
         path = await self.on_disk(lambda: with_suffix(chosen(typed(text), file), suffix))
@@ -512,7 +512,7 @@ class FileActions(DerivationActions):
 
     @work(group="question", description="close")
     async def close_nc(self, document: NcDocument) -> None:
-        """Leave an NC text; changes that are not saved are asked about."""
+        """Close an NC text; ask about unsaved changes."""
         if self.disk_is_behind():
             return
         if await self.may_close("LEAVE?", [document]) and self.proof is not None:
@@ -520,12 +520,12 @@ class FileActions(DerivationActions):
             await self.close_documents([document])
             await self.run_action("app.back")
             if len(self.screen_stack) == 1 and self.document.is_new and document.file.path is not None:
-                # started on an NC text: a form in which nothing was typed is not where its reader comes from
+                # cutcomp was started on an NC text: go to its folder, not to a form that was never used
                 path = document.file.path.absolute()
                 self.show_folder(path.parent, path)
 
     async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
-        """Save a document, asking what is to be asked; None where it was not saved."""
+        """Save a document, asking questions as needed; return None if it was not saved."""
         agreed = frozenset[str]()
         if path is None and document.file.path is None:
             name = await self.push_screen_wait(
@@ -550,14 +550,14 @@ class FileActions(DerivationActions):
             self._leave_save_as()
 
     def _leave_save_as(self) -> None:
-        """Back from SAVE AS, unless somebody has left it while the disk was behind."""
+        """Close SAVE AS, unless the operator left it while waiting for the disk."""
         from app.screens.save_and_open import SaveAsScreen
 
         if isinstance(self.screen, SaveAsScreen):
             self.pop_screen()
 
     async def saved(self, path: Path | None) -> bool:
-        """Save, asking what is to be asked; whether it was saved."""
+        """Save the program, asking questions as needed; return whether it was saved."""
         self.drop_empty_segment()
         result = await self._written(self.document, path)
         if result is None:
@@ -570,17 +570,17 @@ class FileActions(DerivationActions):
         self.notify(result.notice.text, timeout=4)
         return True
 
-    # ---- leave
+    # ---- quit
 
     async def action_quit(self) -> None:
-        """Leave; asks where something is not saved."""
+        """Quit; ask about unsaved changes."""
         if self.take_typed():
             self._leave()
 
     @work(group="question")
     async def _leave(self) -> None:
-        if self._behind:
-            # the thread that waits for the folder ends with the program
+        if self._pending:
+            # exiting also ends the thread that waits for the folder
             if await self.ask(not_answering()) == LEAVE:
                 self.exit(0)
         elif await self.may_close("QUIT?", self._all_open()):
@@ -589,12 +589,12 @@ class FileActions(DerivationActions):
 
 
 def _named(path: Path) -> Path:
-    """The file that a typed name means; one that ends like an NC program or a drawing is no program."""
+    """Return the file a typed name means: an NC program or drawing by its suffix, else a cutcomp program."""
     return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
 
 
 def session_of(document: ContourDocument, before: Session | None = None) -> Session:
-    """The session on a document; what was worked out `before` stays where the program is the same."""
+    """Return the session on a document; reuse the results of `before` if the program is the same."""
     session = Session.of_history(
         document.history,
         document.saved_program,

@@ -1,1 +1,1 @@
-"""NC PROOF: an NC program's text under a control's rules."""
+"""NC PROOF runs an NC program's text under a control's rules."""

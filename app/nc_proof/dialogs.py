@@ -1,4 +1,4 @@
-"""CompareControls: what every control does with an NC program."""
+"""CompareControls lists what every control does with an NC program."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 class CompareControls(Dialog["tuple[str, bool] | None"]):
-    """What every control does with a program; Enter takes one, Space draws its path dotted.
+    """A list of what every control does with a program; Enter takes one, Space draws its path dotted.
 
-    The result is the control's full name, and whether its path is to be drawn dotted; None for neither.
+    The result is the control's full name and whether to draw its path dotted; None if no control was chosen.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "dotted", "Draw dotted", show=False)]
@@ -35,12 +35,12 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
         self.answers: tuple[Answer, ...] = ()
 
     def compose_box(self) -> ComposeResult:
-        """The list, empty until the controls have answered."""
+        """Lay out the list, which stays empty until the controls have answered."""
         yield PlainText("Every control is running the program ...", id="compare-wait")
         yield OptionRows(id="compared")
 
     def on_mount(self) -> None:
-        """Ask all controls."""
+        """Run the program on all controls."""
         self.query_one("#question").border_subtitle = "Enter takes a control, Space draws its path dotted"
         self._compare()
 
@@ -69,7 +69,7 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
         self.dismiss((event.option_id or "", False))
 
     def action_dotted(self) -> None:
-        """Draw the path of the control with the cursor, unless it reads another language."""
+        """Draw the path of the highlighted control dotted, unless it reads another language."""
         row = self.query_one("#compared", OptionList).highlighted
         if row is None:
             return

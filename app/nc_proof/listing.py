@@ -1,4 +1,4 @@
-"""Listing: the lines of an NC text; read until somebody edits it, each line marked by its gravest finding."""
+"""Listing shows the lines of an NC text, read-only until edited, each colored by its most severe finding."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from textual.widgets import TextArea
 from core.finding import Severity
 
 ROLES = {Severity.ERROR: "c-err", Severity.WARNING: "c-warn", Severity.INFO: "c-label"}
-"""The role of each weight of a finding."""
+"""The color role of each severity."""
 
 
 class Listing(TextArea, inherit_bindings=False):
-    """The text; while it is only read, letters are commands of the screen."""
+    """The text; while it is read-only, letters are commands of the screen."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up", "cursor_up", "Up", show=False),
@@ -35,7 +35,7 @@ class Listing(TextArea, inherit_bindings=False):
     ]
 
     marks: reactive[Mapping[int, Severity]] = reactive({}, repaint=True)
-    """The gravest finding of each line, counted from 1."""
+    """The most severe finding of each line, counted from 1."""
 
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__(
@@ -44,15 +44,15 @@ class Listing(TextArea, inherit_bindings=False):
         self.cursor_blink = False
 
     def on_resize(self) -> None:
-        """The line with the cursor stays in view."""
+        """Keep the line with the cursor in view."""
         self.call_after_refresh(self.scroll_cursor_visible)
 
     def watch_marks(self) -> None:
-        """Lines that Textual keeps as they were painted are painted anew."""
+        """Repaint the lines that Textual has cached."""
         self.notify_style_update()
 
     def get_line(self, line_index: int) -> Text:
-        """A line in the color of its gravest finding."""
+        """Return a line in the color of its most severe finding."""
         line = super().get_line(line_index)
         severity = self.marks.get(line_index + 1)
         if severity is not None:
@@ -62,9 +62,9 @@ class Listing(TextArea, inherit_bindings=False):
 
     @property
     def row(self) -> int:
-        """The line with the cursor, from 0."""
+        """The index of the line with the cursor, from 0."""
         return int(self.cursor_location[0])
 
     def go_to_row(self, row: int) -> None:
-        """The cursor to the beginning of a line."""
+        """Move the cursor to the beginning of a line."""
         self.move_cursor((min(max(row, 0), self.document.line_count - 1), 0), center=True)

@@ -1,4 +1,4 @@
-"""Runs: what is asked of a control about an NC text, and the answer; worked out in a worker."""
+"""This module runs an NC text on a control and returns the result; workers call it."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from core.pipeline.nc_proof import Proof
 
 RUN_SHARE: Final = 0.5
-"""The part of the work that the run takes; the verdicts take the rest."""
+"""The share of the progress that the run takes; the verdicts take the rest."""
 MAX_GUESS_LINES: Final = 200
-"""Lines that are looked at to guess which control a program is for."""
+"""Most lines that are read to guess a program's control and its first tool."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
 _REMEMBERED: Final = re.compile(r'(?<!\S)(?:(\d{1,4})|"([^"]+)")=([-+.e\d]{1,25})(in|mm)(?!\S)')
 _TOOL: Final = re.compile(
@@ -36,19 +36,19 @@ _TOOL: Final = re.compile(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Question:
-    """A text on a control with these tools; equal only to itself."""
+    """A text to run on a control with these tools; equal only to itself."""
 
     text: NcText
     control: str
     tools: ToolTable
     unit: Unit | None = None
     folder: Path | None = None
-    """Where programs that it calls by their numbers are looked for."""
+    """The folder of the programs that the text calls by number."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Result:
-    """A control's run of a text, in words, as moves and as a drawing; `judged` once the verdicts are in it."""
+    """A control's run of a text as words, moves and a drawing; `judged` once it holds the verdicts."""
 
     question: Question
     answer: Answer
@@ -58,7 +58,7 @@ class Result:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """Everything found, by line."""
+        """All findings, with their lines."""
         return self.answer.findings
 
 
@@ -71,7 +71,7 @@ class Ran(Message):
 
 @dataclass(eq=False)
 class RanDotted(Message):
-    """A worker has run and judged the text of a question on another control, whose path lies dotted under the first."""
+    """A worker has run and judged a question's text on another control; `path` is drawn dotted under the first."""
 
     question: Question
     result: Result
@@ -86,7 +86,7 @@ class Compared(Message):
 
 
 def run(question: Question, progress: Progress = silent) -> Result:
-    """The program on its control without the verdicts, which take longer than the run."""
+    """Run the program on its control, without the verdicts, which take longer than the run."""
     from core.controls.registry import UnknownControl
     from core.pipeline.nc_proof import run_program
 
@@ -97,14 +97,14 @@ def run(question: Question, progress: Progress = silent) -> Result:
 
 
 def judge(result: Result, progress: Progress = silent) -> Result:
-    """The same with the verdicts."""
+    """Return the result with the verdicts added."""
     from core.pipeline.nc_proof import with_verdicts
 
     return _result(result.question, with_verdicts(result.proof, progress), judged=True)
 
 
 def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
-    """The result with a finding that names the largest tool that is clean, where a smaller one is."""
+    """Return the result; if the tool is too big, a finding names the largest tool that is clean."""
     from core.pipeline.checking import with_largest_tool as fitted
 
     question = result.question
@@ -112,13 +112,13 @@ def with_largest_tool(result: Result, progress: Progress = silent) -> Result:
     return replace(result, answer=answer)
 
 
-def run_dotted(own: Result, control: str, progress: Progress = silent) -> RanDotted:
-    """The text of a result on another control, judged, with its path on the plane of that result."""
+def run_dotted(main: Result, control: str, progress: Progress = silent) -> RanDotted:
+    """Run and judge the same text on another control; its path lies on the main result's plane."""
     from core.pipeline.nc_proof import dotted_path
 
-    other = replace(own.question, control=control)
+    other = replace(main.question, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
-    return RanDotted(own.question, result, dotted_path(result.proof, own.proof.plane))
+    return RanDotted(main.question, result, dotted_path(result.proof, main.proof.plane))
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
@@ -130,7 +130,7 @@ def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
 
 
 def compare(question: Question) -> tuple[Answer, ...]:
-    """Every control's answer to a text."""
+    """Return every control's answer to the text."""
     from core.pipeline.checking import answer_all
 
     return answer_all(question.text.data, _asked(question, "all"), question.control)
@@ -141,19 +141,19 @@ def _asked(question: Question, control: str) -> Asked:
 
     library = FolderLibrary(question.folder)
     asked = Asked(control, question.tools, shop=False, unit=question.unit, library=library, names_options=False)
-    # a list of controls has no room for it
+    # the list of all controls has no room for the largest tool
     return replace(asked, fits=control != "all")
 
 
 def tools_text(tools: ToolTable) -> str:
-    """Tools and diameters in a line, `1=0.5in 2=12.0mm "ROUGH D10"=10.0mm`."""
+    """Return tools and diameters as one line, `1=0.5in 2=12.0mm "ROUGH D10"=10.0mm`."""
     names = {each: f'"{each}"' if isinstance(each, str) else str(each) for each in tools.tools}
     return " ".join(f"{names[each]}={tool.diameter!r}{tool.unit or ''}".lower() for each, tool in tools.tools.items())
 
 
 def read_tools(text: str) -> ToolTable:
-    """The tools in such a line; what is no tool in it is passed over."""
-    # this loads the controls, which the first paint does without
+    """Read the tools from such a line; skip anything that is not a tool."""
+    # imported here: this loads the controls, which the first paint must not
     from core.controls.control_tools import CutterTool, ToolTable, tool_id
 
     tools = []
@@ -164,9 +164,9 @@ def read_tools(text: str) -> ToolTable:
 
 
 def likely_control(text: NcText, usual: str = "") -> str:
-    """The control a text is most likely for: Klartext by its first words, else the usual one of whoever asks.
+    """Return the likely control of a text: Klartext if it begins with BEGIN PGM, else the caller's `usual` one.
 
-    Where there is none, or it reads Klartext alone, LinuxCNC, whose rules are checked.
+    Return LinuxCNC, whose rules are checked, if `usual` is not a control or is one that reads only Klartext.
     """
     from core.controls.registry import is_klartext, resolve
 
@@ -179,13 +179,13 @@ def likely_control(text: NcText, usual: str = "") -> str:
 
 
 def first_tool(text: NcText) -> ToolId:
-    """The number or name of the first tool or offset a text names outside its comments, 1 without any."""
-    # this loads the controls, which the first paint does without
+    """Return the number or name of the first tool or offset outside comments, or 1 if there is none."""
+    # imported here: this loads the controls, which the first paint must not
     from core.controls.control_tools import tool_id
     from core.controls.iso.reader import without_comments
 
     for row in range(min(MAX_GUESS_LINES, len(text))):
-        found = _TOOL.search(without_comments(text.text(row).upper()))
-        if found and (tool := tool_id(found[1] or found[2])):
+        match = _TOOL.search(without_comments(text.text(row).upper()))
+        if match and (tool := tool_id(match[1] or match[2])):
             return tool
     return 1

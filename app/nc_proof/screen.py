@@ -1,4 +1,4 @@
-"""NC PROOF: an NC program's listing, the path that a control makes of it, and what is to be said about it."""
+"""NC PROOF shows an NC program's listing, the path a control makes of it, and the findings."""
 
 from __future__ import annotations
 
@@ -62,17 +62,17 @@ READING: Final = (
 )
 EDITING: Final = "Editing. A line is taken when the cursor leaves it; Esc ends editing."
 STEPS: Final = {Unit.IN: 0.001, Unit.MM: 0.01}
-"""How much < and > change a diameter."""
+"""The step by which < and > change a diameter."""
 ORDER: Final = tuple(Severity)
-"""The gravest first."""
+"""Severities, the most severe first."""
 _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 
 
 class ProofScreen(BaseScreen):
-    """One NC text under proof; `keep` puts its edits on the disk.
+    """The proof of one NC text; `keep` writes its edits to disk.
 
-    It runs on the control that was `asked` for, else on the `usual` one where that reads the text; with the tools that
-    it was given the last time, `remembered` as `1=0.5in`, under those that are asked for.
+    The text runs on the control in `asked`, else on the `usual` one if that reads the text.  Its tools are those of
+    the last time, `remembered` as `1=0.5in`; tools in `asked` override them.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#listing"
@@ -119,7 +119,7 @@ class ProofScreen(BaseScreen):
         control = likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
         self.given = read_tools(remembered)
-        """The tools that were typed for this program, now or before."""
+        """The tools typed for this program, now or in an earlier session."""
         self.question = Question(text, control, self.given, folder=folder)
         self.tool = first_tool(text)
         if asked is not None:
@@ -128,16 +128,16 @@ class ProofScreen(BaseScreen):
             self.tool = next(iter(asked.tools.tools), self.tool)
         self.result: Result | None = None
         self.dotted_control = ""
-        """Another control whose path is drawn dotted, empty for none."""
+        """The other control whose path is drawn dotted; empty for none."""
         self.dotted: RanDotted | None = None
-        """Its run of the same text, as far as it is known."""
+        """That control's run of the same text; None until it is known."""
         self.view_of: View | None = None
         self.stopped = self.half_typed = False
         self._work: Work | None = None
         self._dotted_work: Work | None = None
 
     def compose_body(self) -> ComposeResult:
-        """Titles, listing, drawing, findings."""
+        """Lay out the titles, the listing, the two drawings and the findings."""
         with Vertical(id="proof-title"):
             with Horizontal(classes="head"):
                 yield PlainLabel("NC PROOF", id="proof-mode", classes="head-label")
@@ -153,7 +153,7 @@ class ProofScreen(BaseScreen):
         yield OptionRows(id="proof-findings", classes="panel")
 
     def on_mount(self) -> None:
-        """The text, the cursor where it was, and the first run."""
+        """Show the text with the cursor where it was, and start the first run."""
         self.show_text()
         self.query_one(Listing).go_to_row(self.document.row)
         super().on_mount()
@@ -168,21 +168,21 @@ class ProofScreen(BaseScreen):
     # ---- the text
 
     def show_text(self) -> None:
-        """The document's lines in the listing, the cursor in its row."""
+        """Load the document's lines into the listing; the cursor keeps its row."""
         listing = self.query_one(Listing)
         row = listing.row
         listing.load_text("\n".join(self.document.text.texts))
         listing.go_to_row(row)
 
     def show_document(self, document: NcDocument) -> None:
-        """The same file with the work that was left on it; control and tools stay."""
+        """Show a new version of the same file's document; control and tools stay."""
         self.document = document
         self.show_text()
         self.query_one(Listing).go_to_row(document.row)
         self._ask(replace(self.question, text=document.text))
 
     def take_lines(self) -> bool:
-        """Take what was typed in the listing; False where the file's encoding cannot hold it."""
+        """Take what was typed in the listing; return False if the file's encoding cannot hold it."""
         listing = self.query_one(Listing)
         text = self.document.text.with_texts(listing.document.lines)
         if text is self.document.text:
@@ -197,7 +197,7 @@ class ProofScreen(BaseScreen):
 
     @on(Listing.Changed)
     def _typed(self) -> None:
-        """A line that is being typed is not saved either."""
+        """Mark the file as unsaved while a line is being typed."""
         listing = self.query_one(Listing)
         here = listing.document.get_line(listing.row)
         self._half_typed(typed=not listing.read_only and here != self.document.text.text(listing.row))
@@ -213,7 +213,7 @@ class ProofScreen(BaseScreen):
         self._ask(replace(self.question, text=text))
 
     def take_over(self, action: str, /) -> bool:
-        """Undo, redo and save are those of the text here."""
+        """Undo or redo an edit of the NC text; return False for any other action."""
         match action:
             case "undo":
                 self._turn(self.document.text.undone(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
@@ -237,12 +237,12 @@ class ProofScreen(BaseScreen):
         self.say(done)
 
     def saved(self, document: NcDocument) -> None:
-        """The text was written."""
+        """Note that the text was saved."""
         self.document = self.document.after_saving(document)
         self._show_titles()
 
     def action_edit(self) -> None:
-        """Type in the listing, or only read it."""
+        """Switch the listing between editing and read-only."""
         listing = self.query_one(Listing)
         if self.document.file.holder is not None:
             self.say("Somebody else has this file open. SAVE AS (Ctrl+K) makes a copy of your own.", Tone.WARNING)
@@ -258,7 +258,7 @@ class ProofScreen(BaseScreen):
         self.refresh_frame()
 
     def action_leave(self) -> None:
-        """Out of editing, out of the large drawing, out of the findings, then out of the screen."""
+        """Go one step back: leave editing, the large drawing, the findings, or the screen."""
         listing = self.query_one(Listing)
         if not listing.read_only:
             self.action_edit()
@@ -270,19 +270,19 @@ class ProofScreen(BaseScreen):
             self.action_close()
 
     def action_close(self) -> None:
-        """Leave the screen; changes that are not saved are asked about."""
+        """Leave the screen; ask about unsaved changes."""
         if self.take_lines():
             self.host.close_nc(self.document)
 
     @on(Listing.SelectionChanged)
     def _moved(self) -> None:
-        """A line is taken when the cursor leaves it; the cutter goes to the line's end."""
+        """When the cursor leaves a line, take it and move the cutter to the end of the new line's moves."""
         if self.query_one(Listing).row != self.document.row:
             self.quiet()
             self._follow_cursor()
 
     def _follow_cursor(self) -> bool:
-        """Take the line that the cursor has left, and show what belongs to its own; False where that is refused."""
+        """Take the line the cursor has left and show the drawing and finding of its new one; False if refused."""
         listing = self.query_one(Listing)
         taken = listing.read_only or self.take_lines()
         self.document = self.document.edited(self.document.text, listing.row)
@@ -294,7 +294,7 @@ class ProofScreen(BaseScreen):
 
     def _ask(self, question: Question) -> None:
         self.question, self.stopped = question, False
-        # what was said of the run before is over
+        # messages about the previous run no longer apply
         self.quiet()
         if self.dotted_control == question.control:
             self.dotted_control = ""
@@ -311,21 +311,21 @@ class ProofScreen(BaseScreen):
             self.post_message(Ran(result))
             judged = judge(result, part(work, RUN_SHARE, 1.0))
             self.post_message(Ran(judged))
-            # the work that is shown ends with the verdict
+            # the progress shown ends with the verdict
             fitted = with_largest_tool(judged, _while_wanted(get_current_worker()))
             if fitted.answer.fits is not None:
                 self.post_message(Ran(fitted))
         except Stopped:
-            # whoever stopped it shows so
+            # the code that stopped the work reports it
             return
 
     def on_unmount(self) -> None:
-        """Nobody waits for the result any more."""
+        """Stop the work; its result is no longer needed."""
         self.host.end_work(self._work)
         self._end_dotted()
 
     def _run_stopped(self) -> None:
-        """Esc has stopped the run: nothing is known of the text, or nothing judged, until it is run again."""
+        """Report that Esc stopped the run: the text stays without a run, or without verdicts, until the next one."""
         self.stopped = True
         self._show_titles()
         self.say("Stopped. C chooses the control and runs the program again.", Tone.WARNING)
@@ -353,22 +353,22 @@ class ProofScreen(BaseScreen):
     # ---- the path of another control
 
     def _ask_dotted(self) -> None:
-        """Run the program on the control whose path is drawn dotted, once its own run is judged."""
+        """Run the program on the control that is drawn dotted, once the main run is judged."""
         self._end_dotted()
         if self.dotted_control and self.result is not None and self.result.judged:
             self._dotted_work = self.host.begin_work(self._dotted_stopped)
             self._run_dotted(self.result, self.dotted_control, self._dotted_work)
 
     @work(thread=True, exclusive=True, group="dotted", description="dotted")
-    def _run_dotted(self, own: Result, control: str, work: Work) -> None:
+    def _run_dotted(self, main: Result, control: str, work: Work) -> None:
         try:
-            self.post_message(run_dotted(own, control, work))
+            self.post_message(run_dotted(main, control, work))
         except Stopped:
-            # whoever stopped it shows so
+            # the code that stopped the work reports it
             return
 
     def _end_dotted(self) -> None:
-        """No path of another control is known, nor waited for."""
+        """Drop the other control's path and stop its run."""
         self.host.end_work(self._dotted_work)
         self._dotted_work = self.dotted = None
 
@@ -382,7 +382,7 @@ class ProofScreen(BaseScreen):
             self.say(f"Dotted: {shown_name(other.question.control)} {other.answer.outcome}. B removes it.")
 
     def _dotted_stopped(self) -> None:
-        """Esc has stopped the run on the other control."""
+        """Report that Esc stopped the run on the other control."""
         self._take_dotted_away()
         self.say("Stopped. V, then Space on a control, draws its path dotted.", Tone.WARNING)
 
@@ -393,7 +393,7 @@ class ProofScreen(BaseScreen):
         self._draw()
 
     def action_no_dotted_path(self) -> None:
-        """Draw the path of no other control."""
+        """Remove the other control's dotted path."""
         if self.dotted_control:
             self._take_dotted_away()
         else:
@@ -401,7 +401,7 @@ class ProofScreen(BaseScreen):
 
     @property
     def unit(self) -> Unit:
-        """The program's unit as far as it is known."""
+        """The program's unit; inches until the first run is done."""
         return Unit.IN if self.result is None else self.result.answer.unit
 
     def _show_titles(self) -> None:
@@ -417,7 +417,7 @@ class ProofScreen(BaseScreen):
         self.show_state()
 
     def _shown_tool(self, tool: CutterTool) -> str:
-        """A tool and its diameter, with its unit where that is not the program's."""
+        """Return a tool and its diameter, with the unit if that is not the program's."""
         other = tool.unit is not None and tool.unit is not self.unit
         return f"{tool.number}={tool.diameter:g}{str(tool.unit).lower() if other else ''}"
 
@@ -429,7 +429,7 @@ class ProofScreen(BaseScreen):
         answer = self.result.answer
         role = "$c-err" if answer.errors else "$c-warn" if answer.uncompensated or answer.warnings else "$c-good"
         text = f"{answer.outcome}; {counted(answer.count, 'move')}"
-        # what comes before an alarm is not the whole program
+        # after an alarm only part of the program was run, so its contours are not counted
         if answer.stretches != 1 and answer.stopped_at is None:
             text += f", {counted(answer.stretches, 'contour') if answer.stretches else 'no contour'}"
         if not self.result.judged:
@@ -443,23 +443,23 @@ class ProofScreen(BaseScreen):
         return None if at is None or at >= len(self.result_findings) else self.result_findings[at]
 
     def show_signs(self) -> None:
-        """Those of the findings."""
+        """Redraw the signs of the findings."""
         self._show_findings(self._finding_in_hand())
 
     def _show_findings(self, held: Finding | None) -> None:
-        """List what was found; the finding `held` in hand stays so where it belongs to the line or was chosen."""
+        """List the findings; keep `held` highlighted if it is on the cursor's line or the list has the focus."""
         findings, marks = self.query_one("#proof-findings", OptionList), MARKS[self.host.characters]
-        found = () if self.result is None else self.result.findings
-        findings.border_title = f"FINDINGS  {len(found)}" if found else "FINDINGS  none"
-        at = found.index(held) if held in found else None
+        listed = () if self.result is None else self.result.findings
+        findings.border_title = f"FINDINGS  {len(listed)}" if listed else "FINDINGS  none"
+        at = listed.index(held) if held in listed else None
         findings.clear_options()
-        findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in found])
-        here = [index for index, finding in enumerate(found) if finding.line == self.document.row + 1]
+        findings.add_options([Option(self._line(finding, marks.gouge, marks.warning)) for finding in listed])
+        here = [index for index, finding in enumerate(listed) if finding.line == self.document.row + 1]
         stays = at in here or (at is not None and findings.has_focus)
-        findings.highlighted = at if stays else self._gravest(here or range(len(found)))
+        findings.highlighted = at if stays else self._gravest(here or range(len(listed)))
 
     def _gravest(self, among: Sequence[int]) -> int | None:
-        """The first of the gravest findings of these; None for none."""
+        """Return the index of the first of the most severe findings among these; None if there are none."""
         return min(among, key=lambda index: ORDER.index(self.result_findings[index].severity), default=None)
 
     def _line(self, finding: Finding, error: str, warning: str) -> Content:
@@ -469,7 +469,7 @@ class ProofScreen(BaseScreen):
         return Content.styled(f"{sign} {where}{sentence(finding, self.unit)}", role)
 
     def _show_finding_of_row(self) -> None:
-        """The gravest finding of the line with the cursor is in hand."""
+        """Highlight the most severe finding of the line with the cursor."""
         findings = self.query_one("#proof-findings", OptionList)
         if self.result is None or findings.has_focus:
             return
@@ -479,11 +479,11 @@ class ProofScreen(BaseScreen):
 
     @property
     def result_findings(self) -> tuple[Finding, ...]:
-        """What was found last."""
+        """The findings of the last run."""
         return () if self.result is None else self.result.findings
 
     def action_finding(self, by: int) -> None:
-        """The next finding after the line with the cursor, or the one before it."""
+        """Go to the next finding after the line with the cursor, or to the previous one."""
         lines = [(finding.line or 0, at) for at, finding in enumerate(self.result_findings)]
         findings = self.query_one("#proof-findings", OptionList)
         at = findings.highlighted
@@ -500,7 +500,7 @@ class ProofScreen(BaseScreen):
         self.query_one("#proof-findings", OptionList).highlighted = at
         if finding.line is not None:
             self.query_one(Listing).go_to_row(finding.line - 1)
-            # before the listing tells that the cursor has moved, which would end what is said here
+            # before the listing's own cursor event, which would clear the message below
             if not self._follow_cursor():
                 return
         self.say(sentence(finding, self.unit))
@@ -515,7 +515,7 @@ class ProofScreen(BaseScreen):
         self.query_one(Listing).focus()
 
     def action_other_panel(self) -> None:
-        """The cursor to the findings, or back to the listing."""
+        """Move the cursor to the findings, or back to the listing."""
         listing = self.query_one(Listing)
         other = self.query_one("#proof-findings", OptionList)
         (other if listing.has_focus and self.result_findings else listing).focus()
@@ -525,7 +525,7 @@ class ProofScreen(BaseScreen):
     def _draw(self) -> None:
         if self.result is None:
             return
-        # numpy and shapely are not needed by the first paint
+        # imported here: the first paint must not load numpy and shapely
         from core.pipeline.nc_proof import scene_at_line
         from core.pipeline.plot import SceneSubject
 
@@ -543,7 +543,7 @@ class ProofScreen(BaseScreen):
         drawing.subject = SceneSubject(scene, self.unit, self.view_of)
 
     def action_zoom(self, steps: int) -> None:
-        """Enlarge or shrink on the cutter."""
+        """Zoom in or out about the cutter."""
         from core.pipeline.nc_proof import cutter_at_line
 
         drawing = self.query_one("#proof-drawing", Drawing)
@@ -554,12 +554,12 @@ class ProofScreen(BaseScreen):
         self._draw()
 
     def action_fit(self) -> None:
-        """The whole program."""
+        """Show the whole program."""
         self.view_of = None
         self._draw()
 
     def action_large(self) -> None:
-        """The drawing on the whole width, or beside the listing, which takes no keys while it is out of sight."""
+        """Switch between the large drawing and the listing; a hidden listing and its findings take no keys."""
         listing, large = self.query_one(Listing), not self.has_class("-large")
         if not listing.read_only:
             self.action_edit()
@@ -582,7 +582,7 @@ class ProofScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_compare(self) -> None:
-        """What every control does; one of them can be taken."""
+        """Compare all controls; take the chosen one, or draw its path dotted."""
         if not self.take_lines():
             return
         chosen = await self.app.push_screen_wait(CompareControls(self.question))
@@ -601,14 +601,14 @@ class ProofScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_tool(self) -> None:
-        """Give a tool or an offset another diameter."""
+        """Ask for the diameter of a tool or offset; `2=` removes that of tool 2."""
         missing = None if self.result is None else self.result.answer.missing
         named = self.tool if missing is None else missing
-        own, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
-        said = commented_size(self.document.text.texts, named)
-        comments = [] if said is None else [f"The comment in line {said.line} says diameter {said.diameter}."]
+        plain, other = ("12", ".5in") if self.unit is Unit.MM else (".5", "12.7mm")
+        comment = commented_size(self.document.text.texts, named)
+        comments = [] if comment is None else [f"The comment in line {comment.line} says diameter {comment.diameter}."]
         lines = [
-            f"Tool and diameter in {self.unit}: {named}={own} or {named}={other}.",
+            f"Tool and diameter in {self.unit}: {named}={plain} or {named}={other}.",
             f"A number alone is the diameter of tool {named}. {named}= removes it.",
             *comments,
         ]
@@ -637,7 +637,7 @@ class ProofScreen(BaseScreen):
         self._ask(replace(self.question, tools=tools))
 
     def action_diameter(self, by: int) -> None:
-        """The tool a little smaller or larger: the verdict follows."""
+        """Make the tool one step smaller or larger and run the program again."""
         tool = self.question.tools.get(self.tool)
         if tool is None:
             self.say(f"Tool {self.tool} has no diameter yet: T gives it one.")
@@ -648,18 +648,18 @@ class ProofScreen(BaseScreen):
     # ---- the frame
 
     def show_state_on(self, status: Status) -> None:
-        """The unit of the NC text, and its edits."""
+        """Show the NC text's unit, edits and saved state on the status line."""
         text = self.document.text
         unit = "..." if self.result is None else str(self.unit)
         unsaved, saved = text.unsaved or self.half_typed, self.document.file.path is not None
         status.show(unit, len(text.past), len(text.future), unsaved=unsaved, saved=saved)
 
     def prompt_text(self) -> Sentence:
-        """What the keys do."""
+        """Return what the keys do."""
         return Sentence(READING if self.query_one(Listing).read_only else EDITING)
 
     def help_lines(self) -> tuple[str, ...]:
-        """What the screen is for, and its keys."""
+        """Return what the screen is for, and its keys."""
         return (
             "NC PROOF",
             "The listing, what the control makes of it, and the findings; Tab changes between them.",
@@ -673,20 +673,20 @@ class ProofScreen(BaseScreen):
 
 
 def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unreadable:
-    """A tool as typed, `2=.5`, `ROUGH=10` or a diameter alone; after `2=` the tool that has none any more."""
-    found = _NAMED.fullmatch(text)
-    tool, size = (tool_id(found[1]), found[2]) if found else (tool, text)
-    if found and not size.strip():
+    """Read a tool typed as `2=.5`, `ROUGH=10` or a bare diameter; for `2=` return the tool to remove."""
+    match = _NAMED.fullmatch(text)
+    tool, size = (tool_id(match[1]), match[2]) if match else (tool, text)
+    if match and not size.strip():
         return tool
     value = parse(size, Kind.LENGTH, unit)
     return value if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
 
 
 def _while_wanted(worker: Worker[object]) -> Progress:
-    """A progress that raises Stopped once the worker is canceled."""
+    """Return a progress callback that raises Stopped once the worker is canceled."""
 
-    def going_on(_: float) -> None:
+    def check(_: float) -> None:
         if worker.is_cancelled:
             raise Stopped
 
-    return going_on
+    return check

@@ -1,14 +1,14 @@
-"""The frame of every screen: title lines, body, softkeys, prompt and status in the same places.
+"""BaseScreen is the frame of every screen: title lines, body, softkeys, prompt and status in fixed places.
 
 To add a screen:
 
 1. Write `app/screens/NAME.py` with a class `NameScreen(BaseScreen)`: `compose_body` yields its widgets, `SOFTKEYS` are
-   its eight softkeys, `show_session` shows a new session, `prompt_text` says what the widget with the cursor takes.
+   its eight softkeys, `show_session` shows a new session, `prompt_text` tells what the focused widget takes.
    A screen with fields is a `FormScreen` instead (`app/screens/form_screen.py`).
 2. Give the App a method `action_NAME` that calls `self.bring(NameScreen)` (`app/app.py`).  A softkey or a binding of
    any screen then names `app.NAME`, and `app.back` closes it; a softkey whose action does not exist is dim.  Screens
    never import each other.
-3. Put its looks into `app/app.tcss`: the sizes are style classes, see `HORIZONTAL_BREAKPOINTS`.
+3. Put its styles into `app/app.tcss`: the sizes are style classes, see `HORIZONTAL_BREAKPOINTS`.
 
 A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 """
@@ -51,108 +51,108 @@ from core.program.model import Program
 from core.units import Kind
 
 SMALLEST = (60, 20)
-"""Columns and rows that the screens are made for at least."""
+"""Columns and rows of the smallest supported terminal."""
 
 WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
 HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
-"""The style classes of a screen from so many columns and lines on."""
+"""The style class of a screen from each number of columns, or of lines, upward."""
 
 
 class Host(Protocol):
-    """What screens ask of the App."""
+    """The part of the App that screens use."""
 
     @property
     def session(self) -> Session:
-        """The work as it has been accepted."""
+        """The session with all accepted edits."""
 
     @property
     def shown(self) -> Session:
-        """The same, or as a half-typed number would make it: what verdict and drawings show."""
+        """What verdict and drawings show: the session, or the session as a half-typed number would make it."""
 
     @property
     def characters(self) -> str:
-        """What drawings are made of: braille, block or ascii."""
+        """The character set of drawings: braille, block or ascii."""
 
     @property
     def surroundings(self) -> Surroundings:
-        """Where the status line takes the clock and the free room from."""
+        """The source of the clock and the free disk space on the status line."""
 
     def apply(self, edited: Edited, label: str) -> bool:
-        """Take an edit, or say why it is refused; whether it was taken."""
+        """Apply an edit, or say why it is refused; return whether it was applied."""
 
     def action_undo(self) -> None:
-        """Take one edit back."""
+        """Undo one edit."""
 
     def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
         """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
 
     def try_out(self, program: Program | None) -> None:
-        """Show what a half-typed number would do; None for nothing half-typed."""
+        """Show what a half-typed number would do; None when nothing is half-typed."""
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line of the screen in front."""
+        """Show a sentence on the prompt line of the screen in front."""
 
     def begin_work(self, on_stop: Callable[[], None]) -> Work:
-        """A piece of work begins in a thread; `on_stop` is called where Esc stops it."""
+        """Register work that starts in a thread; `on_stop` is called if Esc stops it."""
 
     def end_work(self, work: Work | None) -> None:
-        """It is done, or its result is not wanted any more; None is no work."""
+        """End work that is done or no longer needed; None does nothing."""
 
     @property
     def guided(self) -> bool:
-        """The prompt leads through a first part."""
+        """Whether the prompt guides through a first part."""
 
     def end_guide(self, text: str) -> None:
-        """The prompt is the screens' own again; says so where it was not."""
+        """End the guide if it is on, and show this text."""
 
     @property
     def longest_work(self) -> Work | None:
-        """What has been going on longest, where that is long enough to be shown."""
+        """The work that has run longest, if it has run long enough to be shown."""
 
     @property
     def stopped(self) -> object:
-        """The program, or the block, that is not worked out since Esc has stopped it."""
+        """The program or block whose calculation Esc has stopped."""
 
     posted_for: str
-    """The control for which an NC file was posted last, or the center path."""
+    """The control of the last posted NC file, or the center path."""
 
     def now(self) -> datetime:
-        """The time of day, in its zone."""
+        """Return the local date and time with its time zone."""
 
     settings: Settings
-    """What this person has chosen."""
+    """The user's settings."""
 
     def keep_settings(self, settings: Settings) -> None:
-        """Settings as they are from now on."""
+        """Use these settings from now on and save them."""
 
     @property
     def proofs(self) -> Sequence[Screen[None]]:
-        """Every NC PROOF that is open."""
+        """Every open NC PROOF screen."""
 
     def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
-        """Work on a file, or offer the work of a kept copy; what is not saved is asked about."""
+        """Open a file, or offer the work in a kept copy; ask about unsaved changes."""
 
     def save_as(self, text: str) -> None:
-        """Save the program under a typed name."""
+        """Save the program or NC text under a typed name."""
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
-        """Write what is made of the program under a typed name; asks.  Only in a worker."""
+        """Write the text from `make` under a typed name, asking as needed.  Call only in a worker."""
 
     def close_nc(self, document: NcDocument) -> None:
-        """Leave an NC text; changes that are not saved are asked about."""
+        """Close an NC text; ask about unsaved changes."""
 
     def go_to(self, entry: FindingEntry) -> None:
-        """MILL CONTOUR with the cursor on the place of a finding."""
+        """Show MILL CONTOUR with the cursor on a finding's segment and field."""
 
     def action_contour(self) -> None:
-        """MILL CONTOUR, the form of the block with the cursor."""
+        """Show MILL CONTOUR, the form of the block with the cursor."""
 
 
 class BaseScreen(Screen[None]):
-    """A screen in the common frame; `session` follows the App's while the screen is the one in front."""
+    """A screen in the common frame; `session` follows the App's while the screen is in view."""
 
     focused: Reactive[Widget | None] = Reactive(None, repaint=False)
-    """Moving the cursor repaints two fields, not the screen."""
+    """Not repainting: moving the cursor repaints two fields, not the whole screen."""
 
     AUTO_FOCUS: ClassVar[str | None] = ""
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -161,11 +161,11 @@ class BaseScreen(Screen[None]):
     ]
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
-    """The keys under the softkeys."""
+    """Further keys, listed under the softkeys."""
 
     session: var[Session | None] = var(None, init=False)
     said: var[Sentence | None] = var(None, init=False)
-    """A sentence in place of the prompt, until the next accepted key."""
+    """A sentence shown in place of the prompt until the next accepted key."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -174,16 +174,16 @@ class BaseScreen(Screen[None]):
 
     @property
     def host(self) -> Host:
-        """The App as far as a screen knows it."""
+        """The App, limited to what screens use."""
         return cast(Host, self.app)
 
     @property
     def current_session(self) -> Session:
-        """The session as it is now."""
+        """The App's current session."""
         return self.host.session
 
     def compose(self) -> ComposeResult:
-        """The frame round the body; the classes of the size come first, or all of it would be styled twice."""
+        """Lay out the frame around the body; set the size classes first, or everything would be styled twice."""
         for points, size in (
             (WIDTHS, self.app.size.width),
             (HEIGHTS, self.app.size.height),
@@ -198,26 +198,26 @@ class BaseScreen(Screen[None]):
 
     @abstractmethod
     def compose_body(self) -> ComposeResult:
-        """The widgets of the screen itself."""
+        """Yield the screen's own widgets."""
 
     def show_session(self, session: Session) -> None:
-        """Show what has changed in the session."""
+        """Show a changed session."""
 
     @property
     def current_field(self) -> Field | None:
-        """What the table of fields says of the field with the cursor; None where that is none."""
+        """The definition of the field with the cursor; None if the cursor is not in a field."""
         return None
 
     def take_over(self, _action: str, /) -> bool:
-        """Do undo or redo on a document of this screen's own, where it has one; whether it was done."""
+        """Undo or redo on this screen's own document, if it has one; return whether the action was handled."""
         return False
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Name, action and hint of what can be done on this screen besides its softkeys, for the palette."""
+        """Return name, action and hint of each palette action that this screen adds to its softkeys."""
         return ()
 
     def action_question_mark(self) -> None:
-        """HELP; where a text is being typed the character itself."""
+        """Open HELP; in a text field, type the question mark."""
         field, widget = self.current_field, self.focused
         if isinstance(widget, Input) and field is not None and field.kind is Kind.TEXT:
             widget.insert_text_at_cursor("?")
@@ -225,33 +225,33 @@ class BaseScreen(Screen[None]):
             self.app.call_later(self.app.run_action, "app.help")
 
     def help_lines(self) -> tuple[str, ...]:
-        """Sentences about this screen, for HELP."""
+        """Return sentences about this screen, for HELP."""
         return ()
 
     def prompt_text(self) -> Sentence:
-        """What the widget with the cursor takes."""
+        """Return what the focused widget takes."""
         return Sentence("")
 
     def on_mount(self) -> None:
-        """Show what the App holds; from then on it tells its screens what has changed.
+        """Show the App's session; from then on the App tells its screens about changes.
 
-        A watcher would stay in the App's lists until the next change, and with it each screen that is gone.
+        A watcher would keep closed screens alive in the App's lists until the next change.
         """
         self._composed = True
         self.follow(self.host.session)
         self.draw_with(self.host.characters)
 
     def draw_with(self, characters: str) -> None:
-        """Every widget with signs is made of these characters."""
+        """Draw every widget that has signs with these characters."""
         for widget in self.query("*").results():
             if isinstance(widget, Drawing | Verdict | FindingsList | SegmentList):
                 widget.characters = characters
 
     def show_signs(self) -> None:
-        """Other characters were chosen: show anew what else has signs in it."""
+        """Redraw everything else that has signs after the character set has changed."""
 
     def on_screen_resume(self) -> None:
-        """Catch up with what has changed while another screen was in front."""
+        """Catch up with changes made while another screen was in front."""
         self.follow(self.host.session)
         self.follow_shown(self.host.shown)
         self.show_work(self.host.longest_work)
@@ -260,14 +260,14 @@ class BaseScreen(Screen[None]):
 
     @property
     def in_view(self) -> bool:
-        """It is in front, or only dialogs stand on it; Textual's `is_current` is true of the next screen below too."""
+        """True if only dialogs cover the screen; Textual's `is_current` is also true of the next screen below."""
         stack = self.app.screen_stack
         if not self.stands or self not in stack:
             return False
         return all(isinstance(each, ModalScreen) for each in stack[stack.index(self) + 1 :])
 
     def follow(self, session: Session) -> None:
-        """Show the session, if it is another one than before."""
+        """Show the session if it is a new one and the screen is in view."""
         if self.in_view and session is not self.session:
             self.session = session
             self.show_session(session)
@@ -275,25 +275,25 @@ class BaseScreen(Screen[None]):
             self.refresh_frame()
 
     def show_state(self) -> None:
-        """The unit, and what is saved and undone, on the status line."""
+        """Show the unit, the undo counts and the saved state on the status line."""
         self.show_state_on(self.query_one(Status))
 
     def show_state_on(self, status: Status) -> None:
-        """The same on the status line of this screen, or of one that lies on it."""
+        """Show them on the status line of this screen, or of one on top of it."""
         status.show_program(self.current_session)
 
     def show_state_of_below_on(self, status: Status) -> None:
-        """On the status line, the state of the screen on which this one lies."""
+        """Show the state of the screen below this one on the status line."""
         stack = self.app.screen_stack
         below = [screen for screen in stack[: stack.index(self)] if isinstance(screen, BaseScreen)]
         if below:
             below[-1].show_state_on(status)
 
     def follow_shown(self, shown: Session) -> None:
-        """Show what half-typed numbers would do, where that is shown at all."""
+        """Show what half-typed numbers would do, on screens that show this."""
 
     def refresh_frame(self) -> None:
-        """Prompt and softkeys as they are now; a screen that is still being made shows them once it stands."""
+        """Update prompt and softkeys; a screen that is not ready yet shows them once it is."""
         if not self.stands:
             return
         prompt = self.said or self.too_small() or self.prompt_text()
@@ -303,53 +303,53 @@ class BaseScreen(Screen[None]):
         self.query_one(Softkeys).refresh_keys()
 
     def guide_text(self) -> str:
-        """The next step of the guided first part on this screen."""
+        """Return the next step of the guided first part on this screen."""
         return NOT_NEEDED
 
     @property
     def stands(self) -> bool:
-        """The screen is made and is not being taken down; `display` is off from the first step of a removal."""
+        """True if the screen is composed and not being removed; a removal first turns `display` off."""
         return self._composed and self.is_attached and self.display
 
     @property
     def at_rest(self) -> bool:
-        """Esc has nothing to take back or to close here."""
+        """True if Esc has nothing to restore or close here."""
         return False
 
     def show_work(self, work: Work | None) -> None:
-        """How far long work is, on the status line; a screen that is being made or taken down has none."""
+        """Show the progress of long work on the status line, if the screen is ready."""
         if self.stands:
             self.query_one(Status).show_work("" if work is None else work.text)
 
     def too_small(self) -> Sentence | None:
-        """Says that the terminal is smaller than any screen is made for; all keys act all the same."""
+        """Return a warning if the terminal is smaller than supported; all keys still work."""
         width, height = self.app.size
         if width >= SMALLEST[0] and height >= SMALLEST[1]:
             return None
         return Sentence(f"Window is {width}x{height}; it needs {SMALLEST[0]}x{SMALLEST[1]}.", Tone.WARNING)
 
     def take(self) -> bool:
-        """Take what has been typed into the field with the cursor; False where it is refused, and says why."""
+        """Take the text typed into the field with the cursor; return False, and say why, if it is refused."""
         return True
 
     def forget_typed(self) -> None:
-        """Forget what has been typed and not been taken."""
+        """Discard typed text that has not been taken."""
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line, until the next accepted key."""
+        """Show a sentence on the prompt line until the next accepted key."""
         self.said = Sentence(text, tone)
         if self._composed:
             self.refresh_frame()
 
     def quiet(self) -> None:
-        """The prompt again."""
+        """Show the prompt again."""
         if self.said is not None:
             self.said = None
             self.refresh_frame()
 
     @on(DescendantFocus)
     def _mark_focus(self, event: DescendantFocus) -> None:
-        """Mark the label and the panel of the cursor by classes: `:focus-within` would style and repaint far more."""
+        """Mark the cursor's label and panel with classes: `:focus-within` would restyle and repaint far more."""
         row = event.widget.parent
         label = next((each for each in row.children if each.has_class("label")), None) if row is not None else None
         panel = next(
@@ -367,12 +367,12 @@ class BaseScreen(Screen[None]):
         changed = [each for each in (before, widget) if each is not None]
         for each in changed:
             each.set_class(each is widget, name, update=False)
-        # what is in them looks the same as before
+        # their children look the same as before
         self.app.stylesheet.update_nodes(changed)
 
     @on(Resize)
     def _fit_frame(self) -> None:
-        """The prompt says whether the terminal is too small, and the softkeys have longer or shorter names."""
+        """Update the warning about a small terminal and the length of the softkey names."""
         self.call_after_refresh(self.refresh_frame)
 
     async def action_softkey(self, number: int) -> None:
@@ -385,7 +385,7 @@ class BaseScreen(Screen[None]):
         await self.run_action(key.action)
 
     def key_acts(self, key: Softkey) -> bool:
-        """Whether a softkey does anything now."""
+        """Return whether a softkey does anything now."""
         target, _, name = key.action.partition("(")[0].rpartition(".")
         owner: Any = self.app if target == "app" else self
         return hasattr(owner, f"action_{name}") and key.acts(self)

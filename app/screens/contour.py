@@ -1,4 +1,4 @@
-"""MILL CONTOUR: START and the segments of one block, keyed in field by field."""
+"""MILL CONTOUR is the form for START and the segments of one block, filled in field by field."""
 
 from __future__ import annotations
 
@@ -69,19 +69,19 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "b": BlendSegment,
     "c": ChamferSegment,
 }
-"""The letters that make a new segment, or another kind of one with nothing typed."""
+"""The letters that add a new segment, or change the kind of one that is still empty."""
 KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 LATER: Final = "Or Page Down: the next segment may give it."
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
 
 SWITCHED: Final = frozenset({"choice", "tangent"})
-"""Choices that Space steps: SOLUTION to the next answer, TANGENT to the other one."""
+"""Choices that Space steps through: SOLUTION to the next answer, TANGENT to the other one."""
 
 NEAR_CELLS: Final = 1.5
-"""Columns within which a click is meant for the number of a finding."""
+"""Columns within which a click picks the number of a finding."""
 PANELS: Final = ("segments", "findings")
-"""The lists that take the place of the drawing where there is no room for both."""
+"""The lists that replace the drawing when the terminal has no room for both."""
 
 
 LIST_PROMPTS: Final = {
@@ -91,7 +91,7 @@ LIST_PROMPTS: Final = {
 
 
 class SegmentField(NumberField):
-    """SEGMENT: a number goes to that segment, left and right walk."""
+    """SEGMENT: a typed number goes to that segment, the left and right arrows step through the segments."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("left", "screen.walk(-1)", "Segment before", show=False),
@@ -101,7 +101,7 @@ class SegmentField(NumberField):
 
 
 class ContourScreen(FormScreen):
-    """The form of one block; the cursor stands on SEGMENT or in a field."""
+    """The form of one block; the cursor is on SEGMENT or in a field."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("pageup", "walk(-1)", "Segment before", show=False),
@@ -148,16 +148,16 @@ class ContourScreen(FormScreen):
         self._cursor: Cursor | None = None
         self.entries: tuple[Entry, ...] = ()
         self.in_hand: int | None = None
-        """Which of the findings with a place the loupe is on; None for the segment with the cursor."""
+        """The index of the placed finding that the loupe shows; None if it shows the segment with the cursor."""
         self._tried = False
-        """Whether the other fields show what a half-typed number would make of them."""
+        """Whether the other fields show what they would be with a half-typed number."""
         self._left_field: tuple[FormPlace, str] | None = None
-        """The field that the cursor left for a list, and where the form stood then."""
+        """The segment and field that the cursor left to go to a list."""
 
-    # ---- what is shown
+    # ---- display
 
     def compose_body(self) -> ComposeResult:
-        """Title lines, the form, the verdict, the drawings."""
+        """Lay out the title lines, the form, the verdict, the drawings and the two lists."""
         session = self.host.session
         with Vertical(id="work"):
             with Vertical(id="form", classes="panel") as form:
@@ -190,7 +190,7 @@ class ContourScreen(FormScreen):
         return self._forms[self._form]
 
     def show_session(self, session: Session) -> None:
-        """The form of the segment with the cursor; a move of the cursor takes the focus along."""
+        """Show the form of the segment with the cursor; if the cursor has moved, focus its field."""
         wanted = form_at(session)
         if wanted is not self._form:
             self._switch_form(session, wanted)
@@ -205,7 +205,7 @@ class ContourScreen(FormScreen):
                 self.focus_field(session.cursor.field)
 
     def _switch_form(self, session: Session, wanted: table.Form) -> None:
-        """Each kind of segment has a form of its own, made when it is first needed."""
+        """Switch to another kind of form; each is made when it is first needed."""
         self.form().display = False
         self._form = wanted
         if wanted in self._forms:
@@ -214,14 +214,14 @@ class ContourScreen(FormScreen):
             self.call_next(self._mount_form, self._made_form(session))
 
     async def _mount_form(self, form: Form) -> None:
-        """A new form, and the cursor on its field: the next key comes when it stands."""
+        """Mount a new form and focus its field; the next key is read only when this is done."""
         await self.query_one("#fields").mount(form)
         self._offer_letters(self.current_session)
         self.focus_field(self.current_session.cursor.field or "")
         self.refresh_frame()
 
     def _offer_letters(self, session: Session) -> None:
-        """In a LINE in which nothing is typed letters make it another kind of segment."""
+        """Let letters in X END and Y END change the kind of an empty LINE."""
         letters = (
             "".join(NEW_SEGMENTS) if isinstance(session.segment, LineSegment) and is_empty(session.segment) else ""
         )
@@ -244,7 +244,7 @@ class ContourScreen(FormScreen):
         self.query_one(f"#{SEGMENT}", SegmentField).show(str(segment))
 
     def follow_shown(self, shown: Session) -> None:
-        """Verdict, drawings and lists; while the path is being worked out the last one of the block stays."""
+        """Update verdict, drawings and lists; keep the block's last ones while a new path is being calculated."""
         if not self.in_view or shown is self._followed:
             return
         self._followed = shown
@@ -258,16 +258,16 @@ class ContourScreen(FormScreen):
         self.query_one(FindingsList).entries = self.entries
         self._show_lists(shown)
         if block.known or before is not None:
-            # not in the first paint, which does without the numeric libraries
+            # skipped in the first paint, which must not load the numeric libraries
             self._show_picture(shown)
 
     def show_signs(self) -> None:
-        """Those of the segment list and of the loupe's title."""
+        """Redraw the signs of the segment list and of the loupe's title."""
         self._show_lists(self.host.shown)
         self._show_picture(self.host.shown)
 
     def show_work(self, work: Work | None) -> None:
-        """How far it is also stands in the title of the verdict, which is the last one until it is done."""
+        """Show the progress in the verdict's title too; the last verdict stays until the work is done."""
         super().show_work(work)
         verdict, shown = self.query_one(Verdict), self.host.shown
         if verdict.case is not None and not shown.derived_block.known:
@@ -275,7 +275,7 @@ class ContourScreen(FormScreen):
             verdict.case = replace(verdict.case, working=None if work is None else work.done, stopped=stopped)
 
     def _show_tried(self, shown: Session) -> None:
-        """The other fields as a half-typed number would make them, and back again."""
+        """Show the other fields as a half-typed number would make them, or as they were."""
         trial = shown is not self.current_session
         if trial or self._tried:
             typed = self.current.name if trial and self.current is not None else None
@@ -290,71 +290,71 @@ class ContourScreen(FormScreen):
 
     @on(events.Resize)
     def _fill_lists(self) -> None:
-        """A list that a larger terminal brings up shows what it has missed."""
+        """Refresh the lists: a larger terminal may show one that was hidden."""
         self.call_after_refresh(lambda: self._show_lists(self.host.shown))
 
     @property
     def placed(self) -> list[Entry]:
-        """The findings that have a place in the drawing."""
+        """The findings that have a position in the drawing."""
         return [entry for entry in self.entries if entry.at is not None]
 
     def _show_picture(self, shown: Session) -> None:
-        places = self.placed
+        placed = self.placed
         in_hand = self.in_hand
-        if in_hand is None and not shown.place.segment and places:
+        if in_hand is None and not shown.place.segment and placed:
             in_hand = 0
-        self.query_one(Picture).show(shown, places, in_hand, self.host.characters)
+        self.query_one(Picture).show(shown, placed, in_hand, self.host.characters)
 
     def action_finding(self, by: int) -> None:
-        """Take the next finding in hand, or the one before: the loupe goes there."""
-        places = self.placed
-        if not places:
+        """Move the loupe to the next or previous finding."""
+        placed = self.placed
+        if not placed:
             self.say("There are no findings.")
             return
         first = 0 if not self.current_session.place.segment else None
         here = self.in_hand if self.in_hand is not None else first
-        self.in_hand = (0 if by > 0 else len(places) - 1) if here is None else (here + by) % len(places)
+        self.in_hand = (0 if by > 0 else len(placed) - 1) if here is None else (here + by) % len(placed)
         self._show_picture(self.host.shown)
-        self.query_one(FindingsList).highlighted = self.entries.index(places[self.in_hand])
+        self.query_one(FindingsList).highlighted = self.entries.index(placed[self.in_hand])
 
     @on(Drawing.Picked)
     def _picked_in_drawing(self, event: Drawing.Picked) -> None:
-        """A click on the number of a finding takes it in hand, any other goes to the nearest segment."""
+        """Select the finding whose number was clicked; any other click goes to the nearest segment."""
         from core.pipeline.plot import nearest_segment
 
-        places = self.placed
+        placed = self.placed
         reach = NEAR_CELLS * (0.0 if event.drawing.drawn is None else event.drawing.drawn.view.scale)
-        near = [at for at, entry in enumerate(places) if entry.at is not None and dist(entry.at, event.at) <= reach]
+        near = [at for at, entry in enumerate(placed) if entry.at is not None and dist(entry.at, event.at) <= reach]
         if near and event.drawing.id == "outline":
             self.in_hand = near[0]
             self._show_picture(self.host.shown)
-            self.query_one(FindingsList).highlighted = self.entries.index(places[near[0]])
+            self.query_one(FindingsList).highlighted = self.entries.index(placed[near[0]])
         elif (segment := nearest_segment(self.current_session.derived_block, event.at)) is not None and self.take():
             self.go(segment)
 
     # ---- panels
 
     def action_panel(self, name: str) -> None:
-        """Show a list in place of the drawing, or the drawing again; on wide terminals the cursor goes there.
+        """Move the cursor into a list, which replaces the drawing unless there is room for both, or close the list.
 
-        Behind the list the cursor goes on where it was.
+        After the list the cursor returns to the field where it was.
         """
         if not self.take():
             return
         self.quiet()
         if self.current is not None:
             self._left_field = (self.current_session.place, self.current.name or SEGMENT)
-        shown = self.has_class(f"-{name}")
+        is_open = self.has_class(f"-{name}")
         for panel in PANELS:
-            self.set_class(panel == name and not shown, f"-{panel}")
+            self.set_class(panel == name and not is_open, f"-{panel}")
         target = self.query_one(f"#{name}")
-        if shown or not isinstance(target, Widget):
+        if is_open or not isinstance(target, Widget):
             self._focus_left_field()
         else:
             self.call_after_refresh(self._into_panel, target)
 
     def _focus_left_field(self) -> None:
-        """Back to the field that the cursor left for a list; to SEGMENT where another segment was chosen there."""
+        """Focus the field that the cursor left to go to a list, or SEGMENT if another segment was chosen there."""
         place, name = self._left_field or (None, SEGMENT)
         self.focus_field(name if place == self.current_session.place else SEGMENT)
 
@@ -363,12 +363,12 @@ class ContourScreen(FormScreen):
         self.set_focus(target)
 
     def action_restore(self) -> None:
-        """The old value back; from a list to the form and the drawing."""
+        """Restore the old value; from a list, go back to the form and the drawing."""
         if not self.half_typed:
             for panel in PANELS:
                 self.remove_class(f"-{panel}")
             if self.current is None:
-                # a digit that follows is typed into the field, and is no softkey
+                # the next digit is typed into the field and does not press a softkey
                 self.quiet()
                 self._focus_left_field()
                 return
@@ -376,7 +376,7 @@ class ContourScreen(FormScreen):
 
     @on(DataTable.RowHighlighted)
     def _segment_highlighted(self, event: DataTable.RowHighlighted) -> None:
-        """The row of the list and SEGMENT of the form are one cursor; rows it has left by now are passed over."""
+        """Move the form to the highlighted row's segment; skip events for rows the cursor has already left."""
         late = event.cursor_row != event.data_table.cursor_row
         if event.data_table.has_focus and not late and event.cursor_row != self.current_session.place.segment:
             place = FormPlace(self.current_session.place.block, event.cursor_row)
@@ -391,41 +391,41 @@ class ContourScreen(FormScreen):
         if not event.option_list.has_focus:
             return
         entry = self.entries[event.option_index]
-        places = self.placed
-        self.in_hand = places.index(entry) if entry in places else None
+        placed = self.placed
+        self.in_hand = placed.index(entry) if entry in placed else None
         self._show_picture(self.host.shown)
 
     @on(OptionList.OptionSelected, "#findings")
     def _finding_chosen(self, event: OptionList.OptionSelected) -> None:
-        """To the field that a finding is about."""
+        """Go to the field that the finding is about."""
         entry = self.entries[event.option_index]
         self.go(entry.segment or 0, entry.field or SEGMENT)
 
     # ---- the fields
 
     def fields(self) -> tuple[Field, ...]:
-        """The fields of START or of the segment."""
+        """Return the fields of START or of the segment."""
         return fields_at(self.current_session)
 
     def names(self) -> list[str]:
-        """SEGMENT, the left column, the right one: SOLUTION comes last for Enter, yet stands in the left one."""
+        """Return SEGMENT, the left column, then the right; SOLUTION, last for Enter, is in the left column."""
         right = RIGHT_COLUMN[form_at(self.current_session)]
         return [SEGMENT, *sorted(super().names(), key=right.__contains__)]
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
-        """SEGMENT, or a field of the form."""
+        """Return the widget of SEGMENT or of a field of the form."""
         return self.query_one(f"#{SEGMENT}", SegmentField) if name == SEGMENT else super().widget(name)
 
     def focus_field(self, name: str) -> None:
-        """Put the cursor on a field; on SEGMENT where there is none of this name, as of a finding on another screen."""
+        """Put the cursor on a field, or on SEGMENT if the field belongs to another form, as a finding's may."""
         super().focus_field(SEGMENT if name and self.widget(name) is None else name)
 
     def value(self, name: str) -> Value | str:
-        """What a field holds."""
+        """Return what a field holds."""
         return value_at(self.current_session, name)
 
     def edited(self, field: Field, text: str) -> Edited:
-        """The program with this text in a field of the form."""
+        """Return the program with this text in a field of the form."""
         session = self.current_session
         if field.name == "choice":
             return take_solution(session.program, session.place, int(text.partition(" ")[0]) - 1)
@@ -435,14 +435,14 @@ class ContourScreen(FormScreen):
         return type_field(session.program, session.place, field.name, typed)
 
     def label(self, field: Field) -> str:
-        """FIELD of START or of a segment; of a run, whose calculated fields it changes, also which one."""
+        """Return FIELD of START or of a segment, plus the run whose calculated fields the edit changes."""
         place, run = self.current_session.place, run_here(self.current_session)
         where = "START" if place.segment == 0 else f"segment {place.segment}"
         where += f", run {run.first}-{run.last}" if run is not None and run.first < run.last else ""
         return f"{field.label} of {where}, block {place.block}"
 
     def trouble(self, field: Field) -> Sentence | None:
-        """An error that names this field, or advice on it; other warnings stand with the verdict."""
+        """Return an error about this field, advice on it, or why the run has no answer; the verdict has the rest."""
         session = self.current_session
         for finding in session.derived_block.findings:
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
@@ -454,14 +454,14 @@ class ContourScreen(FormScreen):
         return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
 
     def _or_later(self, finding: Finding) -> str:
-        """Says that a segment in which something is typed may be determined by one that is still to come."""
+        """Return a hint that the next segment may determine this one; empty if it does not apply."""
         session = self.current_session
         last = session.segment is not None and session.place.segment == len(session.block.segments)
         waits = finding.code == "MISSING" and last and not run_stops(session)
         return f" {LATER}" if waits and session.segment is not None and not is_empty(session.segment) else ""
 
     def _run_sentence(self, prompt: str) -> Sentence | None:
-        """Why the run of the segment with the cursor has no answer, and where there is room the prompt below."""
+        """Return why this segment's run has no answer, with the prompt below it if there is room."""
         session = self.current_session
         finding = run_trouble(session)
         if finding is None:
@@ -474,7 +474,7 @@ class ContourScreen(FormScreen):
         return Sentence(text, Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR)
 
     def prompt_text(self) -> Sentence:
-        """On SEGMENT the prompt of SEGMENT; in a new segment also what else it can be; in a list what its keys do."""
+        """Return a list's keys, the prompt of SEGMENT, an empty LINE's other kinds, or the field's prompt."""
         if self.focused is not None and self.focused.id in LIST_PROMPTS:
             return Sentence(LIST_PROMPTS[self.focused.id])
         segment, field = self.current_session.segment, self.current_field
@@ -488,37 +488,37 @@ class ContourScreen(FormScreen):
         return super().prompt_text()
 
     def guide_text(self) -> str:
-        """The next field of the plate."""
+        """Return the next step of the guide's plate."""
         session, at = self.current_session, "" if self.current is None else self.current.name or ""
         return on_form(session, self.names(), at, next_stop(session, at))
 
     @property
     def at_rest(self) -> bool:
-        """The cursor is in a field in which nothing is half-typed."""
+        """True if the cursor is in a field and nothing in it is half-typed."""
         return self.current is not None and self.focused is self.current and not self.half_typed
 
     def refresh_frame(self) -> None:
-        """SEGMENT gets its > while it has the cursor."""
+        """Also mark SEGMENT with > while it has the cursor."""
         super().refresh_frame()
         label = self.query_one("#segment-label", Label)
         text = "SEGMENT >" if isinstance(self.current, SegmentField) else "SEGMENT"
         if str(label.content) != text:
             label.update(text, layout=False)
 
-    # ---- walking
+    # ---- moving between segments
 
     def take(self) -> bool:
-        """A segment number that no Enter followed is forgotten."""
+        """Take the field; discard a segment number that was not confirmed by Enter."""
         if isinstance(self.current, SegmentField):
             self.current.restore()
             return True
         return super().take()
 
     def action_accept(self) -> None:
-        """Take the field and go to the next one that needs an answer; after the last one to the next segment.
+        """Take the field and go to the next one that needs an answer; after the last one, to the next segment.
 
-        A value that leaves a run without an answer keeps the cursor once.  On SEGMENT a typed number goes to that
-        segment.
+        A new value that leaves a run unsolved keeps the cursor once.  On SEGMENT a typed number goes to
+        that segment.
         """
         widget = self.current
         if widget is None or (isinstance(widget, SegmentField) and widget.edited):
@@ -531,7 +531,7 @@ class ContourScreen(FormScreen):
             return
         session = self.current_session
         stop = next_stop(session, widget.name or "")
-        # what is missing may still be typed in a field after this one
+        # a later field of this segment may still supply what is missing
         may_follow = stop is not None and run_lacks(session)
         if session.program is not before and run_stops(session) and not may_follow:
             return
@@ -541,7 +541,7 @@ class ContourScreen(FormScreen):
             self._form_done()
 
     def _form_done(self) -> None:
-        """After the last field of a form: back to what is still to be answered, else to the next segment."""
+        """After a form's last field, go back to a field that still needs an answer, else to the next segment."""
         session = self.current_session
         missing = unanswered(session)
         if missing is not None:
@@ -572,16 +572,16 @@ class ContourScreen(FormScreen):
             self.go(int(text))
 
     def go(self, segment: int, field: str = SEGMENT) -> None:
-        """The cursor to a segment of this block."""
+        """Move the cursor to a segment of this block."""
         self.host.move(FormPlace(self.current_session.place.block, segment), field)
 
     def action_go(self, segment: int) -> None:
-        """To a segment, -1 is the last one."""
+        """Go to a segment; -1 is the last one."""
         if self.take():
             self.go(len(self.current_session.block.segments) if segment < 0 else segment)
 
     def action_walk(self, by: int) -> None:
-        """To the segment before or after; past the last one a new one is offered."""
+        """Go to the previous or next segment; past the last one, add a new LINE."""
         self.quiet()
         if not self.take():
             return
@@ -596,7 +596,7 @@ class ContourScreen(FormScreen):
 
     @on(NumberField.Letter)
     def _letter(self, message: NumberField.Letter) -> None:
-        """A segment in which nothing is typed becomes one of another kind; after any other a new one is made."""
+        """Change the kind of an empty segment; after any other, insert a new segment of that kind."""
         session, kind = self.current_session, NEW_SEGMENTS[message.letter]
         segment = session.segment
         if segment is None or not is_empty(segment):
@@ -609,7 +609,7 @@ class ContourScreen(FormScreen):
             self.go(session.place.segment, table.TABLES[form][0].name)
 
     def action_insert_segment(self) -> None:
-        """A new LINE before the segment with the cursor."""
+        """Insert a LINE before the segment with the cursor."""
         self._insert(self.current_session.place.segment, LineSegment())
 
     def _insert(self, number: int, segment: Segment) -> None:
@@ -617,7 +617,7 @@ class ContourScreen(FormScreen):
         if session.segment is not None and is_empty(session.segment) and number > session.place.segment:
             self.say(f"Nothing is typed yet in segment {session.place.segment}: {KINDS}.")
             first = self.names()[1]
-            # a letter in a choice is one of its own
+            # in a choice field a letter selects an option
             self.focus_field(first if isinstance(self.widget(first), NumberField) else SEGMENT)
             return
         place = FormPlace(session.place.block, number)
@@ -630,7 +630,7 @@ class ContourScreen(FormScreen):
 
     @on(ChoiceField.Blanked)
     def _blanked(self, event: ChoiceField.Blanked) -> None:
-        """Del makes COOLANT blank again; all other choices always hold one."""
+        """Clear COOLANT on Del; every other choice always has a value."""
         field = self._field(event.name)
         if field is not None:
             self.quiet()
@@ -639,7 +639,7 @@ class ContourScreen(FormScreen):
     # ---- the list of a field
 
     def action_list_field(self) -> None:
-        """The list of the field with the cursor: its choices, the tools, the look-ahead table."""
+        """Open the list of the field with the cursor: its choices, the tools, or the look-ahead table."""
         widget = self.current
         if isinstance(widget, ChoiceField) and widget.name in SWITCHED:
             widget.action_step(1)
@@ -652,7 +652,7 @@ class ContourScreen(FormScreen):
 
     @work(exclusive=True, group="question")
     async def _choose_tool(self, name: str) -> None:
-        """A tool of the tool table into TOOL or FINISH TOOL."""
+        """Choose a tool from the tool table for TOOL or FINISH TOOL."""
         session = self.current_session
         rows = [Option(tool_line(tool, session.program.unit), id=f"{tool.number}") for tool in session.program.tools]
         if name == "finish_tool":
@@ -669,12 +669,12 @@ class ContourScreen(FormScreen):
 
     @property
     def on_segment(self) -> bool:
-        """The cursor is on a segment, not on START."""
+        """True if the cursor is on a segment, not on START."""
         return self.current_session.place.segment > 0
 
     @property
     def has_lookahead(self) -> bool:
-        """The cursor is on START, and the block has a look-ahead."""
+        """True if the cursor is on START and the block has a look-ahead."""
         return not self.on_segment and self.current_session.derived_block.side is not None
 
     def action_delete_segment(self) -> None:
@@ -689,7 +689,7 @@ class ContourScreen(FormScreen):
                 self.call_after_refresh(self.set_focus, segments)
 
     def action_recalculate(self) -> None:
-        """The calculated look-ahead comes back."""
+        """Restore the calculated look-ahead."""
         session = self.current_session
         number = session.place.block
         if not self.host.apply(
@@ -700,7 +700,7 @@ class ContourScreen(FormScreen):
 
 
 def _last_feed(session: Session) -> Typed:
-    """The last feed typed in the blocks before, for the first segment of a block; blank where its tool has one."""
+    """Return the last feed typed in earlier blocks, for a first segment; None if the tool has a feed."""
     tools = {tool.number: tool for tool in session.program.tools}
     number = session.block.tool
     tool = tools.get(int(number.value)) if isinstance(number, Number) else None

@@ -1,4 +1,4 @@
-"""Dialogs: questions over the screen they are about."""
+"""Dialogs ask questions on top of the screen that they concern."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from app.widgets.plain import PlainLabel, PlainText
 from core.units import Kind, Unit, Unreadable, parse
 
 TALL = 16
-"""Rows from which on a question has blank lines."""
+"""Rows of the terminal from which a question has blank lines."""
 MORE = "And more."
-"""In place of details for which there is no room."""
+"""Shown in place of details that do not fit."""
 LINES_UP_AND_DOWN: Final[list[BindingType]] = [
     Binding("down", "app.focus_next", "Next", show=False),
     Binding("up", "app.focus_previous", "Before", show=False),
@@ -36,7 +36,7 @@ Result = TypeVar("Result")
 
 
 class Dialog(ModalScreen[Result]):
-    """A framed box over the screen that it is about; Esc and F8 give `NOTHING`."""
+    """A framed box on top of the screen that it concerns; Esc and F8 return `NOTHING`."""
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape,f8,alt+8", "none", "Go back", show=False)]
     NOTHING: ClassVar[Any] = ""
@@ -46,16 +46,16 @@ class Dialog(ModalScreen[Result]):
         self.question, self._box_classes = title, classes
 
     def compose(self) -> ComposeResult:
-        """The box."""
+        """Lay out the box."""
         with Vertical(id="question", classes=self._box_classes):
             yield from self.compose_box()
 
     @abstractmethod
     def compose_box(self) -> ComposeResult:
-        """What is in it."""
+        """Yield the widgets in the box."""
 
     def on_mount(self) -> None:
-        """The title."""
+        """Set the title."""
         self.query_one("#question").border_title = self.question
 
     def action_none(self) -> None:
@@ -64,10 +64,10 @@ class Dialog(ModalScreen[Result]):
 
 
 class Question(Dialog[str]):
-    """A question: its title, what would be lost, and the answers; the screen's result is the word of one.
+    """A question: its title, what would be lost, and the answers; the result is the word of the chosen answer.
 
-    `details` stand under the lines as far as there is room.  `safe` is the answer that is chosen at first.  Esc and F8
-    answer GO BACK.
+    As many `details` as fit follow the lines.  `safe` is the word of the preselected answer.  Esc and F8 answer
+    GO BACK.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+q", "none", "Go back", show=False)]
@@ -81,23 +81,23 @@ class Question(Dialog[str]):
         self.answers = (*answers, Answer(GO_BACK, "nothing changes"))
 
     def compose_box(self) -> ComposeResult:
-        """The loss, then one answer a line."""
+        """Lay out what would be lost, then one answer per line."""
         yield PlainText("\n".join((*self.lines, *self.details)), id="loss")
         yield OptionRows(*(Option(_line(answer), id=answer.word) for answer in self.answers), id="answers")
 
     def on_mount(self) -> None:
-        """The safe answer is chosen."""
+        """Preselect the safe answer."""
         words = [answer.word for answer in self.answers]
         self.query_one(OptionList).highlighted = words.index(self.safe)
 
     @property
     def _box(self) -> Widget | None:
-        """The frame; None before it stands, and once the dialog is leaving."""
+        """The frame; None before it is mounted and once the dialog is closing."""
         return next(iter(self.query("#question")), None)
 
     @property
     def readable(self) -> bool:
-        """Whether the terminal has room for all of it: what cannot be read is not answered, but by going back."""
+        """True if the whole question fits the terminal; otherwise the only answer accepted is GO BACK."""
         box = self._box
         return (
             box is not None and self.region.contains_region(box.region) and box.virtual_size.height <= box.size.height
@@ -110,17 +110,17 @@ class Question(Dialog[str]):
             self.call_after_refresh(self._fit)
 
     def _fit(self) -> None:
-        """As many details as there is room for; where there is none for the rest, say so."""
+        """Show as many details as fit, and say so if some do not."""
         box = self._box
         if box is None:
             return
         loss = box.query_one("#loss", Static)
         frame = box.region.height - box.size.height
         room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
-        shown = list(self.details)
-        while shown and _rows((*self.lines, *shown), loss.size.width) > room:
-            shown = [*shown[: -2 if shown[-1] == MORE else -1], MORE] if len(shown) > 1 else []
-        loss.update("\n".join((*self.lines, *shown)))
+        visible = list(self.details)
+        while visible and _rows((*self.lines, *visible), loss.size.width) > room:
+            visible = [*visible[: -2 if visible[-1] == MORE else -1], MORE] if len(visible) > 1 else []
+        loss.update("\n".join((*self.lines, *visible)))
         self.call_after_refresh(self._show_title)
 
     def _show_title(self) -> None:
@@ -133,7 +133,7 @@ class Question(Dialog[str]):
             self.dismiss(event.option_id or GO_BACK)
 
     def on_key(self, event: events.Key) -> None:
-        """A letter gives its answer at once; the softkeys beside the box are those of the screen behind it."""
+        """Give the answer whose word begins with the letter."""
         letter = (event.character or "").upper()
         words = (answer.word for answer in self.answers[:-1] if letter and answer.word.startswith(letter))
         word = next(words, None)
@@ -143,7 +143,7 @@ class Question(Dialog[str]):
 
 
 def _rows(lines: Sequence[str], width: int) -> int:
-    """Rows that lines take when they are wrapped."""
+    """Return the number of rows that wrapped lines take."""
     return sum(max(1, len(wrap(line, max(width, 1)))) for line in lines)
 
 
@@ -153,9 +153,9 @@ def _line(answer: Answer) -> str:
 
 
 class Phrase(Dialog[str]):
-    """A question that is answered by typing a phrase; Esc and F8 give an empty one.
+    """A question that is answered by typing a phrase; Esc and F8 return an empty one.
 
-    What `refusal` says of a phrase is shown below it, and the question stays.
+    If `refusal` returns a text for a phrase, it is shown below and the question stays open.
     """
 
     def __init__(self, title: str, lines: Sequence[str], refusal: Callable[[str], str] | None = None) -> None:
@@ -163,7 +163,7 @@ class Phrase(Dialog[str]):
         self.lines, self.refusal = tuple(lines), refusal
 
     def compose_box(self) -> ComposeResult:
-        """What is asked, then the line to type in."""
+        """Lay out the question, then the input line."""
         yield PlainText("\n".join(self.lines), id="loss")
         yield LineInput(id="phrase", compact=True)
         yield PlainText(id="phrase-trouble")
@@ -178,9 +178,9 @@ class Phrase(Dialog[str]):
 
 @dataclass(frozen=True, slots=True)
 class NumberEntry:
-    """A line of a small form: its label, what it takes, the text it begins with, and the largest value where one is.
+    """A line of a small form: its label, its kind of number, its initial text, and its largest value, if limited.
 
-    With a largest value the smallest is zero.
+    If `most` is given, the smallest value is zero.
     """
 
     label: str
@@ -189,7 +189,7 @@ class NumberEntry:
     most: float | None = None
 
     def read(self, text: str, unit: Unit) -> float | Unreadable:
-        """The number of a text in program units."""
+        """Read a number in program units."""
         value = parse(text, self.kind, unit)
         if self.most is not None and isinstance(value, float) and not 0.0 <= value <= self.most:
             return Unreadable(f"{self.label} is from 0 to {self.most:g} {unit}.")
@@ -197,9 +197,9 @@ class NumberEntry:
 
 
 class NumberForm(Dialog[tuple[float, ...]]):
-    """A few numbers; Enter on the last one takes them, the result is empty for none.
+    """A form for a few numbers; Enter on the last one takes them, Esc and F8 return an empty tuple.
 
-    A text that cannot be read keeps the cursor and is said below; so is what `refusal` says of the numbers together.
+    Unreadable text keeps the cursor and an error appears below, as does what `refusal` returns for all numbers.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = LINES_UP_AND_DOWN
@@ -218,7 +218,7 @@ class NumberForm(Dialog[tuple[float, ...]]):
         self.refusal = refusal
 
     def compose_box(self) -> ComposeResult:
-        """What is done, then a line a number."""
+        """Lay out the explanation, then one line per number."""
         yield PlainText("\n".join(self.lines), id="loss")
         for number, entry in enumerate(self.entries):
             with Horizontal(classes="field"):
@@ -227,7 +227,7 @@ class NumberForm(Dialog[tuple[float, ...]]):
         yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
-        """The title, and the keys."""
+        """Show the keys in the frame."""
         self.query_one("#question").border_subtitle = "Enter: next   Esc: back"
 
     @on(Input.Submitted)
@@ -261,9 +261,9 @@ class NumberForm(Dialog[tuple[float, ...]]):
 
 
 class ChooseLine(Dialog[str]):
-    """A list to choose from, the cursor on the option `here`; the result is an option's id, empty with Esc and F8.
+    """A list to choose from, with the cursor on option `here`; the result is an option's id, empty on Esc and F8.
 
-    A letter or digit goes to the next option whose text or id begins with it.
+    A letter or digit moves the cursor to the next option whose text or id begins with it.
     """
 
     def __init__(self, title: str, options: Sequence[Option], here: str = "", *, classes: str = "") -> None:
@@ -271,17 +271,17 @@ class ChooseLine(Dialog[str]):
         self.options, self.here = tuple(options), here
 
     def compose_box(self) -> ComposeResult:
-        """The list."""
+        """Lay out the list."""
         yield OptionRows(*self.options, id="answers")
 
     def on_mount(self) -> None:
-        """The cursor on its row, else on the first."""
+        """Put the cursor on option `here`, else on the first one."""
         ids = [option.id for option in self.options]
         if ids:
             self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0
 
     def on_key(self, event: events.Key) -> None:
-        """A letter is the beginning of an option."""
+        """Move the cursor to the next option that begins with the letter or digit."""
         if not (event.character or "").isalnum():
             return
         event.stop()
@@ -298,9 +298,9 @@ class ChooseLine(Dialog[str]):
 
 
 class ChooseSeveral(Dialog["frozenset[str] | None"]):
-    """A list of which several can be chosen: Space marks, Enter takes what is marked; Esc and F8 give None.
+    """A list for choosing several rows: Space marks, Enter takes the marked rows; Esc and F8 return None.
 
-    Each row has its result and its words; `chosen` are the results that are marked at first.
+    Each row is a result and its text; `chosen` holds the results that are marked at first.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [Binding("space", "mark", "Mark", show=False)]
@@ -311,12 +311,12 @@ class ChooseSeveral(Dialog["frozenset[str] | None"]):
         self.rows, self.chosen = tuple(rows), set(chosen)
 
     def compose_box(self) -> ComposeResult:
-        """The list."""
+        """Lay out the list."""
         yield PlainText("Space marks, Enter takes what is marked.", id="loss")
         yield OptionRows(*(Option(self._words(row)) for row in range(len(self.rows))), id="answers")
 
     def on_mount(self) -> None:
-        """The cursor on the first row."""
+        """Put the cursor on the first row."""
         self.query_one(OptionList).highlighted = 0 if self.rows else None
 
     def _words(self, row: int) -> Content:
@@ -324,7 +324,7 @@ class ChooseSeveral(Dialog["frozenset[str] | None"]):
         return Content(f"[{'x' if result in self.chosen else ' '}] {words}")
 
     def action_mark(self) -> None:
-        """Mark the row with the cursor, or take its mark off."""
+        """Mark or unmark the row with the cursor."""
         answers = self.query_one(OptionList)
         if (row := answers.highlighted) is not None:
             self.chosen ^= {self.rows[row][0]}

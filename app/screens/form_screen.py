@@ -1,4 +1,4 @@
-"""FormScreen: what every screen with fields has in common, from the first character typed to the accepted value."""
+"""FormScreen is the base of screens with fields, from the first character typed to the accepted value."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
 CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
-"""The kinds of fields for which the calculator has answers."""
+"""The kinds of fields on which the calculator works."""
 
 SOFTKEY_WAIT: Final = 2.0
-"""Seconds after Esc in which a digit is a softkey."""
+"""Seconds after Esc in which a digit presses a softkey."""
 OLD_VALUE: Final = "The old number is back. Esc again, then 1 to 8, is a softkey."
 ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 
@@ -36,8 +36,8 @@ ARMED: Final = "1 to 8 press the softkey now, as F1 to F8 do."
 class FormScreen(BaseScreen):
     """A screen with a form.
 
-    A field is taken when the cursor leaves it by a key or a click, when Enter is pressed, and before any softkey acts.
-    A number that the field does not take, and a text that cannot be read, keep the cursor.
+    A field is taken when the cursor leaves it by key or click, on Enter, and before any softkey acts.
+    The cursor stays on a number the field refuses and on text that cannot be read.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -53,41 +53,41 @@ class FormScreen(BaseScreen):
         super().__init__()
         self._armed: Widget | None = None
         self._sums: dict[str, dict[str, str]] = {}
-        """What was typed into each case of the calculator."""
+        """The texts typed into each calculator case, by case and name."""
         self._unread: tuple[str, Program] | None = None
-        """The field into which something was typed last that cannot be read, and the program it made."""
+        """The last field with text that could not be read, and the program after that edit."""
 
     def form(self) -> Form:
-        """The form that is shown."""
+        """Return the form on display."""
         return self.query_one(Form)
 
     @abstractmethod
     def fields(self) -> tuple[Field, ...]:
-        """The fields that the cursor can go to, in order."""
+        """Return the fields that the cursor can go to, in order."""
 
     @abstractmethod
     def value(self, name: str) -> Value | str:
-        """What the program holds in a field."""
+        """Return what the program holds in a field."""
 
     @abstractmethod
     def edited(self, field: Field, text: str) -> Edited:
-        """The program with this text typed into a field, or picked in it."""
+        """Return the program after this text is typed or picked in a field."""
 
     def label(self, field: Field) -> str:
-        """What undo calls an edit of this field."""
+        """Return the undo label for an edit of this field."""
         return field.label
 
     def names(self) -> list[str]:
-        """The names of what the cursor goes through, in order."""
+        """Return the names of the widgets that the cursor steps through, in order."""
         return [field.name for field in self.fields()]
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
-        """The widget of a name."""
+        """Return the widget with this name."""
         return self.form().field(name)
 
     @property
     def current(self) -> NumberField | ChoiceField | None:
-        """The field with the cursor, or whose list is open."""
+        """The field that has the cursor or whose list is open."""
         if self.focused is None:
             return None
         return next(
@@ -96,7 +96,7 @@ class FormScreen(BaseScreen):
 
     @property
     def current_field(self) -> Field | None:
-        """What the table of fields says of it."""
+        """The definition of that field."""
         widget = self.current
         return None if widget is None else self._field(widget.name or "")
 
@@ -111,21 +111,21 @@ class FormScreen(BaseScreen):
     # ---- taking what was typed
 
     def take(self) -> bool:
-        """Take what was typed into the field with the cursor; whether the cursor may go on."""
+        """Take the text of the field with the cursor; return whether the cursor may move on."""
         widget, field = self.current, self.current_field
         if not isinstance(widget, NumberField) or field is None:
             return True
         return self.take_text(widget, field)
 
     def take_text(self, widget: NumberField, field: Field) -> bool:
-        """Take the text of a field; False where it is refused or cannot be read."""
+        """Take the text of a field; return False if it is refused or cannot be read."""
         if not widget.edited:
             return True
         text = widget.value
         outcome = self.edited(field, text)
         if isinstance(outcome, Refused):
             if field.name == "lookahead":
-                # in all others the text stays to be mended
+                # in all other fields the text stays, so that it can be corrected
                 widget.restore()
             self.say(outcome.text, Tone.ERROR)
             return False
@@ -146,7 +146,7 @@ class FormScreen(BaseScreen):
 
     @on(Input.Changed)
     def _typing(self, event: Input.Changed) -> None:
-        """Try a half-typed number out: the verdict and the drawings show what it would do."""
+        """Try out a half-typed number: the verdict and the drawings show what it would do."""
         widget, field = event.input, self._field(event.input.name or "")
         if widget is not self.current or not isinstance(widget, NumberField):
             return
@@ -161,7 +161,7 @@ class FormScreen(BaseScreen):
 
     @on(Input.Blurred)
     def _left(self, event: Input.Blurred) -> None:
-        """A field that a click has left with something typed in it is taken all the same."""
+        """Take the text of a field that was left by a click; return to the field if that fails."""
         widget, field = event.input, self._field(event.input.name or "")
         if (
             isinstance(widget, NumberField)
@@ -177,29 +177,29 @@ class FormScreen(BaseScreen):
         if field is None or text == self.picked_text(field):
             return
         if not text and not self.may_be_blank(field) and isinstance(event.select, ChoiceField):
-            # the blank line of the list
+            # the blank line of the list was picked
             event.select.show(self.picked_text(field))
             return
         self.quiet()
         self.pick(field, text)
 
     def may_be_blank(self, _field: Field, /) -> bool:
-        """Whether a choice of this field may be left blank."""
+        """Return whether this choice field may be blank."""
         return False
 
     def picked_text(self, field: Field) -> str:
-        """The choice that the program holds."""
+        """Return the choice that the program holds."""
         return self.form().rows[field.name].cell.text
 
     def pick(self, field: Field, text: str) -> None:
-        """Take a choice; one that is not taken is not shown."""
+        """Take a choice; if it is refused, show the old one again."""
         widget = self.widget(field.name)
         if not self.host.apply(self.edited(field, text), self.label(field)) and isinstance(widget, ChoiceField):
             widget.show(self.picked_text(field))
 
     @property
     def half_typed(self) -> bool:
-        """Something has been typed into the field with the cursor that has not been taken."""
+        """True if the field with the cursor has typed text that has not been taken."""
         return isinstance(self.current, NumberField) and self.current.edited
 
     @on(ChoiceField.Unknown)
@@ -209,25 +209,25 @@ class FormScreen(BaseScreen):
     # ---- keys
 
     def action_step(self, by: int) -> None:
-        """Take the field and go to the next one, or to the one before, round."""
+        """Take the field and go to the next or previous one, wrapping around."""
         self.quiet()
         if self.take() and (names := self.names()):
             here = names.index(self.current.name) if self.current is not None and self.current.name in names else -1
             self.focus_field(names[(here + by) % len(names)])
 
     def action_accept(self) -> None:
-        """Take the field and go on."""
+        """Take the field and go to the next one."""
         self.action_step(1)
 
     def action_leave(self) -> None:
-        """The old value back; at rest the screen before."""
+        """Restore the old value; if nothing is typed, close the screen."""
         if self.half_typed or self.last_is_unread:
             self.action_restore()
         else:
             self.app.call_later(self.app.run_action, "app.back")
 
     def action_restore(self) -> None:
-        """The old value back; where there is none to bring back, the next digit is a softkey."""
+        """Restore the old value; if there is none to restore, the next digit presses a softkey."""
         self.quiet()
         if self.half_typed or self.current is None:
             typed = self.half_typed
@@ -247,12 +247,12 @@ class FormScreen(BaseScreen):
 
     @property
     def last_is_unread(self) -> bool:
-        """The last edit typed something into the field with the cursor that cannot be read."""
+        """True if the last edit left unreadable text in the field with the cursor."""
         field, program = self.current_field, self.current_session.program
         return self._unread is not None and field is not None and self._unread == (field.name, program)
 
     def disarm(self) -> None:
-        """A digit is typed again."""
+        """Let digits be typed again."""
         if isinstance(self._armed, NumberField):
             self._armed.softkey_digits = False
         self._armed = None
@@ -261,22 +261,22 @@ class FormScreen(BaseScreen):
 
     @property
     def armed(self) -> bool:
-        """Whether the next digit is a softkey: Esc was pressed here not long ago, and nothing has been typed since."""
+        """True if the next digit presses a softkey: Esc was just pressed here and nothing has been typed since."""
         return self._armed is not None and self._armed is self.focused and not self.half_typed
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """A digit is a softkey only while it is armed, and where that softkey has a label."""
+        """Let a digit press a softkey only while armed, and only if that softkey exists."""
         if action == "armed_softkey":
             return self.armed and self.SOFTKEYS[int(str(parameters[0])) - 1] is not None
         return super().check_action(action, parameters)
 
     async def action_armed_softkey(self, number: int) -> None:
-        """The softkey of a digit that follows Esc."""
+        """Press the softkey of a digit that follows Esc."""
         self.disarm()
         await self.action_softkey(number)
 
     def forget_typed(self) -> None:
-        """The field shows what the program holds."""
+        """Show again what the program holds in the field."""
         if isinstance(self.current, NumberField):
             self.current.restore()
             self.host.try_out(None)
@@ -290,11 +290,11 @@ class FormScreen(BaseScreen):
     # ---- the calculator
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """The calculator."""
+        """Return CALCULATOR."""
         return (("CALCULATOR", "screen.calculator", "=: triangles, tangents, bolt circles, intersections"),)
 
     def action_calculator(self) -> None:
-        """The calculator for the field with the cursor; in a text the character itself."""
+        """Open the calculator for the field with the cursor; in a text field, type the equals sign."""
         field, widget = self.current_field, self.current
         if isinstance(widget, NumberField) and field is not None and field.kind in CALCULATED:
             self._calculate(field, widget)
@@ -305,8 +305,8 @@ class FormScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def _calculate(self, field: Field, widget: NumberField) -> None:
-        """An answer of one of the shop's usual cases into a field, as if it had been typed."""
-        # the form stands before what only the calculator needs is loaded
+        """Choose a calculator case and put its answer into a field, as if it had been typed."""
+        # imported here: the form appears before the calculator is loaded
         from app.screens.calculator import Calculator
         from core.program.calculator import CASES, outputs_for
 
@@ -321,10 +321,10 @@ class FormScreen(BaseScreen):
         if text:
             widget.value, widget.cursor_position = text, len(text)
 
-    # ---- what stands on the prompt line
+    # ---- the prompt line
 
     def prompt_text(self) -> Sentence:
-        """What the field with the cursor takes, or what is wrong with it."""
+        """Return what the field with the cursor takes, or what is wrong with it."""
         field, widget = self.current_field, self.current
         if field is None or widget is None:
             return Sentence("")
@@ -336,7 +336,7 @@ class FormScreen(BaseScreen):
         return self.trouble(field) or Sentence(prompt_of(field))
 
     def _half_typed(self, widget: NumberField, field: Field) -> Sentence | None:
-        """Says that a text is no number yet, and which one counts until it is."""
+        """Return a note that the text is not a number yet and which value is still in use."""
         typed = None if field.kind is Kind.TEXT else read_typed(widget.value, field, self.current_session.program.unit)
         if not isinstance(typed, Unread):
             return None
@@ -346,7 +346,7 @@ class FormScreen(BaseScreen):
         return Sentence(f"{outside or f'{widget.value.strip()} is not a number.'}{still}")
 
     def trouble(self, field: Field) -> Sentence | None:
-        """What the verdict on any block says of a field that all blocks share."""
+        """Return the first error or warning of any block about this field, which all blocks share."""
         derived, tones = self.current_session.derived, {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING}
         findings = (finding for block in derived.blocks for finding in block.findings if finding.severity in tones)
         first = next((finding for finding in findings if finding.field == field.name), None)

@@ -1,4 +1,4 @@
-"""IMPORT: the contours of a DXF drawing as a list beside the drawing; those that are picked become blocks."""
+"""IMPORT lists the contours of a DXF drawing next to the drawing and turns the chosen ones into blocks."""
 
 from __future__ import annotations
 
@@ -64,13 +64,13 @@ from core.units import Kind, Unit, from_mm, to_mm
 Result = TypeVar("Result")
 
 SAME_START: Final = 1e-6
-"""Millimeters by which a start may differ from the one that was offered."""
+"""Millimeters within which a start counts as the usual one."""
 
 PAUSE: Final = 0.15
-"""Seconds that the cursor rests on a row of a large drawing before the row is drawn."""
+"""Seconds that the cursor must rest on a row of a large drawing before the row is drawn."""
 
 MAX_NOTES: Final = 2
-"""Notes about what was taken that are told at once."""
+"""Most notes about imported contours, or about fitted arcs, that one message shows."""
 
 PROMPT: Final = (
     "Space marks, Enter takes what is marked or the row with the cursor. Right arrow opens a row of several, / filters."
@@ -83,16 +83,16 @@ STAGES: Final = {
     "chaining": "Chaining",
     "nesting": "Nesting",
 }
-"""What a worker does, in words."""
+"""The stages of a worker's progress, as the operator reads them."""
 
 
 _layer_of: Final = lru_cache(1)(background)
-"""All contours of a list as one layer; made in the thread that draws it first."""
+"""Return all contours of a list as one layer, cached; the thread that draws it first makes it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picked:
-    """What the drawing shows: all contours dim, the chosen ones full; `view` is what somebody zoomed to."""
+    """What the drawing shows: all contours dim, the chosen ones bright; `view` is the zoom window, None for all."""
 
     backdrop: tuple[Contour, ...]
     chosen: tuple[Contour, ...]
@@ -100,13 +100,13 @@ class Picked:
     view: View | None = None
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
-        """The picture in columns x rows cells."""
+        """Return the picture in columns x rows character cells."""
         scene = contours_scene(_layer_of(self.backdrop), self.chosen, self.unit)
         return SceneSubject(scene, self.unit, self.view).drawn(columns, rows, mode)
 
 
 class ContoursDrawing(Drawing, can_focus=True):
-    """The drawing with keys to enlarge and move it."""
+    """The drawing, with keys that zoom and pan it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         *LOOK_KEYS,
@@ -119,7 +119,7 @@ class ContoursDrawing(Drawing, can_focus=True):
 
 
 class ImportScreen(BaseScreen):
-    """One drawing file; `fresh` where the program was begun for it and takes the drawing's unit."""
+    """The import of one drawing file; `fresh` if the program is new and takes the drawing's unit."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#contours"
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -147,7 +147,7 @@ class ImportScreen(BaseScreen):
         self.listed: ContourList | None = None
         self.marked: set[int] = set()
         self.lines: dict[int, Contour] = {}
-        """The contours as they were before FIT ARCS, by number."""
+        """The contours from before FIT ARCS, by number."""
         self._unfolded: set[int] = set()
         self._backdrop: tuple[Contour, ...] = ()
         self._working, self._stopped = "", False
@@ -155,7 +155,7 @@ class ImportScreen(BaseScreen):
         self._failed = ""
 
     def compose_body(self) -> ComposeResult:
-        """Title, list, what is to be said of the row with the cursor, the drawing."""
+        """Lay out the title, the list, the remarks on the row with the cursor, and the drawing."""
         with Vertical(id="import", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel("IMPORT", classes="head-label")
@@ -168,22 +168,22 @@ class ImportScreen(BaseScreen):
         yield ContoursDrawing(id="import-drawing")
 
     def on_mount(self) -> None:
-        """Begin to read."""
+        """Start reading the file."""
         self._show_title()
         prepare_workers()
         self._read()
 
     @property
     def unit(self) -> Unit:
-        """The unit of the program that the contours go to."""
-        own = self.options.unit.program_unit if self._fresh and self.options is not None else None
-        return own or self.current_session.program.unit
+        """The unit of the program that receives the contours."""
+        drawing_unit = self.options.unit.program_unit if self._fresh and self.options is not None else None
+        return drawing_unit or self.current_session.program.unit
 
-    # ---- reading and listing, in a process of its own
+    # ---- reading and listing, in a separate process
 
     @work(exclusive=True, group="import")
     async def _read(self) -> None:
-        """Read the file and list its contours; asks whether a damaged one is taken, and for a unit that is missing."""
+        """Read the file and list its contours; ask whether to accept a damaged file, and for a missing unit."""
         try:
             data = await self._in_thread(drawing_bytes, self.path)
             result = await self._read_whole(data)
@@ -211,7 +211,7 @@ class ImportScreen(BaseScreen):
         return await self._done(lambda: Worker(partial(read_and_list, damaged=True), data, self.path.name, unit))
 
     async def _list_after_question(self, drawing: ReadDrawing) -> None:
-        """Ask for the unit where the file names none; then the list, unless a layer cannot be taken."""
+        """Ask for the unit if the file names none, then list the contours."""
         self.drawing, unit = drawing, drawing.unit
         if unit is None:
             question = [f"{unit_question(drawing)}.", "In which unit is it drawn?"]
@@ -226,7 +226,7 @@ class ImportScreen(BaseScreen):
 
     @work(exclusive=True, group="import")
     async def _list(self, options: ImportOptions) -> None:
-        """The list by other options."""
+        """List the contours again with other options."""
         await self._list_again(options)
 
     async def _list_again(self, options: ImportOptions) -> None:
@@ -239,14 +239,14 @@ class ImportScreen(BaseScreen):
             self._fail(f"{error.text}{remedy}")
 
     async def _in_thread(self, function: Callable[..., Result], *arguments: object) -> Result:
-        """The function's result; where the screen was closed meanwhile nobody waits for it, and the task ends."""
+        """Return the function's result; cancel the task if the screen has been closed in the meantime."""
         result = await to_thread(function, *arguments)
         if not self.stands:
             raise CancelledError
         return result
 
     async def _done(self, start: Callable[[], Worker[Result]]) -> Result:
-        """The result of a process; its progress is told, Esc ends it."""
+        """Return the result of a worker process, showing its progress; Esc stops it."""
         self._stopped, self._failed = False, ""
         self._tell_progress(Progress("reading", 0, 1))
         worker = await to_thread(start)
@@ -269,7 +269,7 @@ class ImportScreen(BaseScreen):
         self.refresh_frame()
 
     def _fail(self, text: str) -> None:
-        """Tell why there is no list, or no other one."""
+        """Say why there is no list, or no new one; close the screen if Esc stopped the first reading."""
         if self._stopped and self.listed is None:
             self.action_close()
             return
@@ -291,17 +291,17 @@ class ImportScreen(BaseScreen):
 
     @property
     def table(self) -> ContourTable:
-        """The list."""
+        """The table of contours."""
         return self.query_one(ContourTable)
 
     @property
     def picture(self) -> ContoursDrawing:
-        """The drawing."""
+        """The drawing widget."""
         return self.query_one(ContoursDrawing)
 
     @property
     def contour(self) -> Contour | None:
-        """The contour with the cursor, the first one of a row of several."""
+        """The contour with the cursor; in a row of several, the first one."""
         row = self.table.current if self.is_mounted else None
         return None if row is None else self._contour(row.first.number)
 
@@ -313,7 +313,7 @@ class ImportScreen(BaseScreen):
 
     @property
     def chosen(self) -> tuple[Contour, ...]:
-        """The contours that are marked, else those of the row with the cursor, in the order of the list."""
+        """The marked contours, or if none is marked those of the row with the cursor, in list order."""
         return tuple(self._contour(number) for number in sorted(self.marked or self.row_numbers))
 
     def _contour(self, number: int) -> Contour:
@@ -321,7 +321,7 @@ class ImportScreen(BaseScreen):
         return self.listed.contours[number - 1]
 
     def _show_rows(self, at: int) -> None:
-        """The list anew, the cursor on a contour."""
+        """Refill the list and put the cursor on contour `at`."""
         listed = self.listed
         if listed is None:
             return
@@ -345,13 +345,13 @@ class ImportScreen(BaseScreen):
         self.query_one("#import-file", Label).update(words)
 
     def _show_row(self) -> None:
-        """What is to be said of the row with the cursor, and its drawing."""
+        """Show the remarks on the row with the cursor, and its drawing."""
         self.query_one("#import-about", Static).update(Content("\n").join(self._about()))
         self.refresh_frame()
         if self._timer is not None:
             self._timer.stop()
-        many = sum(len(contour.pieces) for contour in self._backdrop) > MAX_PIECES
-        if many:
+        is_large = sum(len(contour.pieces) for contour in self._backdrop) > MAX_PIECES
+        if is_large:
             self._timer = self.set_timer(PAUSE, self._draw)
         else:
             self._draw()
@@ -368,7 +368,7 @@ class ImportScreen(BaseScreen):
         drawing.subject = Picked(self._backdrop, self.chosen, self.unit, view)
 
     def _about(self) -> list[Content]:
-        """Start and direction, what is wrong with it or was made of it, and what reading has done."""
+        """Return three lines: start and direction, problems or fitted arcs, and what the reader did to the drawing."""
         contour, listed, unit = self.contour, self.listed, self.unit
         if listed is None:
             return []
@@ -396,7 +396,7 @@ class ImportScreen(BaseScreen):
         self._show_row()
 
     def action_mark(self) -> None:
-        """Mark the row with the cursor, or take its mark off."""
+        """Mark or unmark the row with the cursor."""
         numbers = set(self.row_numbers)
         self.marked = self.marked - numbers if numbers <= self.marked else self.marked | numbers
         self.table.show_marks(self.marked)
@@ -404,7 +404,7 @@ class ImportScreen(BaseScreen):
         self._show_row()
 
     def action_unfold(self, wide: bool) -> None:
-        """A row of several circles as a row each, or as one again."""
+        """Unfold a row of several circles into one row each, or fold them again."""
         contour, numbers = self.contour, self.row_numbers
         if contour is None or self.listed is None:
             return
@@ -419,13 +419,13 @@ class ImportScreen(BaseScreen):
                 self._show_rows(first)
 
     def action_next_row(self, by: int) -> None:
-        """The next chain, or the one before."""
+        """Move the cursor `by` rows."""
         self.table.move_cursor(row=self.table.cursor_row + by)
 
     # ---- filter
 
     def action_filter(self) -> None:
-        """Type what a row must hold: a layer, a kind, a length, a size."""
+        """Open the filter line, which takes part of a layer, kind, length or size."""
         self.add_class("-filtering")
         self.query_one("#filter", Input).focus()
         self.refresh_frame()
@@ -444,7 +444,7 @@ class ImportScreen(BaseScreen):
     # ---- softkeys
 
     def _change(self, change: Callable[[Contour], Contour], contours: Collection[Contour]) -> None:
-        """Put other contours in the place of some; their rows stay."""
+        """Replace some contours by changed ones; their rows stay where they are."""
         assert self.listed is not None
         made = {contour.number: change(contour) for contour in contours}
         self.listed = replace(
@@ -452,13 +452,13 @@ class ImportScreen(BaseScreen):
         )
 
     def action_reverse(self) -> None:
-        """Travel the contours the other way; the proposed side of the tool changes with it."""
+        """Reverse the chosen contours; the proposed side of the tool changes with the direction."""
         self._change(reversed_contour, self.chosen)
         self._show_row()
 
     @work(exclusive=True, group="question")
     async def action_start(self) -> None:
-        """Ask for another start of the contour with the cursor."""
+        """Ask for a new start point on the contour with the cursor."""
         contour, unit = self.contour, self.unit
         if contour is None:
             return
@@ -478,7 +478,7 @@ class ImportScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_fit(self) -> None:
-        """Fit arcs to the contours' runs of lines; those that are fitted are lines again."""
+        """Fit arcs to runs of short lines; if a chosen contour is already fitted, bring its lines back instead."""
         await self._fit_chosen()
 
     async def _fit_chosen(self) -> None:
@@ -510,7 +510,7 @@ class ImportScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_tolerance(self) -> None:
-        """Ask for the tolerance of joints and the fit of arcs, then list anew."""
+        """Ask for the joint tolerance and the arc fit tolerance, then rebuild the list."""
         options, unit = self.options, self.unit
         if options is None:
             return
@@ -525,7 +525,7 @@ class ImportScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_layers(self) -> None:
-        """Ask for the layers, then list anew."""
+        """Ask for the layers, then rebuild the list."""
         drawing, options = self.drawing, self.options
         if drawing is None or options is None:
             return
@@ -539,13 +539,13 @@ class ImportScreen(BaseScreen):
         self._list(replace(options, layers=None if len(chosen) == len(rows) else chosen))
 
     def _branch_of(self, contour: Contour) -> Branch | None:
-        """The first branch that an open contour ends at and another one too."""
+        """Return the first branch at which this contour and at least one other open contour end."""
         branches = () if self.listed is None else self.listed.branches
         return next((each for each in branches if contour.number in each.contours and len(each.contours) > 1), None)
 
     @work(exclusive=True, group="question")
     async def action_branch(self) -> None:
-        """Ask on which of the ways at a branch the contour with the cursor goes on."""
+        """Ask which contour continues the one with the cursor at a branch, and join the two."""
         contour = self.contour
         branch = None if contour is None else self._branch_of(contour)
         if contour is None or branch is None:
@@ -574,26 +574,26 @@ class ImportScreen(BaseScreen):
         self.call_after_refresh(self.say, f"{text} Chains are numbered anew.")
 
     def action_large(self) -> None:
-        """The drawing on the whole desk, or the list again."""
+        """Switch between the full-size drawing and the list."""
         self.toggle_class("-large")
         (self.picture if self.has_class("-large") else self.table).focus()
         self.refresh_frame()
 
     def action_zoom(self, steps: int) -> None:
-        """Enlarge or shrink about the middle of the window; 0 shows the whole drawing."""
+        """Zoom in or out about the center of the window; 0 shows the whole drawing."""
         drawing, subject = self.picture, self.picture.subject
         if isinstance(subject, Picked) and drawing.drawn is not None:
             drawing.subject = replace(subject, view=drawing.zoomed(steps) if steps else None)
 
     def action_pan(self, right: int, up: int) -> None:
-        """Move the window over the drawing, but never far away from it."""
+        """Pan the window, but never far away from the drawing."""
         drawing, subject = self.picture, self.picture.subject
         view = drawing.panned(right, up)
         if isinstance(subject, Picked) and view is not None:
             drawing.subject = replace(subject, view=view)
 
     def action_leave(self) -> None:
-        """Stop what is being worked out, else out of the large drawing, out of the filter, out of the screen."""
+        """Go one step back: stop the work, else leave the large drawing, the filter, or the screen."""
         filter_text = self.query_one("#filter", Input)
         if self._working:
             self._stopped = True
@@ -615,7 +615,7 @@ class ImportScreen(BaseScreen):
     @on(DataTable.RowSelected)
     @work(exclusive=True, group="question")
     async def action_take(self) -> None:
-        """Make a block of each contour that is chosen, in one edit."""
+        """Make a block of each chosen contour, in one edit."""
         contours = self.chosen
         if not contours or self._working:
             return
@@ -636,7 +636,7 @@ class ImportScreen(BaseScreen):
         await self._make_blocks(contours, side)
 
     async def _asked_side(self, numbers: Sequence[int]) -> CutterComp | None:
-        """CUTTER COMP. of open contours, which nothing proposes."""
+        """Ask for the CUTTER COMP. of open contours, which have no default; return None on GO BACK."""
         several = f"{len(numbers)} open chains" if len(numbers) > 1 else f"chain {numbers[0]}, which is open"
         answers = [Answer("LEFT"), Answer("RIGHT"), Answer("ON", "the tool's center on the chain")]
         word = await self.app.push_screen_wait(
@@ -658,7 +658,7 @@ class ImportScreen(BaseScreen):
             self._show_taken(made, blocks)
 
     def _show_taken(self, made: Program, blocks: Sequence[ImportedBlock]) -> None:
-        """The form of the first block that was made, and what is to be known of all of them."""
+        """Show the form of the first new block, and the notes on all of them."""
         first = len(made.blocks) - len(blocks) + 1
         self.host.move(FormPlace(first))
         self.host.action_contour()
@@ -670,10 +670,10 @@ class ImportScreen(BaseScreen):
             text = f"{' '.join(notes[:MAX_NOTES])}{rest}"
             self.app.call_later(self.host.say, text, Tone.WARNING)
 
-    # ---- words
+    # ---- texts
 
     def prompt_text(self) -> Sentence:
-        """What is being worked out, why there is no list, else what the keys do."""
+        """Return the progress, the reason why there is no list, or what the keys do."""
         if self._working:
             return Sentence(self._working)
         if self._failed:
@@ -683,7 +683,7 @@ class ImportScreen(BaseScreen):
         return Sentence(LARGE if self.has_class("-large") else PROMPT)
 
     def _filter_prompt(self) -> Sentence:
-        """What the filter holds back, and how all rows come back."""
+        """Return the filter's prompt; warn if no chain matches."""
         text = self.query_one("#filter", Input).value.strip()
         if text and self.listed is not None and not matching(self.listed.contours, text, self.unit):
             return Sentence(
@@ -692,7 +692,7 @@ class ImportScreen(BaseScreen):
         return Sentence("Type a part of a layer, kind, length or size. Enter goes to the list, Esc shows all.")
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Mark, filter, branch."""
+        """Return MARK, FILTER and BRANCH."""
         return (
             ("MARK", "screen.mark", "Space"),
             ("FILTER", "screen.filter", "/"),
@@ -700,9 +700,9 @@ class ImportScreen(BaseScreen):
         )
 
     def help_lines(self) -> tuple[str, ...]:
-        """The keys, then what reading has done."""
-        told = () if self.listed is None else tuple(sentences(self.listed, self.unit))
-        return (*HELP_LINES, *told)
+        """Return the keys, then what the reader did to the drawing."""
+        reading_notes = () if self.listed is None else tuple(sentences(self.listed, self.unit))
+        return (*HELP_LINES, *reading_notes)
 
 
 START_ANSWERS: Final = (
@@ -720,7 +720,7 @@ STARTS: Final[dict[str, Callable[[Contour], Contour]]] = {
     "BACK ONE SIDE": lambda contour: started_at_side(contour, -1),
     "LONGEST": started_at_usual_place,
 }
-"""What the answers to START do."""
+"""What each answer to START does to a contour."""
 
 HELP_LINES: Final = (
     "Each row is one chain of the drawing: closed ones by size, holes after what they lie in, open ones last.",
@@ -732,7 +732,7 @@ HELP_LINES: Final = (
 
 
 def start_words(contour: Contour) -> str:
-    """What the start is, the direction of travel and the side of the tool."""
+    """Return the kind of start, the direction of travel and the side of the tool."""
     if not contour.closed:
         return "  open: TAKE asks for CUTTER COMP."
     side = "LEFT" if contour.side is Side.LEFT else "RIGHT"
