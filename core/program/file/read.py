@@ -332,7 +332,8 @@ def _choice(table: _Table) -> int | None:
     value = table.data.get("choice")
     if value is None or (type(value) is int and 0 <= value <= MAX_CHOICE):
         return value
-    raise table.fault("choice", f"choice cannot be {_written(value)}: write the number of a solution, 0 to 7.")
+    way = f"write a whole number from 0 to {MAX_CHOICE}, or remove it."
+    raise table.fault("choice", f"choice cannot be {_written(value)}: {way}")
 
 
 def _tangent(table: _Table) -> bool:
