@@ -1,4 +1,4 @@
-"""The command line: the screens, and the same program without a screen.
+"""This module is the command line: it starts the screens or a command that runs without them.
 
 Exit status: 0 clean, 1 findings of severity error, 2 unusable input or arguments.  Results go to standard output,
 messages to standard error.
@@ -16,7 +16,7 @@ from app.documents.naming import is_drawing
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the program with these arguments, or with the command line's; returns the exit status."""
+    """Run the program with these arguments, or with the command line's; return the exit status."""
     given = sys.argv[1:] if arguments is None else arguments
     if not given:
         return screens(None)
@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
         from app.cli.shop import shop
 
         return shop(given)
-    # a file alone needs no parser: the screens stand sooner
+    # a file alone needs no parser, so that the screens appear sooner
     return _parsed(given) if len(given) > 1 or word in HELP or word.startswith("-") else screens(Path(word))
 
 
@@ -59,11 +59,11 @@ def _parsed(given: list[str]) -> int:
 
 
 def screens(file: Path | None, example: str | None = None, options: TerminalOptions = NOTHING_ASKED) -> int:
-    """The screens on a program, an NC file or a drawing, an example part, or the start screen; returns the status."""
+    """Run the screens on a program, NC file, drawing, or example part, or the start screen; return the exit status."""
     if file is not None and is_drawing(file) and not file.is_file():
         say(f"{file}: there is no such drawing.")
         return UNUSABLE
-    # before the imports
+    # must run before the imports below
     prepare()
     from app.cli.screens import run
 
@@ -71,11 +71,11 @@ def screens(file: Path | None, example: str | None = None, options: TerminalOpti
 
 
 def guarded() -> None:
-    """The console command: a closed pipe and Ctrl+C end it quietly, trouble with files in a sentence."""
+    """Run the console command; a closed pipe and Ctrl+C end it quietly, a file error is reported in a sentence."""
     lifeline.watch()
     try:
         status = main()
-        # what fails now would be told by the interpreter, and not in a sentence
+        # flush now: at exit the interpreter would report a failure with a traceback
         sys.stdout.flush()
     except KeyboardInterrupt:
         status = 130
@@ -89,12 +89,12 @@ def guarded() -> None:
 
 
 def trouble(error: OSError) -> str:
-    """What the system refused, as a sentence; without a file's name it is standard output that takes nothing."""
+    """Return what the system refused, as a sentence; an error without a file name is one of standard output."""
     from app.documents.files import why
 
     if error.filename is not None:
         return f"{error.filename}: {why(error)}"
-    # what is still buffered could not be written at the end either
+    # discard what is still buffered: it could not be written at exit either
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return f"standard output cannot be written: {why(error)}"
 

@@ -291,13 +291,11 @@ class CutcompApp(TransformActions):
         from app.documents.questions import GO_BACK, Answer
         from app.screens.dialogs import Question
 
-        program_unit = "INCH" if self.session.program.unit is Unit.IN else "MM"
-        answers = [
-            Answer(word, "as it is: go on" if word == program_unit else "PROGRAM PARAMETERS") for word in ("INCH", "MM")
-        ]
-        word = await self.push_screen_wait(Question("INCH or MM?", [text], answers, program_unit))
+        unit = "INCH" if self.session.program.unit is Unit.IN else "MM"
+        answers = [Answer(word, "as it is: go on" if word == unit else "PROGRAM PARAMETERS") for word in ("INCH", "MM")]
+        word = await self.push_screen_wait(Question("INCH or MM?", [text], answers, unit))
         self._unit_settled = word != GO_BACK
-        if word == program_unit:
+        if word == unit:
             self._show_post()
         elif word != GO_BACK:
             self.action_parameters()

@@ -1,4 +1,4 @@
-"""The session, what workers derive from its program, and the screens that follow both."""
+"""DerivationActions keeps the session, derives its program in workers, and updates the screens."""
 
 from __future__ import annotations
 
@@ -26,39 +26,39 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
 
 QUIET = 0.2
-"""Seconds without a key after which it is looked for what would help: a key never waits for that."""
+"""Seconds without a key before the search for advice starts, so that no key waits for it."""
 
 
 class DerivationActions(WorkActions):
-    """The App's side of what follows from the program: paths and verdict, look-ahead table, advice.
+    """The App's part for what is derived from the program: paths and verdict, look-ahead table, advice.
 
-    `session` is the work as it has been accepted.  `shown` is what verdict and drawings show: the same, or the session
-    as a half-typed number would make it.
+    `session` holds all accepted edits.  `shown` is what verdict and drawings show: the same session, or the one
+    that a half-typed number would make.
     """
 
     session: var[Session] = var(lambda: Session.of(Program()), init=False)
     shown: var[Session] = var(lambda: Session.of(Program()), init=False)
     guided: var[bool] = var(default=False, init=False)
-    """The prompt leads through a first part; Esc ends it."""
+    """Whether the prompt guides through a first part; Esc ends the guide."""
     characters: var[str] = var("braille", init=False)
-    """The set of characters that drawings and signs are made of."""
+    """The character set of drawings and signs."""
 
     _wanted: Request | None = None
     _deriving: tuple[Request, Work] | None = None
     _making_table: tuple[DerivedBlock, Work] | None = None
     stopped: Program | DerivedBlock | None = None
-    """What is not worked out since Esc has stopped it: all of a program, or the look-ahead table of a block."""
+    """What Esc has stopped: the calculation of a program, or of a block's look-ahead table."""
     _advice_timer: Timer | None = None
     _unit_mentioned = _unit_settled = False
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line of the screen in front, or of the one under a dialog."""
+        """Show a sentence on the prompt line of the screen in front, or of the one under a dialog."""
         screens = self._screens()
         if screens:
             screens[-1].say(text, tone)
 
     def try_out(self, program: Program | None) -> None:
-        """Show what a half-typed number would do; None for nothing half-typed."""
+        """Show what a half-typed number would do; None when nothing is half-typed."""
         self._advise_later()
         if program is not None:
             self._derive(Request(program, trial=True))
@@ -73,7 +73,7 @@ class DerivationActions(WorkActions):
             self._derive(Request(self.session.program))
 
     def _derive(self, request: Request) -> None:
-        """Have a program derived; of several that wait only the newest is, and one nobody waits for is given up."""
+        """Derive a program in a worker; only the newest waiting request is kept, and an outdated run is stopped."""
         running = self._deriving
         if running is None:
             self._deriving = running = request, self.begin_work(self._calculation_stopped)
@@ -83,7 +83,7 @@ class DerivationActions(WorkActions):
             if running[0].trial or not request.trial:
                 running[1].stopped = True
 
-    # described, as every worker that takes a program: else Textual writes all of it down, before the next key
+    # a worker with a program needs a description: else Textual formats the whole program before the next key
     @work(thread=True, group="derive", description="derive")
     def _derive_in_thread(self, request: Request, work: Work) -> None:
         try:
@@ -115,7 +115,7 @@ class DerivationActions(WorkActions):
             self._make_table()
 
     def _unit_question(self) -> str:
-        """INCH or MM? as a sentence, empty where the part's size is as usual or nothing is known of it."""
+        """Return the question INCH or MM?; empty if the part's size is usual or unknown."""
         from core.pipeline.unit_question import unit_question
         from core.units import sentence
 
@@ -123,13 +123,13 @@ class DerivationActions(WorkActions):
         return "" if question is None else sentence(question, self.session.program.unit)
 
     def _mention_unit(self) -> None:
-        """Ask for the unit on the form, once for a program."""
+        """Mention a doubtful unit on the form, once per program."""
         if not self._unit_mentioned and isinstance(self.screen, ContourScreen) and (text := self._unit_question()):
             self._unit_mentioned = True
             self.say(f"{text} UNITS is in PROGRAM PARAMETERS.", Tone.WARNING)
 
     def _make_table(self) -> None:
-        """Have the look-ahead table of the block in front made, where it is not known yet."""
+        """Make the look-ahead table of the block with the cursor in a worker, if it is not known yet."""
         block, running = self.session.derived_block, self._making_table
         if running is not None and running[0] is not block:
             running[1].stopped = True
@@ -163,29 +163,29 @@ class DerivationActions(WorkActions):
             self._make_table()
 
     def _calculation_stopped(self) -> None:
-        """Esc has stopped the derivation or the table: it is begun again by an edit, or when it is asked for."""
+        """Note what Esc has stopped; an edit or CALCULATE starts it again."""
         block = self.session.derived_block
         self.stopped = block if block.known else self.session.program
         self.say("Stopped. Any edit calculates again, or Ctrl+K and CALCULATE.", Tone.WARNING)
 
     def end_guide(self, text: str) -> None:
-        """The prompt is the screens' own again; says so where it was not."""
+        """End the guide if it is on, and show this text."""
         if self.guided:
             self.guided = False
             self.say(text)
 
     def watch_session(self, session: Session) -> None:
-        """All screens follow the session."""
+        """Update all screens after the session has changed."""
         for screen in self._screens():
             screen.follow(session)
 
     def watch_shown(self, shown: Session) -> None:
-        """So they do what half-typed numbers would do."""
+        """Update all screens after the session on display has changed."""
         for screen in self._screens():
             screen.follow_shown(shown)
 
     def watch_characters(self, characters: str) -> None:
-        """All screens draw with these characters."""
+        """Redraw all screens with these characters."""
         for screen in self._screens():
             screen.draw_with(characters)
             screen.show_signs()
@@ -194,12 +194,12 @@ class DerivationActions(WorkActions):
         return [screen for screen in self.screen_stack if isinstance(screen, BaseScreen)]
 
     def watch_guided(self) -> None:
-        """The prompt changes at once."""
+        """Update the prompt at once."""
         if isinstance(self.screen, BaseScreen):
             self.screen.refresh_frame()
 
     def action_calculate(self) -> None:
-        """Begin again what Esc has stopped."""
+        """Restart what Esc has stopped."""
         self.stopped = None
         if self.session.derived_block.known:
             self._make_table()
@@ -207,14 +207,14 @@ class DerivationActions(WorkActions):
             self._derive(Request(self.session.program))
 
     def _advise_later(self) -> None:
-        """Stop looking for what would help; begin again once no key has come for a while."""
+        """Stop the search for advice, and start it again after a pause."""
         self.workers.cancel_group(self, "advice")
         if self._advice_timer is not None:
             self._advice_timer.stop()
         self._advice_timer = self.set_timer(QUIET, self._advise) if self.is_running else None
 
     def _advise(self) -> None:
-        """Have notes added to the look-ahead table of the block in front, where they are not known yet."""
+        """Add notes to the look-ahead table of the block with the cursor in a worker, if they are not known yet."""
         table, block = self.session.lookahead_table, self.session.derived_block
         if table is not None and not table.complete and self.shown is self.session and self._deriving is None:
             self._advise_in_thread(block, self.session.program, table)
@@ -227,12 +227,12 @@ class DerivationActions(WorkActions):
                 self.post_message(TableMade(block, noted, advised=True))
 
     def _uncover(self, depth: int) -> None:
-        """The screen at a depth of the stack to the front; those over it are closed."""
+        """Bring the screen at `depth` of the stack to the front; close those above it."""
         for _ in self.screen_stack[depth + 1 :]:
             self.pop_screen()
 
     def begin(self, session: Session) -> None:
-        """Work on another program from now on, or on the same one under another name."""
+        """Switch to the session of another program, or of the same one under a new name."""
         same = session.program is self.session.program and session.derived is self.session.derived
         if session.program is not self.session.program:
             self.guided = self._unit_mentioned = self._unit_settled = False
@@ -242,25 +242,25 @@ class DerivationActions(WorkActions):
             self._derive(Request(session.program))
 
     def quiet(self) -> None:
-        """The prompts again, on every screen."""
+        """Show the prompt again on every screen."""
         for screen in self._screens():
             screen.quiet()
 
     def take_typed(self) -> bool:
-        """Take what is half-typed on the screen in front; False where it is refused."""
+        """Take what is half-typed on the screen in front; return False if it is refused."""
         return not isinstance(self.screen, BaseScreen) or self.screen.take()
 
     @property
     def proof(self) -> ProofScreen | None:
-        """NC PROOF, where it is in front."""
+        """The NC PROOF screen in front; None if another screen is."""
         proofs = self.proofs
         return proofs[-1] if proofs and proofs[-1] is self.screen else None
 
     @property
     def proofs(self) -> list[ProofScreen]:
-        """Every NC PROOF that is open."""
+        """Every open NC PROOF screen."""
         if "app.nc_proof.screen" not in sys.modules:
-            # to ask loads no control and no numpy before the first paint
+            # do not load the controls and numpy before the first paint just to find out
             return []
         from app.nc_proof.screen import ProofScreen
 

@@ -171,14 +171,14 @@ class FileActions(DerivationActions):
     def action_undo(self) -> None:
         """Undo one edit; discard half-typed text."""
         label = self.session.history.undo_label
-        self._turn("undo", label, self.session.undone, f"Undone: {label}. Ctrl+Y brings it back.")
+        self._undo_or_redo("undo", label, self.session.undone, f"Undone: {label}. Ctrl+Y brings it back.")
 
     def action_redo(self) -> None:
         """Redo one edit; discard half-typed text."""
         label = self.session.history.redo_label
-        self._turn("redo", label, self.session.redone, f"Done again: {label}.")
+        self._undo_or_redo("redo", label, self.session.redone, f"Done again: {label}.")
 
-    def _turn(self, action: str, label: str | None, turned: Callable[[], Session], done: str) -> None:
+    def _undo_or_redo(self, action: str, label: str | None, turned: Callable[[], Session], done: str) -> None:
         """Undo or redo; a screen with its own document does so on that document instead."""
         if isinstance(self.screen, BaseScreen):
             if self.screen.take_over(action):
@@ -278,7 +278,7 @@ class FileActions(DerivationActions):
 
         def opened() -> Opened[Any] | Trouble | Path:
             if not kept_copy:
-                where = _named(chosen(path, here))
+                where = _file_of_name(chosen(path, here))
                 return where if is_folder(where) or is_drawing(where) else service.open(where)
             file = file_of_copy(path, path.parent)
             return service.copy_without_name(path) if file is None else service.open(file, kept_copy=path)
@@ -293,7 +293,7 @@ class FileActions(DerivationActions):
         elif isinstance(result, Path):
             self.show_folder(result)
         else:
-            await self._begun(result)
+            await self._show_opened(result)
 
     async def _open_drawing(self, path: Path) -> None:
         """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
@@ -308,7 +308,7 @@ class FileActions(DerivationActions):
                 fresh = True
         self.show_drawing(path, fresh=fresh)
 
-    async def _begun(self, opened: Opened[Any]) -> None:
+    async def _show_opened(self, opened: Opened[Any]) -> None:
         """Show an opened document; a program first closes everything else, as only one can be open."""
         document = opened.document
         if isinstance(document, ContourDocument):
@@ -478,7 +478,7 @@ class FileActions(DerivationActions):
         """Save an NC text, asking questions as needed; return whether it was saved."""
         if not proof.take_lines():
             return False
-        result = await self._written(proof.document, path)
+        result = await self._save_document(proof.document, path)
         if isinstance(result, Saved):
             proof.saved(result.document)
             self.notify(result.notice.text, timeout=4)
@@ -524,7 +524,7 @@ class FileActions(DerivationActions):
                 path = document.file.path.absolute()
                 self.show_folder(path.parent, path)
 
-    async def _written(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
+    async def _save_document(self, document: AnyDocument, path: Path | None) -> Saved[AnyDocument] | None:
         """Save a document, asking questions as needed; return None if it was not saved."""
         agreed = frozenset[str]()
         if path is None and document.file.path is None:
@@ -559,7 +559,7 @@ class FileActions(DerivationActions):
     async def saved(self, path: Path | None) -> bool:
         """Save the program, asking questions as needed; return whether it was saved."""
         self.drop_empty_segment()
-        result = await self._written(self.document, path)
+        result = await self._save_document(self.document, path)
         if result is None:
             return False
         self.document = self.document.after_saving(result.document)
@@ -588,7 +588,7 @@ class FileActions(DerivationActions):
             self.exit(0)
 
 
-def _named(path: Path) -> Path:
+def _file_of_name(path: Path) -> Path:
     """Return the file a typed name means: an NC program or drawing by its suffix, else a cutcomp program."""
     return path if path.suffix.lower() in NC_SUFFIXES or is_drawing(path) else program_named(path)
 

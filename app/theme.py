@@ -1,4 +1,4 @@
-"""The themes: one table of roles and colors; TCSS and the drawing name the roles alone, as `$c-role`."""
+"""The themes are one table of roles and colors; TCSS and the drawing use only the roles, as `$c-role`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from textual.theme import BUILTIN_THEMES, Theme
 DARK: Final = "cutcomp-dark"
 LIGHT: Final = "cutcomp-light"
 SIXTEEN: Final = "cutcomp-16"
-"""The terminal's own sixteen colors, or none where NO_COLOR is set."""
+"""The theme with the terminal's own sixteen colors, or none if NO_COLOR is set."""
 
 _ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
     {
         "bg": ("#10161d", "#fbfaf6", "ansi_default"),
-        # gray enough to be gray where a terminal has 256 colors
+        # gray enough to stay gray on a terminal with 256 colors
         "bar": ("#1d2227", "#e8eaec", "ansi_default"),
         "well": ("#23282e", "#eceef0", "ansi_default"),
         "frame": ("#5b6e81", "#7f8c99", "ansi_default"),
@@ -39,16 +39,16 @@ _ROLES: Final[Mapping[str, tuple[str, str, str]]] = MappingProxyType(
         "focus": ("#7cc4ff", "#0b5cad", "ansi_default"),
     }
 )
-"""Role: color in the dark, the light, and the sixteen-color theme."""
+"""The color of each role in the dark, the light, and the sixteen-color theme."""
 
 
 def themes() -> tuple[Theme, ...]:
-    """The three themes."""
+    """Return the three themes."""
     return tuple(_theme(name, column) for column, name in enumerate((DARK, LIGHT, SIXTEEN)))
 
 
 def _scrollbars(colors: Mapping[str, str]) -> dict[str, str]:
-    """Scrollbars of all widgets: a frame's color on the page."""
+    """Return the colors of all scrollbars: the frame's color on the background."""
     bars = {name: colors["frame"] for name in ("scrollbar", "scrollbar-hover", "scrollbar-active")}
     pages = ("background", "background-hover", "background-active", "corner-color")
     return bars | {f"scrollbar-{name}": colors["bg"] for name in pages}
@@ -57,7 +57,7 @@ def _scrollbars(colors: Mapping[str, str]) -> dict[str, str]:
 def _theme(name: str, column: int) -> Theme:
     colors = {role: each[column] for role, each in _ROLES.items()}
     ansi = name == SIXTEEN
-    # an ANSI theme without these variables is refused by Textual's own style sheets
+    # Textual's own style sheets fail on an ANSI theme without these variables
     base = BUILTIN_THEMES["ansi-dark"].variables if ansi else {}
     return Theme(
         name,

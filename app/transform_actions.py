@@ -1,4 +1,4 @@
-"""What the App does to whole shapes: a block moved, rotated or mirrored, segments repeated, each as one edit."""
+"""TransformActions shifts, rotates or mirrors a block, or repeats segments, each as one edit."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ COPIES: Final = NumberEntry("COPIES", Kind.COUNT, "1")
 
 
 class TransformActions(FileActions):
-    """The App's side of shapes."""
+    """The App's part for transforming shapes."""
 
     async def _edited(
         self, title: str, line: str, entries: Sequence[NumberEntry], edit: Callable[..., Edited]
     ) -> Edited | None:
-        """The edit by the numbers that are typed, in program units and degrees; None for none.  Only in a worker."""
+        """Ask for numbers, in program units and degrees, and return the edit; None on Esc.  Call only in a worker."""
 
         def refusal(*numbers: float) -> str:
             edited = edit(*numbers)
@@ -57,35 +57,35 @@ class TransformActions(FileActions):
             title, line, entries, lambda *numbers: transform.transform_block(program, number, motion_of(*numbers))
         )
         if edited is not None and self.apply(edited, f"{title} {number}"):
-            # what was said of the edit before is over
+            # messages about the previous edit no longer apply
             self.quiet()
             self.notify(f"{title} {number} is done. Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:
-        """Move the block with the cursor."""
+        """Shift the block with the cursor."""
         await self._block("SHIFT BLOCK", "How far, in X and Y.", (X, Y), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_rotate_block(self) -> None:
-        """Turn the block with the cursor about a point."""
+        """Rotate the block with the cursor about a point."""
         line = "Counter-clockwise about a point, in degrees."
         await self._block("ROTATE BLOCK", line, (*CENTER, ANGLE), self._rotated)
 
     @work(exclusive=True, group="question")
     async def action_mirror_block(self) -> None:
-        """Mirror the block with the cursor in a line."""
+        """Mirror the block with the cursor about a line."""
         line = "In the line through X, Y at ANGLE: 90 swaps left and right."
         await self._block("MIRROR BLOCK", line, (X, Y, ANGLE), self._mirrored)
 
     @work(exclusive=True, group="question")
     async def action_repeat_shifted(self) -> None:
-        """Repeat segments, each copy moved on."""
+        """Repeat segments, each copy shifted from the one before."""
         await self._repeat("REPEAT, SHIFTED", (X, Y), self._shifted)
 
     @work(exclusive=True, group="question")
     async def action_repeat_rotated(self) -> None:
-        """Repeat segments, each copy turned on about a point."""
+        """Repeat segments, each copy rotated about a point from the one before."""
         await self._repeat("REPEAT, ROTATED", (*CENTER, ANGLE), self._rotated)
 
     async def _repeat(
@@ -104,5 +104,5 @@ class TransformActions(FileActions):
         line = "Copies stand after the last of these segments."
         edited = await self._edited(title, line, (*which, *entries, COPIES), repeated)
         if edited is not None and self.apply(edited, f"{title}, block {place.block}"):
-            # what was said of the edit before is over
+            # messages about the previous edit no longer apply
             self.quiet()

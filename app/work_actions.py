@@ -1,4 +1,4 @@
-"""Long work: how far it is stands on the status line, and Esc stops it."""
+"""WorkActions shows the progress of long work on the status line and stops it on Esc."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from app.session.work import SHOWN_AFTER, Work
 
 
 class WorkActions(App[int]):
-    """The App's side of work in threads that takes longer than a moment."""
+    """The App's part for long work in threads."""
 
     _works: tuple[Work, ...] = ()
     _work_timer: Timer | None = None
 
     def begin_work(self, on_stop: Callable[[], None]) -> Work:
-        """A piece of work begins in a thread; `on_stop` is called where Esc stops it."""
+        """Register work that starts in a thread; `on_stop` is called if Esc stops it."""
         work = Work(on_stop)
         self._works = (*self._works, work)
         if self._work_timer is None:
@@ -26,7 +26,7 @@ class WorkActions(App[int]):
         return work
 
     def end_work(self, work: Work | None) -> None:
-        """It is done, or its result is not wanted any more: then its thread stops at its next word; None is no work."""
+        """End work that is done or no longer needed; a running thread stops at its next report.  Ignore None."""
         if work is None:
             return
         work.stopped = True
@@ -38,23 +38,23 @@ class WorkActions(App[int]):
 
     @property
     def longest_work(self) -> Work | None:
-        """What has been going on longest, where that is long enough to be shown."""
+        """The work that has run longest, if it has run long enough to be shown."""
         return next((work for work in self._works if work.long), None)
 
     def show_work(self) -> None:
-        """How far the work is, on the screen in front."""
+        """Show the progress of the longest work on the screen in front."""
         for screen in self.screen_stack[-1:]:
             if isinstance(screen, BaseScreen):
                 screen.show_work(self.longest_work)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Esc stops work only where there is some that takes long; else it is the screen's."""
+        """Let Esc stop work only if some has run long enough; otherwise Esc goes to the screen."""
         if action == "stop_work":
             return any(work.stoppable for work in self._works)
         return super().check_action(action, parameters)
 
     def action_stop_work(self) -> None:
-        """Stop everything that takes long."""
+        """Stop all work that has run long enough."""
         for work in self._works:
             if work.stoppable:
                 self.end_work(work)

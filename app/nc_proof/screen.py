@@ -216,14 +216,14 @@ class ProofScreen(BaseScreen):
         """Undo or redo an edit of the NC text; return False for any other action."""
         match action:
             case "undo":
-                self._turn(self.document.text.undone(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
+                self._step(self.document.text.undone(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
             case "redo":
-                self._turn(self.document.text.redone(), "Done again.", "There is nothing to redo.")
+                self._step(self.document.text.redone(), "Done again.", "There is nothing to redo.")
             case _:
                 return False
         return True
 
-    def _turn(self, text: NcText, done: str, nothing: str) -> None:
+    def _step(self, text: NcText, done: str, nothing: str) -> None:
         if not self.take_lines():
             return
         if text is self.document.text:
@@ -572,7 +572,7 @@ class ProofScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_control(self) -> None:
-        """Choose the control from a list."""
+        """Let the operator choose the control from a list."""
         rows = control_rows(choices())
         here = self.question.control
         control = await self.app.push_screen_wait(ChooseLine("CONTROL", rows, here, classes="wide-box"))

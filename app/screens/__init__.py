@@ -1,1 +1,1 @@
-"""The screens: one Textual Screen or ModalScreen a module."""
+"""The screens of the App: Textual screens and dialogs, and what they share."""

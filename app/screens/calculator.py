@@ -1,4 +1,4 @@
-"""Calculator: one of the shop's usual cases, typed over the form; the chosen answer goes into the field that asked."""
+"""Calculator solves one of the shop's usual cases over the form; the chosen answer goes into the field."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from core.units import Unit
 
 
 class Calculator(Dialog[str]):
-    """The numbers of a case and its answers; the result is the text of the chosen one, empty for none.
+    """The inputs of a case and its answers; the result is the text of the chosen answer, empty for none.
 
-    `typed` holds the texts by name, as they were typed.
+    `typed` holds the typed texts by input name.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = LINES_UP_AND_DOWN
@@ -34,7 +34,7 @@ class Calculator(Dialog[str]):
         self._texts: list[str] = []
 
     def compose_box(self) -> ComposeResult:
-        """A line a number, then the answers, then what is wrong."""
+        """Lay out one line per input, then the answers, then the error."""
         for quantity in self.case.inputs:
             with Horizontal(classes="field"):
                 yield PlainLabel(quantity.label, classes="label")
@@ -43,7 +43,7 @@ class Calculator(Dialog[str]):
         yield PlainText(id="number-trouble")
 
     def on_mount(self) -> None:
-        """The title, and what the texts of last time come to."""
+        """Calculate with the texts of the last time."""
         self._show()
 
     @on(Input.Changed)
@@ -52,7 +52,7 @@ class Calculator(Dialog[str]):
         self._show()
 
     def _show(self) -> None:
-        """The answers of what is typed, or why there is none."""
+        """Show the answers for the typed texts, or why there are none."""
         results = calculate(self.case, self.typed, self.unit)
         refused = isinstance(results, Refusal)
         self.query_one("#number-trouble", Static).update(results.text if isinstance(results, Refusal) else "")
@@ -72,13 +72,13 @@ class Calculator(Dialog[str]):
         options.highlighted = next((at for at, (row, _, _) in enumerate(rows) if self._fits(row)), 0) if rows else None
 
     def _fits(self, quantity: Quantity) -> bool:
-        """Whether an answer is what the field is about: X for X END, RADIUS for RADIUS."""
+        """Return whether an answer suits the field: X for X END, RADIUS for RADIUS."""
         name = self.field.name
         return quantity.name == name or (name[1] == "_" and quantity.name.startswith(name[:2]))
 
     @on(Input.Submitted)
     def _submitted(self, event: Input.Submitted) -> None:
-        """To the next number; after the last one to the answers, or to what is wrong."""
+        """Go to the next input; after the last one, to the answers or to the faulty input."""
         inputs = list(self.query(Input))
         after = inputs[inputs.index(event.input) + 1 :]
         results = calculate(self.case, self.typed, self.unit)

@@ -148,7 +148,7 @@ class ContourScreen(FormScreen):
         self._cursor: Cursor | None = None
         self.entries: tuple[Entry, ...] = ()
         self.in_hand: int | None = None
-        """The index of the placed finding that the loupe shows; None if it shows the segment with the cursor."""
+        """The index of the selected placed finding; None shows the segment, or on START the first finding."""
         self._tried = False
         """Whether the other fields show what they would be with a half-typed number."""
         self._left_field: tuple[FormPlace, str] | None = None
@@ -186,7 +186,7 @@ class ContourScreen(FormScreen):
         return form
 
     def form(self) -> Form:
-        """The form of the segment with the cursor."""
+        """Return the form of the segment with the cursor."""
         return self._forms[self._form]
 
     def show_session(self, session: Session) -> None:

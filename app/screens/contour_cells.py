@@ -1,4 +1,4 @@
-"""The cells of the MILL CONTOUR form: START and the LINE, ARC and BLEND ARC segments."""
+"""This module makes the cells of the MILL CONTOUR form, for START and every kind of segment."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
         Form.CHAMFER: frozenset({"feed"}),
     }
 )
-"""The fields that stand in the right column of their form; the others stand in the left one."""
+"""The fields in the right column of each form; all others are in the left one."""
 
 
 def form_at(session: Session) -> Form:
-    """The form of the segment with the cursor."""
+    """Return the form of the segment with the cursor."""
     return Form.START if session.segment is None else form_of(session.segment)
 
 
 def fields_at(session: Session) -> tuple[Field, ...]:
-    """The fields shown there, in the order in which the cursor goes through them."""
+    """Return the visible fields of that form, in cursor order."""
     return tuple(field for field in _every_field(form_at(session)) if _visible(session, field))
 
 
@@ -56,7 +56,7 @@ def _visible(session: Session, field: Field) -> bool:
 
 
 def cells_at(session: Session) -> tuple[Cell, ...]:
-    """Every cell of the form there, also those that are not visible just now."""
+    """Return every cell of that form, including those not visible now."""
     form, unit, missing = form_at(session), session.program.unit, missing_fields(session)
     cells = [
         _cell(session, field, int(field.name in RIGHT_COLUMN[form]), unit, needed=field.name in missing)
@@ -65,9 +65,9 @@ def cells_at(session: Session) -> tuple[Cell, ...]:
     extra: Iterator[Cell] = (
         _tool_cells(session.derived_block, unit) if session.segment is None else _end_cells(session, form, unit)
     )
-    # the lines of START stand as on the control: what the control does not have comes last
-    own = [cell for cell in cells if cell.name == "coolant"]
-    return (*(cell for cell in cells if cell.name != "coolant"), *extra, *own)
+    # START keeps the order of the control; COOLANT, which the control does not have, comes last
+    last = [cell for cell in cells if cell.name == "coolant"]
+    return (*(cell for cell in cells if cell.name != "coolant"), *extra, *last)
 
 
 def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bool) -> Cell:
@@ -77,8 +77,8 @@ def _cell(session: Session, field: Field, column: int, unit: Unit, *, needed: bo
         text = "" if solution is None or solution.taken is None else solution.label
         labels = () if solution is None else solution.labels
         state = State.NEEDED if solution is not None and solution.taken is None else State.TYPED
-        shown = "" if solution is None else solution.label
-        return Cell("choice", field.label, text, column, state, "", shown, labels, visible, folds=True)
+        full = "" if solution is None else solution.label
+        return Cell("choice", field.label, text, column, state, "", full, labels, visible, folds=True)
     if field.name == "coolant":
         return _coolant_cell(session, field)
     overrides = field.name == "lookahead" and session.derived_block.lookahead.tag is Tag.USR
@@ -94,12 +94,12 @@ def _coolant_cell(session: Session, field: Field) -> Cell:
 
 
 def solution_here(session: Session) -> Solution | None:
-    """What there is to choose at the segment with the cursor; None where there is no choice."""
+    """Return the solutions to choose from at the segment with the cursor; None if there is no choice."""
     return None if session.segment is None else solution_at(session.derived_block.solved, session.place.segment)
 
 
 def value_at(session: Session, name: str) -> Value | str:
-    """What a field holds there: typed or calculated."""
+    """Return the typed or calculated value of a field of that form."""
     block, segment = session.derived_block, session.segment
     typed: Block | Segment = session.block if segment is None else segment
     if name in ("cutter_comp", "direction"):
@@ -124,7 +124,7 @@ def _lookahead(block: DerivedBlock) -> Value:
 
 
 def missing_fields(session: Session) -> tuple[str, ...]:
-    """The blank fields of which the contour needs one more, or all on START."""
+    """Return the blank fields of a segment of which one more is needed; on START, all of those that are needed."""
     if session.segment is not None:
         return solved_segment(session).missing
     findings = session.derived_block.solved.findings
@@ -132,17 +132,17 @@ def missing_fields(session: Session) -> tuple[str, ...]:
 
 
 def solved_segment(session: Session) -> SolvedSegment:
-    """What became of the segment with the cursor."""
+    """Return the solved segment with the cursor."""
     return session.derived_block.solved.segments[session.place.segment - 1]
 
 
 def run_here(session: Session) -> SolvedRun | None:
-    """The run of which the segment with the cursor is a part."""
+    """Return the run that contains the segment with the cursor, if any."""
     return session.derived_block.solved.run_of(session.place.segment)
 
 
 def run_label(session: Session) -> str:
-    """`RUN 2-4` in a run, and how many values it needs while that is known."""
+    """Return `RUN 2-4` for a run, with the number of missing values if known; empty outside a run."""
     run = run_here(session)
     if run is None or run.first == run.last:
         return ""
@@ -151,7 +151,7 @@ def run_label(session: Session) -> str:
 
 
 def run_trouble(session: Session) -> Finding | None:
-    """Why the run of the segment with the cursor has no answer; it may stand at another segment."""
+    """Return why the run at the cursor has no answer; the finding may belong to another of its segments."""
     run = run_here(session)
     if run is None or run.taken is not None:
         return None
@@ -166,11 +166,11 @@ def _tool_cells(block: DerivedBlock, unit: Unit) -> Iterator[Cell]:
 
 
 def _end_cells(session: Session, form: Form, unit: Unit) -> Iterator[Cell]:
-    """Where the segment starts, on the line that SOLUTION takes where there is a choice, and a corner's end."""
+    """Yield the segment's start, on the line SOLUTION uses if there is a choice, and a blend's or chamfer's end."""
     solved = solved_segment(session)
     start = "" if solved.start is None else f"{length(solved.start[0], unit)} {length(solved.start[1], unit)}"
-    shown = bool(start) and solution_here(session) is None
-    yield replace(_read_only("START", start, 0, visible=shown), folds=True)
+    visible = bool(start) and solution_here(session) is None
+    yield replace(_read_only("START", start, 0, visible=visible), folds=True)
     if form in (Form.BLEND, Form.CHAMFER):
         end = None if solved.piece is None else solved.piece.end
         yield _read_only("X END", "" if end is None else length(end[0], unit), 1, visible=end is not None)

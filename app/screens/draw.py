@@ -1,4 +1,4 @@
-"""DRAW: the drawing on the whole terminal, finding by finding, with keys to enlarge, move and walk."""
+"""DRAW shows the drawing on the whole terminal; its keys zoom, pan, and step through findings and segments."""
 
 from __future__ import annotations
 
@@ -59,16 +59,16 @@ class FullDrawing(Drawing, can_focus=True):
     ]
 
     async def on_mouse_scroll_up(self) -> None:
-        """Enlarge."""
+        """Zoom in."""
         await self.run_action("screen.zoom(1)")
 
     async def on_mouse_scroll_down(self) -> None:
-        """Shrink."""
+        """Zoom out."""
         await self.run_action("screen.zoom(-1)")
 
 
 class DrawScreen(BaseScreen):
-    """One block, as it is posted; `finding` is the number of the finding in hand, None for the whole part."""
+    """The drawing of one block as it is posted; `at` is the index of the selected finding, None for none."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#full-drawing"
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "leave", "Back", show=False)]
@@ -89,10 +89,10 @@ class DrawScreen(BaseScreen):
         self.at: int | None = None
         self._subject: Subject | None = None
         self.cross: Point | None = None
-        """Where the operator points to, in millimeters, while he picks a joint."""
+        """The cross that the operator moves while picking a joint, in millimeters; None at other times."""
 
     def compose_body(self) -> ComposeResult:
-        """Title, chips, the drawing, and on a wide terminal the findings beside it."""
+        """Lay out the title, the chips, the drawing, and on a wide terminal the findings next to it."""
         with Horizontal(classes="head"):
             yield PlainLabel("BLOCK", classes="head-label")
             yield PlainLabel(id="draw-block", classes="head-value")
@@ -105,12 +105,12 @@ class DrawScreen(BaseScreen):
 
     @property
     def drawing(self) -> Drawing:
-        """The drawing."""
+        """The drawing widget."""
         return self.query_one("#full-drawing", FullDrawing)
 
     def show_session(self, session: Session) -> None:
-        """The block with the cursor as it is now, in the same window."""
-        # shapely and numpy are not needed by the first paint
+        """Show the block with the cursor as it is now; the window stays."""
+        # imported here: the first paint must not load shapely and numpy
         from core.pipeline.plot import Subject
 
         block, unit = session.derived_block, session.program.unit
@@ -126,23 +126,23 @@ class DrawScreen(BaseScreen):
         before = self._subject
         near, view = (None, None) if before is None else (before.near, before.view)
         self._draw(Subject(block, unit, segment, near=near, view=view, cross=self.cross))
-        self._head()
+        self._show_heading()
         if before is None and self.run is not None and self.run.code == "NOT_YET":
             self.action_pick()
 
     def show_signs(self) -> None:
-        """Those of the chips and of the heading."""
+        """Redraw the signs of the chips and of the heading."""
         self.show_session(self.current_session)
 
     def _draw(self, subject: Subject) -> None:
         self._subject = self.drawing.subject = subject
 
-    def _head(self) -> None:
+    def _show_heading(self) -> None:
         marks = MARKS[self.host.characters]
         self.drawing.heading = "DRAWING" if self.at is None else heading(self.entries, self.at, marks)
 
     def action_finding(self, by: int) -> None:
-        """The next finding that has a place, or the one before, in the middle of the window."""
+        """Center the window on the next or previous finding that has a position."""
         placed = [number for number, entry in enumerate(self.entries) if entry.at is not None]
         if not placed:
             self.say("No finding has a place in the drawing.")
@@ -155,7 +155,7 @@ class DrawScreen(BaseScreen):
         entry = self.entries[number]
         if self._subject is not None and entry.at is not None:
             self._draw(replace(self._subject, near=entry.at, view=None))
-        self._head()
+        self._show_heading()
         self.query_one(FindingsList).highlighted = number
         self.say(entry.text)
 
@@ -169,45 +169,45 @@ class DrawScreen(BaseScreen):
         self.host.go_to(self.entries[event.option_index])
 
     def action_edit_finding(self) -> None:
-        """The form, with the cursor on the place of the finding in hand; without one on the segment it is on."""
+        """Go to the field of the selected finding on the form; if none is selected, go back."""
         if self.at is not None:
             self.host.go_to(self.entries[self.at])
         else:
             self.call_later(self.run_action, "app.back")
 
     def action_zoom(self, steps: int) -> None:
-        """Enlarge or shrink about the middle of the window."""
-        self._look(self.drawing.zoomed(steps, self.cross))
+        """Zoom in or out about the cross, or about the center of the window without one."""
+        self._set_view(self.drawing.zoomed(steps, self.cross))
 
     def action_pan(self, right: int, up: int) -> None:
-        """Move the window over the part, but never far away from it; while a joint is picked the cross."""
+        """Move the cross while picking a joint; otherwise pan the window, but never far away from the part."""
         if self.cross is not None:
             self.action_move_cross(right, up)
         else:
-            self._look(self.drawing.panned(right, up))
+            self._set_view(self.drawing.panned(right, up))
 
-    def _look(self, view: View | None) -> None:
+    def _set_view(self, view: View | None) -> None:
         if self._subject is not None and view is not None:
             self._draw(replace(self._subject, view=view))
 
     def action_fit(self) -> None:
-        """The whole part."""
+        """Show the whole part and select no finding."""
         self.at = None
         if self._subject is not None:
             self._draw(replace(self._subject, near=None, view=None))
-        self._head()
+        self._show_heading()
         self.quiet()
 
     def action_walk(self, by: int) -> None:
-        """The segment before or after, with the cutter at its end."""
+        """Go to the previous or next segment; the cutter is drawn at its end."""
         place = self.current_session.place
         self.host.move(FormPlace(place.block, place.segment + by))
 
-    # ---- picking a joint of a run that the steps do not solve
+    # ---- picking a joint of a run that cannot be solved without one
 
     @property
     def run(self) -> SolvedRun | None:
-        """The run of the segment with the cursor, where it takes a pick or has one."""
+        """The run of the segment with the cursor, if it needs a pick or has one."""
         session = self.current_session
         run = run_here(session)
         if run is None or run.code == "NOT_YET":
@@ -216,7 +216,7 @@ class DrawScreen(BaseScreen):
         return run if getattr(first, "pick_x", None) is not None else None
 
     def action_pick(self) -> None:
-        """Show the cross that the arrows move, or take it away."""
+        """Show or hide the cross, which the arrows move."""
         run, session = self.run, self.current_session
         if run is None or self.cross is not None:
             self._show_cross(None)
@@ -237,7 +237,7 @@ class DrawScreen(BaseScreen):
         self.refresh_frame()
 
     def action_move_cross(self, right: int, up: int) -> None:
-        """Move the cross by cells; the window follows it."""
+        """Move the cross by character cells; the window follows it."""
         drawn, size = self.drawing.drawn, self.drawing.size
         if self.cross is None or drawn is None or self._subject is None:
             return
@@ -251,7 +251,7 @@ class DrawScreen(BaseScreen):
 
     @work(exclusive=True, group="question")
     async def action_type_cross(self) -> None:
-        """X and Y of the pick, typed."""
+        """Ask for X and Y of the pick and take it."""
         run, unit = self.run, self.current_session.program.unit
         if run is None:
             self.say(NO_PICK)
@@ -264,7 +264,7 @@ class DrawScreen(BaseScreen):
             self._take_cross(run, *typed)
 
     def action_enter(self) -> None:
-        """Take the cross; without one to the form, with the cursor on the place of the finding in hand."""
+        """Take the pick at the cross; without a cross, go to the form as for `action_edit_finding`."""
         run, unit = self.run, self.current_session.program.unit
         if self.cross is None or run is None:
             self.action_edit_finding()
@@ -273,7 +273,7 @@ class DrawScreen(BaseScreen):
         self._take_cross(run, x, y)
 
     def _take_cross(self, run: SolvedRun, x: float, y: float) -> None:
-        """The pick into the program, in program units, and what comes of it."""
+        """Write the pick, in program units, into the program and report the result."""
         session = self.current_session
         place = FormPlace(session.place.block, run.first)
         name = f"segments {run.first} to {run.last}" if run.first < run.last else f"segment {run.first}"
@@ -288,7 +288,7 @@ class DrawScreen(BaseScreen):
             self.say(f"{name.capitalize()} calculated.{more} Esc goes back to the form.")
 
     async def action_leave(self) -> None:
-        """The cross away, else back."""
+        """Hide the cross; without one, leave the screen."""
         if self.cross is not None:
             self._show_cross(None)
         else:
@@ -296,7 +296,7 @@ class DrawScreen(BaseScreen):
 
     @on(Drawing.Picked)
     def _picked(self, event: Drawing.Picked) -> None:
-        """A click chooses the nearest segment; with the cross shown it puts the cross there."""
+        """Put the cross where the click was; without a cross, go to the nearest segment."""
         from core.pipeline.plot import nearest_segment
 
         if self.cross is not None:
@@ -307,7 +307,7 @@ class DrawScreen(BaseScreen):
             self.host.move(FormPlace(session.place.block, segment))
 
     def prompt_text(self) -> Sentence:
-        """What the keys do; of the cross also where it is."""
+        """Return what the keys do, with the cross's position while it is shown."""
         run, unit = self.run, self.current_session.program.unit
         if self.cross is None or run is None:
             return Sentence(PROMPT)

@@ -1,4 +1,4 @@
-"""Where Enter stops on the MILL CONTOUR form: at fields that need an answer; others are reached by the arrows."""
+"""This module decides where Enter stops on MILL CONTOUR: at fields that need an answer; arrows reach the rest."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ ALWAYS: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
         Form.CHAMFER: frozenset({"length"}),
     }
 )
-"""The fields where Enter stops whatever they hold."""
+"""The fields at which Enter always stops."""
 UNLESS_CALCULATED: Final = frozenset({"x_center", "y_center", "radius"})
-"""The fields of an ARC where Enter stops unless they follow from what was typed."""
+"""The fields of an ARC at which Enter stops unless they are calculated."""
 
 
 def next_stop(session: Session, name: str) -> str | None:
-    """The field after `name` where Enter stops; None after the last one."""
+    """Return the next field after `name` at which Enter stops; None after the last one."""
     fields = fields_at(session)
     names = [field.name for field in fields]
     after = fields[names.index(name) + 1 :] if name in names else fields
@@ -36,12 +36,12 @@ def next_stop(session: Session, name: str) -> str | None:
 
 
 def unanswered(session: Session) -> str | None:
-    """The first field without which the form cannot be left behind: it is blank and needed, or cannot be read."""
+    """Return the first field that still needs an answer: it is blank and needed, or unusable; None if there is none."""
     return next((field.name for field in fields_at(session) if _needs_answer(session, field)), None)
 
 
 def stops(session: Session, field: Field) -> bool:
-    """Whether Enter stops at a field."""
+    """Return whether Enter stops at a field."""
     form = form_at(session)
     if field.name in ALWAYS[form] or _needs_answer(session, field):
         return True
@@ -52,7 +52,7 @@ def stops(session: Session, field: Field) -> bool:
 
 
 def run_stops(session: Session) -> bool:
-    """Whether the run of the segment has no answer that the segments after it could still give."""
+    """Return whether the run at the cursor has no answer and later segments cannot give one."""
     run = run_here(session)
     if run is None or run.taken is not None or run.code == "PICK_SOLUTION":
         return False
@@ -62,7 +62,7 @@ def run_stops(session: Session) -> bool:
 
 
 def run_lacks(session: Session) -> bool:
-    """Whether more data would help the run of the segment: there are too few, or they are not calculated yet."""
+    """Return whether more values would help the run at the cursor: too few, or not solvable from these yet."""
     run = run_here(session)
     return run is not None and run.code in ("MISSING", "NOT_YET")
 

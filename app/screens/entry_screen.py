@@ -1,4 +1,4 @@
-"""EntryScreen: a screen on which one name is typed, such as that of a file, and Enter does something with it."""
+"""EntryScreen is a screen with one line to type a name in, such as a file's, which Enter acts on."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from app.widgets.plain import PlainLabel
 
 
 class EntryScreen(BaseScreen):
-    """A title, one line to type in, and below it what belongs to it.
+    """A title, an input line, and below it whatever the subclass adds.
 
-    The name is selected on entry: a character replaces it.
+    The name is selected at first, so that typing replaces it.
     """
 
     AUTO_FOCUS: ClassVar[str | None] = "#entry"
@@ -33,7 +33,7 @@ class EntryScreen(BaseScreen):
         self._text = text
 
     def compose_body(self) -> ComposeResult:
-        """Title, entry, the rest."""
+        """Lay out the title, the input line and the rest."""
         with Vertical(id="entry-form", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel(self.TITLE, classes="head-title")
@@ -44,16 +44,16 @@ class EntryScreen(BaseScreen):
             yield from self.compose_rest()
 
     def compose_head(self) -> ComposeResult:
-        """What stands beside the title."""
+        """Yield widgets next to the title."""
         yield from ()
 
     def compose_rest(self) -> ComposeResult:
-        """What stands below the line."""
+        """Yield widgets below the input line."""
         yield from ()
 
     @property
     def text(self) -> str:
-        """The name as it is typed."""
+        """The name as typed, without spaces around it."""
         return self.query_one("#entry", Input).value.strip()
 
     @text.setter
@@ -62,21 +62,21 @@ class EntryScreen(BaseScreen):
 
     @abstractmethod
     def entered(self, text: str) -> object:
-        """Do something with the name."""
+        """Act on the name."""
 
     @on(Input.Changed, "#entry")
     def _typing(self) -> None:
         self.quiet()
 
     def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """A sentence on the prompt line; a name that was refused is selected: the next character replaces it."""
+        """Show a sentence on the prompt line; after an error, select the name so that typing replaces it."""
         super().say(text, tone)
         if tone is Tone.ERROR:
             self.query_one("#entry", Input).select_all()
 
     @on(Input.Submitted, "#entry")
     def action_enter(self) -> None:
-        """Take the name."""
+        """Act on the name, or ask for one if it is empty."""
         if not self.text:
             self.say("Type a name.", Tone.ERROR)
             return

@@ -160,7 +160,7 @@ class FormScreen(BaseScreen):
         self.refresh_frame()
 
     @on(Input.Blurred)
-    def _left(self, event: Input.Blurred) -> None:
+    def _take_left_field(self, event: Input.Blurred) -> None:
         """Take the text of a field that was left by a click; return to the field if that fails."""
         widget, field = event.input, self._field(event.input.name or "")
         if (
@@ -220,7 +220,7 @@ class FormScreen(BaseScreen):
         self.action_step(1)
 
     def action_leave(self) -> None:
-        """Restore the old value; if nothing is typed, close the screen."""
+        """Restore the old value; if there is none to restore, close the screen."""
         if self.half_typed or self.last_is_unread:
             self.action_restore()
         else:

@@ -1,4 +1,4 @@
-"""HELP: what the field with the cursor takes, what the signs mean, and every key."""
+"""HELP explains the field with the cursor, the words and signs, and every key."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ WORDS: Final[tuple[tuple[str, str], ...]] = (
     ("S > o", "START, direction of travel, plunge point"),
     ("*", "after the file's name: not saved"),
 )
-"""Words and signs where they first meet the eye."""
+"""Words and signs on the screens, with their meanings."""
 KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),
     ("Tab, up, down", "from field to field"),
@@ -68,11 +68,11 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
 )
 """Every key that is the same on all screens."""
 NAME_WIDTH: Final = 22
-"""Cells of the names of words and keys."""
+"""Width in cells of the column with the names of words and keys."""
 
 
 class HelpScreen(BaseScreen):
-    """Help for the field with the cursor, then words, signs and keys."""
+    """Help for the field with the cursor and its screen, then words, signs and keys."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#help-text"
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -86,7 +86,7 @@ class HelpScreen(BaseScreen):
         self._field, self._lines = field, tuple(lines)
 
     def compose_body(self) -> ComposeResult:
-        """The text, which scrolls."""
+        """Lay out the title and the scrolling text."""
         with Horizontal(classes="head"):
             yield PlainLabel("HELP", classes="head-title")
         with VerticalScroll(id="help-text"):
@@ -94,7 +94,7 @@ class HelpScreen(BaseScreen):
 
     @on(events.Resize)
     def _fill(self) -> None:
-        """The text, broken at the width that there is."""
+        """Wrap the text to the width of the screen."""
         self.call_after_refresh(self._show)
 
     def _show(self) -> None:
@@ -109,20 +109,20 @@ class HelpScreen(BaseScreen):
         return Content("\n").join([*head, Content(""), *_table(WORDS, width), Content(""), *_table(KEYS, width)])
 
     def action_page_down(self) -> None:
-        """The next page of the text."""
+        """Scroll to the next page."""
         self.query_one("#help-text", VerticalScroll).scroll_page_down(animate=False)
 
     def show_state_on(self, status: Status) -> None:
-        """That of the screen below."""
+        """Show the state of the screen below."""
         self.show_state_of_below_on(status)
 
     def prompt_text(self) -> Sentence:
-        """How to read on."""
+        """Return how to scroll and how to go back."""
         return Sentence("Up, down and Space read on. Enter or Esc goes back.")
 
 
 def _table(rows: Sequence[tuple[str, str]], width: int) -> list[Content]:
-    """Names and what they mean, the further lines of a meaning under its first one."""
+    """Return names with their meanings, each meaning wrapped with a hanging indent."""
     indent = " " * NAME_WIDTH
     texts = [fill(text, width, initial_indent=indent, subsequent_indent=indent).lstrip() for _, text in rows]
     names = [f" {name:<{NAME_WIDTH - 1}}" for name, _ in rows]
@@ -130,7 +130,7 @@ def _table(rows: Sequence[tuple[str, str]], width: int) -> list[Content]:
 
 
 def field_help(field: Field, unit: Unit) -> tuple[str, ...]:
-    """What a field means and what may be typed into it, in sentences, then its picture."""
+    """Return what a field means and takes, in sentences, then its picture."""
     lines = [field.label, field.prompt]
     topic = topic_of(field)
     if topic is not None:

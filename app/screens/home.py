@@ -1,4 +1,4 @@
-"""HOME: the programs and drawings of a folder and the example parts; a new program, a path, the guide."""
+"""HOME lists a folder's programs and drawings and the example parts; from here new programs and the guide start."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from core.program.file.read import StoreError
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
 LETTERS_TOGETHER: Final = 1.0
-"""Letters with less than so many seconds between them are of one name."""
+"""Longest pause in seconds between two letters of one name."""
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
 
 
@@ -52,7 +52,7 @@ class Surveyed(Message):
 
 
 class HomeScreen(BaseScreen):
-    """The list of files; the program with the cursor is drawn."""
+    """The list of files, with a drawing of the program under the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#programs"
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -82,21 +82,21 @@ class HomeScreen(BaseScreen):
         self._last_letter = 0.0
 
     def compose_body(self) -> ComposeResult:
-        """The folder, its programs, the drawing of the one with the cursor."""
+        """Lay out the folder's name, its files, and the drawing of the program with the cursor."""
         with Vertical(id="files", classes="panel -bare"):
             yield PlainText(id="folder", classes="head")
             yield DataTable(id="programs", cursor_type="row")
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:
-        """The columns and the files."""
+        """Add the columns and list the files."""
         table = self.query_one("#programs", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width, key=label)
         self.show_folder(self.folder, at=self._at)
 
     def on_screen_resume(self) -> None:
-        """Files may have changed while another screen was in front; the first time they have just been listed."""
+        """Refresh the list, except the first time: files may have changed behind another screen."""
         if self._was_in_front:
             self.list_anew()
         self._was_in_front = True
@@ -104,7 +104,7 @@ class HomeScreen(BaseScreen):
     # ---- the list
 
     def show_folder(self, folder: Path, *, at: Path | None = None) -> None:
-        """The programs of a folder, the cursor on the file or folder `at`; trouble is told and the examples stay."""
+        """List a folder with the cursor on `at`; if it cannot be read, say why and list only the examples."""
         try:
             self.listed, self.trouble = programs_of(folder), ""
         except OSError as error:
@@ -125,7 +125,7 @@ class HomeScreen(BaseScreen):
         self.refresh_frame()
 
     def list_anew(self) -> None:
-        """The folder as it is now, the cursor on the same file; one that does not answer keeps its list."""
+        """Refresh the list, with the cursor on the same file; keep the old list if the folder does not answer."""
         try:
             same = programs_of(self.folder) == self.listed
         except OSError:
@@ -137,11 +137,11 @@ class HomeScreen(BaseScreen):
             self.show_folder(self.folder, at=None if chosen is None else chosen.path)
 
     def _counts(self) -> str:
-        """How many files of each kind the folder holds."""
-        own = sum(each.program and not each.example for each in self.listed)
+        """Return how many files of each kind the folder holds."""
+        programs = sum(each.program and not each.example for each in self.listed)
         others = {kind: sum(each.kind == kind for each in self.listed) for kind in (DRAWING, NC_PROGRAM)}
         words = [counted(count, kind) for kind, count in others.items() if count]
-        return ", ".join([counted(own, "program"), *words] if own or not words else words)
+        return ", ".join([counted(programs, "program"), *words] if programs or not words else words)
 
     def _programs(self) -> tuple[Path, ...]:
         return tuple(each.path for each in self.listed if each.program)
@@ -162,7 +162,7 @@ class HomeScreen(BaseScreen):
 
     @work(thread=True, exclusive=True, group="survey")
     def _survey(self, paths: tuple[Path, ...], known: dict[Path, Facts]) -> None:
-        """Look at the files one after the other."""
+        """Read the facts of the files, one file after the other."""
         worker = get_current_worker()
         for path in paths:
             if worker.is_cancelled:
@@ -183,7 +183,7 @@ class HomeScreen(BaseScreen):
 
     @property
     def chosen(self) -> Listed | None:
-        """The line with the cursor."""
+        """The entry with the cursor."""
         row = self.query_one("#programs", DataTable).cursor_row
         return self.listed[row] if row < len(self.listed) else None
 
@@ -200,7 +200,7 @@ class HomeScreen(BaseScreen):
     @work(thread=True, exclusive=True, group="preview")
     def _preview(self, path: Path, name: str) -> None:
         """Draw the first block of the program with the cursor."""
-        # numpy and shapely are not needed by the first paint
+        # imported here: the first paint must not load numpy and shapely
         from core.pipeline.derive import derive
         from core.pipeline.plot import Subject
 
@@ -215,7 +215,7 @@ class HomeScreen(BaseScreen):
         self.app.call_from_thread(self._show_preview, path, heading, Subject(block, unit))
 
     def _show_preview(self, path: Path, heading: str, subject: Drawable | None) -> None:
-        """The drawing of a file, unless the cursor has left it by now."""
+        """Show the drawing of a file unless the cursor has left it."""
         if not self.stands or self.chosen is None or self.chosen.path != path:
             return
         drawing = self.query_one("#preview", Drawing)
@@ -225,7 +225,7 @@ class HomeScreen(BaseScreen):
 
     @on(DataTable.RowSelected)
     def action_open(self) -> None:
-        """Open the program with the cursor, or go into the folder."""
+        """Open the file or folder with the cursor."""
         each = self.chosen
         if each is None:
             return
@@ -235,7 +235,7 @@ class HomeScreen(BaseScreen):
             self.host.open_file(each.path, kept_copy=each.copy is not None)
 
     async def action_leave(self) -> None:
-        """Back to the work that is open, where there is any: an empty form is nobody's."""
+        """Go back to the open work, if there is any; an empty form is not work."""
         session = self.current_session
         if session.file is None and not session.unsaved and not self.host.proofs:
             self.say("Enter opens a file, F2 and F3 start a new part, F8 quits.")
@@ -243,11 +243,11 @@ class HomeScreen(BaseScreen):
             await self.run_action("app.back")
 
     def action_folder_above(self) -> None:
-        """The folder that holds this one, with the cursor on it."""
+        """List the parent folder, with the cursor on this one."""
         self.show_folder(self.folder.parent, at=self.folder)
 
     def on_key(self, event: events.Key) -> None:
-        """Letters go to the next name that begins with them; a letter that fits no such name begins anew."""
+        """Jump to the next name that begins with the typed letters; if none does, start over with the last letter."""
         letter = (event.character or "").lower()
         together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
         if not (letter.isalnum() or (together and letter and letter in "-_. ")) or not self.listed:
@@ -257,7 +257,7 @@ class HomeScreen(BaseScreen):
             event.stop()
 
     def _jump(self, letters: str, step: int) -> bool:
-        """The cursor to the next name from `step` lines below it that begins with these letters, if there is one."""
+        """Jump to the next name that begins with these letters, from `step` lines down; return whether one exists."""
         table, count = self.query_one("#programs", DataTable), len(self.listed)
         rows = ((table.cursor_row + step + more) % count for more in range(count))
         row = next((row for row in rows if self.listed[row].name.lower().startswith(letters)), None)
@@ -268,7 +268,7 @@ class HomeScreen(BaseScreen):
         return True
 
     def prompt_text(self) -> Sentence:
-        """What is wrong with the file under the cursor, else what the keys do."""
+        """Return what a kept copy offers, what is wrong with the folder or file, or what the keys do."""
         each = self.chosen
         if each is not None and each.copy is not None:
             return Sentence(f"{each.copy.sentence(self.host.now().isoformat())} Enter offers it back.")

@@ -200,7 +200,7 @@ class ImportScreen(BaseScreen):
     async def _read_whole(self, data: bytes) -> ReadDrawing | ContourList | None:
         unit = None if self._fresh else self.current_session.program.unit
         try:
-            return await self._done(lambda: Worker(read_and_list, data, self.path.name, unit))
+            return await self._run_worker(lambda: Worker(read_and_list, data, self.path.name, unit))
         except DrawingError as error:
             if error.code != "DXF_DAMAGED" or not error.readable:
                 raise
@@ -208,7 +208,7 @@ class ImportScreen(BaseScreen):
             word = await self.app.push_screen_wait(Question("DAMAGED", [error.text, "Take it?"], answers, "NO"))
             if word != "YES":
                 return None
-        return await self._done(lambda: Worker(partial(read_and_list, damaged=True), data, self.path.name, unit))
+        return await self._run_worker(lambda: Worker(partial(read_and_list, damaged=True), data, self.path.name, unit))
 
     async def _list_after_question(self, drawing: ReadDrawing) -> None:
         """Ask for the unit if the file names none, then list the contours."""
@@ -233,7 +233,7 @@ class ImportScreen(BaseScreen):
         drawing = self.drawing
         assert drawing is not None
         try:
-            self._take_list(await self._done(lambda: Worker(contours_of, drawing, options)))
+            self._take_list(await self._run_worker(lambda: Worker(contours_of, drawing, options)))
         except DrawingError as error:
             remedy = " F2 LAYERS leaves its layer out." if error.code == "NOT_FLAT" else ""
             self._fail(f"{error.text}{remedy}")
@@ -245,7 +245,7 @@ class ImportScreen(BaseScreen):
             raise CancelledError
         return result
 
-    async def _done(self, start: Callable[[], Worker[Result]]) -> Result:
+    async def _run_worker(self, start: Callable[[], Worker[Result]]) -> Result:
         """Return the result of a worker process, showing its progress; Esc stops it."""
         self._stopped, self._failed = False, ""
         self._tell_progress(Progress("reading", 0, 1))
@@ -630,12 +630,12 @@ class ImportScreen(BaseScreen):
                 return
         side = None
         if open_ones := [contour.number for contour in contours if not contour.closed]:
-            side = await self._asked_side(open_ones)
+            side = await self._ask_side(open_ones)
             if side is None:
                 return
         await self._make_blocks(contours, side)
 
-    async def _asked_side(self, numbers: Sequence[int]) -> CutterComp | None:
+    async def _ask_side(self, numbers: Sequence[int]) -> CutterComp | None:
         """Ask for the CUTTER COMP. of open contours, which have no default; return None on GO BACK."""
         several = f"{len(numbers)} open chains" if len(numbers) > 1 else f"chain {numbers[0]}, which is open"
         answers = [Answer("LEFT"), Answer("RIGHT"), Answer("ON", "the tool's center on the chain")]

@@ -1,4 +1,4 @@
-"""IMPORT TOOL TABLE: the file of a LinuxCNC tool table, what is wrong with it, and what it would change."""
+"""IMPORT TOOL TABLE reads a LinuxCNC tool table and shows its errors and what it would change."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from core.program.model import Program, Tool
 from core.units import Unit
 
 MAX_LISTED: int = 2
-"""Tools that would change and are listed."""
+"""Most changed tools that the question lists."""
 
 
 class ImportToolsScreen(EntryScreen):
-    """The table's name and the unit its lengths are in; a table does not say it itself."""
+    """The table's file name and the unit of its lengths, which the table itself does not state."""
 
     TITLE: ClassVar[str] = "IMPORT TOOL TABLE"
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
@@ -43,12 +43,12 @@ class ImportToolsScreen(EntryScreen):
         self.unit = unit
 
     def compose_rest(self) -> ComposeResult:
-        """The unit, then the faults."""
+        """Yield the unit and the errors."""
         yield PlainText(id="table-unit")
         yield PlainText(id="table-faults")
 
     def on_mount(self) -> None:
-        """The unit."""
+        """Show the unit."""
         self._show_unit()
 
     def _show_unit(self) -> None:
@@ -56,7 +56,7 @@ class ImportToolsScreen(EntryScreen):
         self.query_one("#table-unit", Static).update(Content(f" TABLE UNITS: {name}"))
 
     def action_other_unit(self) -> None:
-        """The table's lengths are in the other unit."""
+        """Switch the unit of the table's lengths."""
         self.unit = Unit.MM if self.unit is Unit.IN else Unit.IN
         self._show_unit()
 
@@ -80,7 +80,7 @@ class ImportToolsScreen(EntryScreen):
             self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:
-        """What to type."""
+        """Return what to type."""
         return Sentence("Name of a LinuxCNC tool table, Enter reads it. F2 changes the units of its lengths.")
 
 
@@ -90,7 +90,7 @@ def _fault(finding: Finding) -> Content:
 
 
 def changes(program: Program, tools: tuple[Tool, ...]) -> Iterator[str]:
-    """What the import does to the table, in a few lines."""
+    """Yield a few lines on what the import would change in the tool table."""
     known = {tool.number: tool for tool in program.tools}
     new = [tool for tool in tools if tool.number not in known]
     other = [tool for tool in tools if tool.number in known and known[tool.number] != tool]

@@ -1,4 +1,4 @@
-"""LOOKAHEAD TABLE: what every value from 1 to 20 does to the path; one of them is drawn, one can be taken."""
+"""LOOKAHEAD TABLE shows what every value from 1 to 20 does to the path, draws one, and lets it be taken."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NO_TABLE = "There is no path to compare yet: type START and the first segments."
 
 
 class LookaheadScreen(BaseScreen):
-    """The table; the row with the cursor is drawn."""
+    """The table, with a drawing of the path for the row with the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#values"
     BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "app.back", "Back", show=False)]
@@ -47,24 +47,24 @@ class LookaheadScreen(BaseScreen):
     )
 
     def compose_body(self) -> ComposeResult:
-        """A title, the table, the drawing of the chosen value."""
+        """Lay out the title, the table, and the drawing of the value with the cursor."""
         with Vertical(id="lookahead", classes="panel -bare"):
             yield PlainText(id="lookahead-title", classes="head")
             yield DataTable(id="values", cursor_type="row")
         yield Drawing(id="value-path")
 
     def on_mount(self) -> None:
-        """The columns."""
+        """Add the columns."""
         values = self.query_one("#values", DataTable)
         for label, width in COLUMNS:
             values.add_column(label, width=width)
 
     def show_signs(self) -> None:
-        """Those of the table."""
+        """Redraw the signs of the table."""
         self.show_session(self.current_session)
 
     def show_session(self, session: Session) -> None:
-        """A row a value; the cursor begins on the value that is advised, else on the one in force."""
+        """Show one row per value; the cursor starts on the recommended value, else on the one in force."""
         table, values = session.lookahead_table, self.query_one("#values", DataTable)
         block = session.derived_block
         title = f"BLOCK {block.number}  LOOKAHEAD TABLE   {block.lookahead.tag} {block.lookahead.value} in force"
@@ -84,7 +84,7 @@ class LookaheadScreen(BaseScreen):
 
     @property
     def row(self) -> Row | None:
-        """The value with the cursor and what it does."""
+        """The row with the cursor; None without a table."""
         table = self.current_session.lookahead_table
         return None if table is None else table.rows[self.query_one("#values", DataTable).cursor_row]
 
@@ -94,7 +94,7 @@ class LookaheadScreen(BaseScreen):
         self.refresh_frame()
 
     def _draw(self, row: Row | None) -> None:
-        # shapely and numpy are not needed by the first paint
+        # imported here: the first paint must not load shapely and numpy
         from core.pipeline.plot import Subject
 
         drawing, session = self.query_one(Drawing), self.current_session
@@ -102,12 +102,12 @@ class LookaheadScreen(BaseScreen):
             drawing.subject = None
             return
         drawing.heading = f"LOOK-AHEAD {row.value}"
-        near = None if self.has_class("-tall") else _trouble(row)
+        near = None if self.has_class("-tall") else _worst_point(row)
         drawing.subject = Subject(session.derived_block, session.program.unit, row=row, near=near)
 
     @on(DataTable.RowSelected)
     def action_take(self) -> None:
-        """The value with the cursor becomes CUTCOMP LOOKAHEAD, typed."""
+        """Set CUTCOMP LOOKAHEAD to the value with the cursor, as if it were typed."""
         row, session = self.row, self.current_session
         if row is None:
             self.say(WAITING if session.derived_block.paths is not None else NO_TABLE)
@@ -119,13 +119,13 @@ class LookaheadScreen(BaseScreen):
             self.app.call_later(self.app.run_action, "app.back")
 
     def action_recalculate(self) -> None:
-        """The calculated look-ahead comes back."""
+        """Restore the calculated look-ahead."""
         number = self.current_session.place.block
         edited = recalculate_lookahead(self.current_session.program, number)
         self.host.apply(edited, f"RECALCULATE LOOKAHEAD, block {number}")
 
     def prompt_text(self) -> Sentence:
-        """What the keys do."""
+        """Return what the keys do, or why there is no table."""
         if self.current_session.lookahead_table is None:
             return Sentence(WAITING if self.current_session.derived_block.paths is not None else NO_TABLE)
         return Sentence("Up and down show what a value does. Enter takes it as USR.")
@@ -149,8 +149,8 @@ def _cells(row: Row, table: Table, session: Session, marks: Marks) -> tuple[Cont
     return Content(f"{row.value:>5}"), gouge, Content(f"{left:>9}"), deleted, Content(" ".join(notes))
 
 
-def _trouble(row: Row) -> tuple[float, float] | None:
-    """The place of a value's deepest gouge, else of the thickest stock that it leaves."""
+def _worst_point(row: Row) -> tuple[float, float] | None:
+    """Return the point of a value's deepest gouge, else of the thickest uncut stock; None if there is neither."""
     if row.verdict.gouges:
         return row.verdict.gouges[0].surface_at
     left = list(row.verdict.uncut)

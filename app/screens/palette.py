@@ -1,4 +1,4 @@
-"""Palette: every action by its name; a digit as the first key presses that softkey."""
+"""Palette lists every action by name; a digit as the first key presses that softkey."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ ACTIONS: Final = (
     ("KEYS, HELP", "app.help", "? or Ctrl+G"),
     ("QUIT", "app.quit", "Ctrl+Q"),
 )
-"""Name, action and hint of what can be done on every screen; an action that does not exist is not listed."""
+"""Name, action and hint of each action that works on every screen; one the App does not have is not listed."""
 NOTHING_FOUND: Final = "No action has that name."
 GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
 
 
 class Actions(Provider):
-    """The softkeys of the screen, its own actions, and what can be done everywhere."""
+    """The screen's softkeys, its other actions, and the actions of all screens."""
 
     def _actions(self) -> Iterator[tuple[str, str, str]]:
         screen = self.screen
@@ -74,14 +74,14 @@ class Actions(Provider):
         return list(named.values())
 
     async def discover(self) -> Hits:
-        """All of them, before anything is typed."""
+        """Yield all actions before anything is typed."""
         for name, action, hint in self._unique():
             yield DiscoveryHit(name, partial(self.screen.run_action, action), help=hint)
 
     async def search(self, query: str) -> Hits:
-        """Those that match; a number goes to that segment.
+        """Yield the actions that match; a number goes to that segment.
 
-        That none does is said here and at once: Textual says so half a second later, and crashes if the palette is
+        If none matches, say so here at once: Textual does so half a second later and crashes if the palette has been
         closed by then.
         """
         matcher = self.matcher(query)
@@ -103,20 +103,20 @@ class Palette(CommandPalette):
     BINDINGS: ClassVar[list[BindingType]] = [Binding("ctrl+k,f8", "app.back", "Close", show=False)]
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """While the list has no room there are no pages in it: Textual's own step fails then."""
+        """Block paging while the list has no room: Textual would fail."""
         paging = action == "command_list" and str(parameters[0]).startswith("page_")
         if paging and not self.query_one(OptionList).scrollable_content_region:
             return False
         return super().check_action(action, parameters)
 
     def on_mount(self) -> None:
-        """Listen to the first key of the line, whose cursor does not blink."""
+        """Turn off the cursor's blinking and the selection of the text on focus."""
         line = self.query_one(Input)
         line.select_on_focus = line.cursor_blink = False
 
     @on(Input.Changed)
     async def _first_digit(self, event: Input.Changed) -> None:
-        """A digit alone presses a softkey."""
+        """Press the softkey if the text is a single digit."""
         if event.value in tuple("12345678"):
             event.stop()
             app: Any = self.app

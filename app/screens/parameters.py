@@ -1,4 +1,4 @@
-"""PROGRAM PARAMETERS: unit, blends, finish allowances, PROFILE passes, clearances, and the path that is posted."""
+"""This module holds PROGRAM PARAMETERS, such as unit, blends, allowances and posted path, and PART SETUP."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ UNITS: Final = Field(
     choices=tuple(unit.value for unit in Unit),
 )
 ROWS: Final = 6
-"""Fields in a column."""
+"""Fields per column."""
 
 
 class SettingsForm(FormScreen):
-    """A screen with one form of fields that belong to the whole program; a blank shows the usual value, tagged DEF."""
+    """A screen with one form of program-wide fields; a blank field shows its default value, tagged DEF."""
 
     NAME: ClassVar[str] = ""
     FIELDS: ClassVar[tuple[Field, ...]] = ()
@@ -50,18 +50,18 @@ class SettingsForm(FormScreen):
     )
 
     def compose_body(self) -> ComposeResult:
-        """A title and the form."""
+        """Lay out the title and the form."""
         with Vertical(id="settings", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel(self.NAME, classes="head-title")
             yield Form(self._cells(self.host.session), id="settings-form", classes="fields")
 
     def on_mount(self) -> None:
-        """The cursor on the first field."""
+        """Put the cursor on the first field."""
         self.focus_field(self.FIELDS[0].name)
 
     def fields(self) -> tuple[Field, ...]:
-        """The fields."""
+        """Return the fields."""
         return self.FIELDS
 
     def _cells(self, session: Session) -> tuple[Cell, ...]:
@@ -75,18 +75,18 @@ class SettingsForm(FormScreen):
 
     @abstractmethod
     def held(self, session: Session, name: str) -> Value | str:
-        """What the program holds in a field."""
+        """Return what the program holds in a field."""
 
     def value(self, name: str) -> Value | str:
-        """What the program holds in a field."""
+        """Return what the program holds in a field."""
         return self.held(self.current_session, name)
 
     def show_session(self, session: Session) -> None:
-        """The values as they are now."""
+        """Show the current values."""
         self.form().show(self._cells(session))
 
     def prompt_text(self) -> Sentence:
-        """The prompt, with the usual value of a blank."""
+        """Return the prompt, with the default value of a blank field."""
         sentence, field = super().prompt_text(), self.current_field
         unit = self.current_session.program.unit
         usual = None if field is None else default_value(field.name, unit)
@@ -96,27 +96,27 @@ class SettingsForm(FormScreen):
 
 
 class ParametersScreen(SettingsForm):
-    """The parameters of the program; another unit is asked about first."""
+    """The parameters of the program; a change of unit must be confirmed."""
 
     NAME: ClassVar[str] = "PROGRAM PARAMETERS"
     FIELDS: ClassVar[tuple[Field, ...]] = (UNITS, *PARAMETERS)
 
     def held(self, session: Session, name: str) -> Value | str:
-        """The unit, the path, or a number."""
+        """Return the unit, the path, or a number."""
         if name == "unit":
             return str(session.program.unit)
         value: Value = getattr(session.program.parameters, name)
         return str(value) if name == "path" else value
 
     def edited(self, field: Field, text: str) -> Edited:
-        """The program with this parameter."""
+        """Return the program with this parameter."""
         program = self.current_session.program
         if field.name == "path":
             return set_path_choice(program, PathChoice(text))
         return set_parameter(program, field.name, read_typed(text, field, program.unit))
 
     def pick(self, field: Field, text: str) -> None:
-        """PATH is taken at once; another unit converts the whole program and is asked about."""
+        """Take PATH at once; for UNITS, ask first, as it converts the whole program."""
         if field is UNITS:
             self._convert(Unit(text))
         else:
@@ -140,12 +140,12 @@ class PartSetupScreen(SettingsForm):
     FIELDS: ClassVar[tuple[Field, ...]] = SETUP
 
     def held(self, session: Session, name: str) -> Value | str:
-        """A text or a number."""
+        """Return a text or a number."""
         value: Value | str = getattr(session.program.setup, name)
         return value
 
     def edited(self, field: Field, text: str) -> Edited:
-        """The program with this text or number."""
+        """Return the program with this text or number."""
         program = self.current_session.program
         return set_setup(
             program, field.name, text.strip() if field.kind is Kind.TEXT else read_typed(text, field, program.unit)

@@ -1,4 +1,4 @@
-"""POST NC: the name of the NC file, who compensates, what stands against posting, and the text's first lines."""
+"""POST NC asks for the NC file's name and the control, and shows what prevents posting and the first lines."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ if TYPE_CHECKING:
     from core.program.model import Program
 
 PREVIEW_LINES: Final = 40
-"""Lines of the NC text that are shown."""
+"""Most lines of the NC text in the preview."""
 
 
 @dataclass
 class NcMade(Message):
-    """A worker has made the NC text of a program, for a choice of control, or found what stands against it."""
+    """A worker has made a program's NC text for a choice of control, or found what prevents posting."""
 
     program: Program
     choice: str
@@ -46,7 +46,7 @@ class NcMade(Message):
 
 
 class PostScreen(EntryScreen):
-    """The name, the list of controls, the findings and the head of the NC file."""
+    """The name, the list of controls, the findings and the first lines of the NC file."""
 
     TITLE: ClassVar[str] = "POST NC"
     LABEL: ClassVar[str] = "NC FILE"
@@ -68,21 +68,21 @@ class PostScreen(EntryScreen):
         self.stopped = False
         self._work: Work | None = None
         self._program: Program | None = None
-        """What `made` is, or is going to be, made of."""
+        """The program that `made` is, or is being, made from."""
 
     def compose_head(self) -> ComposeResult:
-        """The unit of the file, for whoever loads it at the machine."""
+        """Yield the unit of the file, for the operator who loads it at the machine."""
         yield PlainLabel(UNITS[self.current_session.program.unit], classes="head-unit")
 
     def compose_rest(self) -> ComposeResult:
-        """The controls, what stands against posting, the text."""
+        """Yield the controls, the findings and the preview."""
         yield OptionRows(*control_rows(choices()), id="post-controls")
         with Horizontal(id="post-answer"):
             yield PlainText(id="post-findings")
             yield PlainText(id="post-preview")
 
     def on_mount(self) -> None:
-        """What was posted for the last time is chosen, at first the path of the tool's center."""
+        """Preselect the choice of the last posting, at first the path of the tool's center."""
         self.choice = self.host.posted_for
         controls = self.query_one("#post-controls", OptionList)
         controls.border_title = "CONTROL"
@@ -90,7 +90,7 @@ class PostScreen(EntryScreen):
         self.query_one("#post-preview").border_title = "NC FILE"
 
     def show_session(self, session: Session) -> None:
-        """Make the text anew where the program has changed; where only more of it is known, say what is."""
+        """Make the text again if the program has changed; otherwise just update the findings."""
         if session.program is self._program:
             self._show()
         else:
@@ -107,7 +107,7 @@ class PostScreen(EntryScreen):
         self.query_one("#entry").focus()
 
     def action_controls(self) -> None:
-        """The cursor to the list of controls."""
+        """Move the cursor to the list of controls."""
         self.query_one("#post-controls").focus()
 
     def _make(self, program: Program) -> None:
@@ -123,15 +123,15 @@ class PostScreen(EntryScreen):
         try:
             self.post_message(NcMade(program, choice, nc_text(program, name, choice, progress=work)))
         except Stopped:
-            # whoever stopped it shows so
+            # the code that stopped the work reports it
             return
 
     def on_unmount(self) -> None:
-        """Nobody waits for the result any more."""
+        """Stop the work; its result is no longer needed."""
         self.host.end_work(self._work)
 
     def _make_stopped(self) -> None:
-        """Esc has stopped it: Enter begins again."""
+        """Note that Esc has stopped the work; Enter starts it again."""
         self.stopped = True
         self._show()
 
@@ -155,7 +155,7 @@ class PostScreen(EntryScreen):
         self.refresh_frame()
 
     def _findings(self) -> list[Content]:
-        """What stands against posting, else that it is ready and what is to be known with it."""
+        """Return what prevents posting, or that all is ready; then what is uncut or deleted, and the notes."""
         marks, session = MARKS[self.host.characters], self.current_session
         if self.made is None:
             text = "Stopped. Enter makes the NC text." if self.stopped else "The NC text is being made."
@@ -168,11 +168,11 @@ class PostScreen(EntryScreen):
         return [*against, *ready, *left, *notes, *unsaved]
 
     def guide_text(self) -> str:
-        """The name stands there already."""
+        """Return the guide's step here; the name is already filled in."""
         return POST_NAME
 
     def prompt_text(self) -> Sentence:
-        """What Enter does."""
+        """Return what Enter does."""
         if self.focused is not None and self.focused.id == "post-controls":
             return Sentence("Up and down choose the control. Enter goes back to the name.")
         if self.made is None or not self.made.against:
@@ -184,7 +184,7 @@ class PostScreen(EntryScreen):
 
     @work(exclusive=True, group="posting")
     async def entered(self, text: str) -> None:
-        """Write the NC file; asks before a file is replaced, and for the phrase that overrides a gouge."""
+        """Write the NC file; ask before replacing a file, and for the phrase that overrides a gouge."""
         if self.stopped:
             self._make(self.current_session.program)
             return
@@ -196,20 +196,20 @@ class PostScreen(EntryScreen):
             if not self.made.overridable:
                 self.say(f"NOT POSTED: {self.made.against[0]}", Tone.ERROR)
                 return
-            said = await self.app.push_screen_wait(
+            phrase = await self.app.push_screen_wait(
                 Phrase("NOT POSTED", [self.made.against[0], "Type POST ANYWAY to write it; the file says so."])
             )
-            if said.strip().upper() not in OVERRIDE_PHRASES:
+            if phrase.strip().upper() not in OVERRIDE_PHRASES:
                 self.say("NOT POSTED.", Tone.WARNING)
                 return
-            override = said
+            override = phrase
         await self._write(text, override)
 
     async def _write(self, text: str, override: str | None) -> None:
         program, choice = self.current_session.program, self.choice
 
         def make(path: Path) -> str:
-            """Made again under the name that was typed; nothing stale is written."""
+            """Make the text again under the typed name, so that nothing stale is written."""
             made = nc_text(program, path.stem, choice, override)
             if made.against and override is None:
                 raise StoreError(f"NOT POSTED: {made.against[0]}")

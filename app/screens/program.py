@@ -1,4 +1,4 @@
-"""PROGRAM: the blocks of a program; the one with the cursor is drawn."""
+"""PROGRAM lists the blocks of a program and draws the one with the cursor."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Timed(Message):
 
 
 class ProgramScreen(BaseScreen):
-    """The list of blocks; Enter edits the one with the cursor."""
+    """The list of blocks; Enter edits the block with the cursor."""
 
     AUTO_FOCUS: ClassVar[str | None] = "#blocks"
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -68,7 +68,7 @@ class ProgramScreen(BaseScreen):
         self.times: dict[int, str] = {}
 
     def compose_body(self) -> ComposeResult:
-        """A title, the table of blocks, the drawing."""
+        """Lay out the title, the table of blocks and the drawing."""
         with Vertical(id="program", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel("PROGRAM", classes="head-label")
@@ -78,17 +78,17 @@ class ProgramScreen(BaseScreen):
         yield Drawing(id="block-drawing")
 
     def on_mount(self) -> None:
-        """The columns."""
+        """Add the columns."""
         table = self.query_one("#blocks", DataTable)
         for label, width in COLUMNS:
             table.add_column(label, width=width)
 
     def show_signs(self) -> None:
-        """Those of the table."""
+        """Redraw the signs of the table."""
         self.show_session(self.current_session)
 
     def show_session(self, session: Session) -> None:
-        """One row a block."""
+        """Show one row per block."""
         table, marks = self.query_one("#blocks", DataTable), MARKS[self.host.characters]
         table.clear()
         for block in session.derived.blocks:
@@ -106,7 +106,7 @@ class ProgramScreen(BaseScreen):
 
     @on(Timed)
     def _timed(self, event: Timed) -> None:
-        """The times in the title of the drawing and at the number of blocks."""
+        """Show the times in the title of the drawing and next to the number of blocks."""
         if not self.stands or event.derived is not self.current_session.derived:
             return
         self.times = event.blocks
@@ -115,20 +115,20 @@ class ProgramScreen(BaseScreen):
         self._draw()
 
     def guide_text(self) -> str:
-        """What to do with the plate."""
+        """Return the next step of the guide's plate."""
         return on_program(self.current_session)
 
     @property
     def at_rest(self) -> bool:
-        """Nothing is typed on this screen."""
+        """Always true, as nothing is typed on this screen."""
         return True
 
     def prompt_text(self) -> Sentence:
-        """What the keys do."""
+        """Return what the keys do."""
         return Sentence("Enter edits the block. C copies it, Ctrl+Up and Ctrl+Down move it.")
 
     def palette_actions(self) -> tuple[tuple[str, str, str], ...]:
-        """Copy and move."""
+        """Return COPY BLOCK and MOVE BLOCK."""
         return (
             ("COPY BLOCK", "screen.copy_block", "C"),
             ("MOVE BLOCK UP", "screen.move_block(-1)", "Ctrl+Up"),
@@ -148,7 +148,7 @@ class ProgramScreen(BaseScreen):
         self._draw()
 
     def _draw(self) -> None:
-        # numpy and shapely are not needed by the first paint
+        # imported here: the first paint must not load numpy and shapely
         from core.pipeline.plot import Subject
 
         session, drawing = self.current_session, self.query_one("#block-drawing", Drawing)
@@ -168,7 +168,7 @@ class ProgramScreen(BaseScreen):
         self.app.call_later(self.app.run_action, "app.contour")
 
     def action_insert_block(self) -> None:
-        """A new block after the one with the cursor, and its form."""
+        """Insert a block after the one with the cursor and open its form."""
         at = self.chosen + 1
         if self.host.apply(insert_block(self.current_session.program, at), f"INSERT BLOCK {at}"):
             self._edit(at)
@@ -181,13 +181,13 @@ class ProgramScreen(BaseScreen):
             self.notify(f"Deleted block {at}. Ctrl+Z brings it back.", timeout=3)
 
     def action_copy_block(self) -> None:
-        """A copy of the block with the cursor, after it."""
+        """Insert a copy of the block with the cursor after it."""
         at = self.chosen
         if self.host.apply(copy_block(self.current_session.program, at), f"COPY BLOCK {at}"):
             self.host.move(FormPlace(at + 1))
 
     def action_move_block(self, by: int) -> None:
-        """The block with the cursor before the one above it, or after the one below it."""
+        """Move the block with the cursor up or down by one."""
         at, to = self.chosen, self.chosen + by
         if not 1 <= to <= len(self.current_session.program.blocks):
             self.say(f"Block {at} is the {'first' if by < 0 else 'last'} one.")
@@ -205,7 +205,7 @@ def _row(block: DerivedBlock, marks: Marks) -> tuple[Content, ...]:
 
 
 def depths_kept(program: Program, at: int) -> str:
-    """What the new block `at` has of the block before it, with its depths: the new cut may be meant to be less deep."""
+    """Return what new block `at` has taken from the block before it, with the depths, as its cut may be shallower."""
     block, unit = program.blocks[at - 1], program.unit
     fields = (("Z BOTTOM", block.z_bottom), ("PECK DEPTH", block.peck_depth))
     depths = [f"{name} {show(typed.value, Kind.LENGTH, unit)}" for name, typed in fields if isinstance(typed, Number)]

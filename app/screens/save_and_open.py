@@ -1,4 +1,4 @@
-"""SAVE AS and OPEN A PATH: the name of a file, typed."""
+"""SAVE AS and OPEN A PATH ask for the name of a file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.widgets.status import Status
 
 
 class SaveAsScreen(EntryScreen):
-    """SAVE AS: the name of the program's file."""
+    """SAVE AS asks for the file name of the program or NC text."""
 
     TITLE: ClassVar[str] = "SAVE AS"
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
@@ -27,20 +27,20 @@ class SaveAsScreen(EntryScreen):
         self.host.save_as(text)
 
     def show_state_on(self, status: Status) -> None:
-        """That of the screen below."""
+        """Show the state of the screen below."""
         self.show_state_of_below_on(status)
 
     def guide_text(self) -> str:
-        """A name for the plate."""
+        """Return the guide's step for naming the plate."""
         return SAVE_NAME
 
     def prompt_text(self) -> Sentence:
-        """What to type."""
+        """Return what to type."""
         return Sentence("Name of the program file, Enter saves. Without a folder it goes beside the open program.")
 
 
 class OpenPathScreen(EntryScreen):
-    """OPEN A PATH: a program, an NC file, a drawing, or a folder."""
+    """OPEN A PATH asks for a program, an NC file, a drawing, or a folder."""
 
     TITLE: ClassVar[str] = "OPEN A PATH"
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (
@@ -54,5 +54,5 @@ class OpenPathScreen(EntryScreen):
         self.host.open_file(typed(text))
 
     def prompt_text(self) -> Sentence:
-        """What to type."""
+        """Return what to type."""
         return Sentence("Path of a program (.toml), an NC file, a drawing (.dxf), or a folder. Enter opens it.")

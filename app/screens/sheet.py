@@ -1,4 +1,4 @@
-"""SETUP SHEET: the file of the sheet that goes to the machine with the program, and what stands on it."""
+"""SETUP SHEET shows and writes the sheet that goes to the machine with the program."""
 
 from __future__ import annotations
 
@@ -38,17 +38,17 @@ class SheetScreen(EntryScreen):
     )
 
     def compose_rest(self) -> ComposeResult:
-        """The sheet, which scrolls."""
+        """Yield the sheet, which scrolls."""
         with VerticalScroll(id="sheet", can_focus=False):
             yield PlainText(id="sheet-text")
 
     def action_scroll(self, by: int) -> None:
-        """A page of the sheet down or up."""
+        """Scroll the sheet down or up by a page."""
         sheet = self.query_one("#sheet", VerticalScroll)
         (sheet.scroll_page_down if by > 0 else sheet.scroll_page_up)(animate=False)
 
     def show_session(self, session: Session) -> None:
-        """The sheet of the program as it is now."""
+        """Make the sheet of the current program."""
         self._make(session.program)
 
     @work(thread=True, exclusive=True, group="sheet", description="sheet")
@@ -61,13 +61,13 @@ class SheetScreen(EntryScreen):
             self.query_one("#sheet-text", Static).update(Content(text))
 
     def action_ending(self, ending: str) -> None:
-        """Give the name another ending."""
+        """Change the suffix of the file name."""
         if Path(self.text).name:
             self.text = str(Path(self.text).with_suffix(ending))
 
     @work(exclusive=True, group="question")
     async def entered(self, text: str) -> None:
-        """Write the sheet; asks before a file is replaced."""
+        """Write the sheet; ask before replacing a file."""
         program, now = self.current_session.program, self.host.now()
         written = await self.host.write_made(text, ".html", lambda path: setup_sheet(program, path, now))
         if written is None:
@@ -76,5 +76,5 @@ class SheetScreen(EntryScreen):
         self.app.call_later(self.app.run_action, "app.back")
 
     def prompt_text(self) -> Sentence:
-        """What to type."""
+        """Return what to type."""
         return Sentence("Name of the sheet, Enter writes it: .html with drawing, .txt text. Page Down: read on.")

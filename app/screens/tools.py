@@ -1,4 +1,4 @@
-"""TOOL SETUP: the tool table, a row a tool, and the blocks that use the tool with the cursor."""
+"""TOOL SETUP shows the tool table, one row per tool, and the blocks that use the tool with the cursor."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from core.program.solve.solved import Value
 from core.units import Kind, Unit
 
 AT: Final = "@"
-"""Between a field's name and the row of its tool in the name of a widget."""
+"""Separates the field's name from the tool's row in the name of a widget."""
 HEADINGS: Final = {"diameter": "DIAMETER", "speed": "SPEED", "plunge_feed": "PLUNGE"}
-"""Headings of columns where the field's label is too wide."""
+"""Column headings for fields whose label is too wide."""
 EMPTY: Final = "The tool table is empty. F2 adds a tool."
 
 
@@ -39,7 +39,7 @@ class ToolRow(Horizontal):
         self.cells = tuple(cells)
 
     def compose(self) -> ComposeResult:
-        """A widget a field."""
+        """Lay out one widget per field."""
         for cell in self.cells:
             widget = (
                 ChoiceField(cell.name, cell.choices, cell.text, prompt=" ", blank=True)
@@ -50,7 +50,7 @@ class ToolRow(Horizontal):
             yield widget
 
     def field(self, name: str) -> NumberField | ChoiceField | None:
-        """The widget of this name."""
+        """Return the widget with this name."""
         named = (each for each in self.children if isinstance(each, NumberField | ChoiceField) and each.name == name)
         return next(named, None)
 
@@ -71,7 +71,7 @@ class ToolRow(Horizontal):
 
 
 class ToolsScreen(FormScreen):
-    """The table; up and down go from tool to tool, Tab and Enter from field to field."""
+    """The tool table; up and down go from tool to tool, Tab and Enter from field to field."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up", "row(-1)", "Tool before", show=False),
@@ -90,7 +90,7 @@ class ToolsScreen(FormScreen):
     )
 
     def compose_body(self) -> ComposeResult:
-        """A title, the headings, the rows, and where the tool is used."""
+        """Lay out the title, the headings, the rows, and the use of the tool."""
         with Vertical(id="tools", classes="panel -bare"):
             with Horizontal(classes="head"):
                 yield PlainLabel("TOOL SETUP", classes="head-title")
@@ -106,57 +106,57 @@ class ToolsScreen(FormScreen):
         return [ToolRow(_cells(tool, row, session)) for row, tool in enumerate(session.program.tools)]
 
     def on_mount(self) -> None:
-        """The cursor on the first tool."""
+        """Put the cursor on the first tool."""
         self._focus_row(0)
 
     # ---- the table as a form
 
     def fields(self) -> tuple[Field, ...]:
-        """The fields of every tool, each named after its row."""
+        """Return the fields of every tool, each with its row in its name."""
         rows = range(len(self.current_session.program.tools))
         return tuple(replace(field, name=f"{field.name}{AT}{row}") for row in rows for field in TOOL)
 
     def widget(self, name: str) -> NumberField | ChoiceField | None:
-        """The widget of a name."""
+        """Return the widget with this name."""
         rows = self.query(ToolRow)
         row = _row(name)
         return rows[row].field(name) if row < len(rows) else None
 
     def value(self, name: str) -> Value | str:
-        """What a tool has in a field."""
+        """Return what a tool has in a field."""
         tools, row = self.current_session.program.tools, _row(name)
         return _value(tools[row], name.partition(AT)[0]) if row < len(tools) else None
 
     def may_be_blank(self, field: Field, /) -> bool:
-        """A tool need have neither a type nor a coolant."""
+        """Return True for TYPE and COOLANT, which a tool may leave blank."""
         return field.kind in (Kind.TEXT, Kind.CHOICE)
 
     def picked_text(self, field: Field) -> str:
-        """The choice that the tool has."""
+        """Return the choice that the tool has."""
         return str(self.value(field.name) or "")
 
     def edited(self, field: Field, text: str) -> Edited:
-        """The program with this text in its tool table."""
+        """Return the program with this text in its tool table."""
         program = self.current_session.program
         return _typed(program, program.tools[_row(field.name)], field, text)
 
     def label(self, field: Field) -> str:
-        """FIELD of a tool."""
+        """Return FIELD of a tool."""
         return f"{field.label} of tool {self.current_session.program.tools[_row(field.name)].number}"
 
     def show_session(self, session: Session) -> None:
-        """The rows as they are now; the cursor stays on its tool where another number has moved that."""
+        """Show the current rows; rebuild them if the number of tools has changed."""
         rows = list(self.query(ToolRow))
         if len(rows) != len(session.program.tools):
             self.call_next(self._rebuild)
         else:
-            for row, (shown, tool) in enumerate(zip(rows, session.program.tools, strict=True)):
-                shown.show(_cells(tool, row, session))
+            for row, (tool_row, tool) in enumerate(zip(rows, session.program.tools, strict=True)):
+                tool_row.show(_cells(tool, row, session))
         self.query_one("#no-tools").display = not session.program.tools
         self._show_use()
 
     async def _rebuild(self) -> None:
-        """More tools, or fewer."""
+        """Rebuild the rows after tools were added or deleted; the cursor keeps its row."""
         row = self.row
         table = self.query_one("#tool-rows")
         await self.query(ToolRow).remove()
@@ -167,7 +167,7 @@ class ToolsScreen(FormScreen):
 
     @property
     def row(self) -> int:
-        """The row with the cursor."""
+        """The index of the row with the cursor."""
         widget = self.current
         return 0 if widget is None else _row(widget.name or "")
 
@@ -183,7 +183,7 @@ class ToolsScreen(FormScreen):
         self._show_use()
 
     def action_row(self, by: int) -> None:
-        """The same field of the tool before or after, round."""
+        """Go to the same field of the previous or next tool, wrapping around."""
         self.quiet()
         count = len(self.current_session.program.tools)
         if not count or not self.take():
@@ -192,7 +192,7 @@ class ToolsScreen(FormScreen):
         self._focus_row((self.row + by) % count, name)
 
     def action_accept(self) -> None:
-        """Take the field and go on; after the last one the cursor stays."""
+        """Take the field and go to the next one; on the last one the cursor stays."""
         if self.current is not None and self.current.name == self.names()[-1]:
             self.quiet()
             self.take()
@@ -200,13 +200,13 @@ class ToolsScreen(FormScreen):
             super().action_accept()
 
     def refresh_frame(self) -> None:
-        """The blocks that use the tool with the cursor."""
+        """Also update the blocks that use the tool with the cursor."""
         super().refresh_frame()
         self._show_use()
 
     def _show_use(self) -> None:
         tool, program = self.tool, self.current_session.program
-        text = "" if tool is None else "\n".join((_use(program, tool.number), *_faults(tool, program.unit)))
+        text = "" if tool is None else "\n".join((_use_text(program, tool.number), *_faults(tool, program.unit)))
         panel = self.query_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
@@ -214,9 +214,9 @@ class ToolsScreen(FormScreen):
     # ---- softkeys
 
     def action_add_tool(self) -> None:
-        """A tool with the next free number, the cursor on its diameter."""
+        """Add a tool with the lowest free number and put the cursor on its diameter."""
         program = self.current_session.program
-        tool = _next(program)
+        tool = _next_tool(program)
         if self.host.apply(set_tool(program, tool), f"ADD TOOL {tool.number}"):
             row = [each.number for each in self.current_session.program.tools].index(tool.number)
             self.call_later(self._focus_row, row, "diameter")
@@ -231,7 +231,7 @@ class ToolsScreen(FormScreen):
             self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
 
     def prompt_text(self) -> Sentence:
-        """What the field takes; of an empty table how to begin."""
+        """Return what the field takes, or for an empty table how to begin."""
         return super().prompt_text() if self.current_session.program.tools else Sentence(EMPTY, Tone.WARNING)
 
 
@@ -241,11 +241,11 @@ def _row(name: str) -> int:
 
 def _cells(tool: Tool, row: int, session: Session) -> tuple[Cell, ...]:
     cells = (cell_of(field, _value(tool, field.name), session.program.unit, 0) for field in TOOL)
-    return tuple(replace(cell, name=f"{cell.name}{AT}{row}", state=_calm(cell.state)) for cell in cells)
+    return tuple(replace(cell, name=f"{cell.name}{AT}{row}", state=_tool_state(cell.state)) for cell in cells)
 
 
-def _calm(state: State) -> State:
-    """A tool's fields are typed or cannot be read; nothing is calculated here."""
+def _tool_state(state: State) -> State:
+    """Return the state of a tool's field: unread or typed, as nothing is calculated here."""
     return state if state is State.UNREAD else State.TYPED
 
 
@@ -277,19 +277,19 @@ def _renumbered(program: Program, tool: Tool, typed: Typed) -> Edited:
     return outcome if isinstance(outcome, Refused) else delete_tool(outcome, tool.number)
 
 
-def _next(program: Program) -> Tool:
+def _next_tool(program: Program) -> Tool:
     taken = {tool.number for tool in program.tools}
     return Tool(next(number for number in range(1, len(taken) + 2) if number not in taken))
 
 
 def _faults(tool: Tool, unit: Unit) -> list[str]:
-    """What cannot be used in the fields of a tool."""
-    told = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
-    return [f"ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in told if text]
+    """Return an ERR line for each field of a tool that cannot be used."""
+    reasons = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
+    return [f"ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in reasons if text]
 
 
-def _use(program: Program, number: int) -> str:
-    """Which blocks call a tool."""
+def _use_text(program: Program, number: int) -> str:
+    """Return which blocks call a tool, as lines of text."""
 
     def called(value: object) -> bool:
         return isinstance(value, Number) and value.value == number

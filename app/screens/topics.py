@@ -1,4 +1,4 @@
-"""What every field means, beyond its prompt, and a picture where one helps: plain ASCII, for any screen."""
+"""Topics explain the fields in more detail than their prompts, some with a picture in plain ASCII."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from core.program.fields import SOLUTION, TABLES, Field, Form
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """Sentences about a field, and the lines of its picture."""
+    """Sentences about a field, and the lines of its picture, if any."""
 
     words: str
     picture: tuple[str, ...] = ()
@@ -86,7 +86,7 @@ _LINE_AND_ARC: Final = {
         "The drawing shows all of them. Space, left and right step; nothing is posted until one is picked."
     ),
 }
-"""The fields that a LINE and an ARC both have."""
+"""The topics of fields that a LINE and an ARC share."""
 
 
 TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
@@ -171,13 +171,13 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),
     }
 )
-"""One for every field there is."""
+"""The topics by form and field name."""
 
 
-def topic_of(one: Field) -> Topic | None:
-    """The topic of a field."""
+def topic_of(field: Field) -> Topic | None:
+    """Return the topic of a field, or None if it has none."""
     for form, table in TABLES.items():
         for known in (*table, SOLUTION):
-            if known == one and (form, one.name) in TOPICS:
-                return TOPICS[form, one.name]
+            if known == field and (form, field.name) in TOPICS:
+                return TOPICS[form, field.name]
     return None

@@ -1,4 +1,4 @@
-"""Values of fields as texts and cells, and what is wrong with them."""
+"""This module turns the values of fields into texts and cells, and explains unusable ones."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from core.program.solve.solved import Origin, Solved, Value
 from core.units import Unit, show
 
 TAGS = {State.OVERRIDDEN: str(Tag.USR), State.UNREAD: "ERR"}
-"""The tag of a typed field in each state that has one; what was not typed has the tag of its origin."""
+"""The tag of a typed field in each state that has one; other fields have the tag of their origin."""
 
 
 def cell_of(
@@ -23,7 +23,7 @@ def cell_of(
     overrides: bool = False,
     visible: bool = True,
 ) -> Cell:
-    """A field's cell with the state that its value gives it; `overrides` where a typed value stands in for another."""
+    """Return a field's cell with the state of its value; `overrides` if a typed value replaces a calculated one."""
     state = _state(field, value, unit, needed=needed, overrides=overrides)
     tag = str(value.origin) if isinstance(value, Solved) else TAGS.get(state, "")
     if isinstance(value, Relative) and not tag:
@@ -48,7 +48,7 @@ def _state(field: Field, value: Value | str, unit: Unit, *, needed: bool, overri
 
 
 def shown_text(value: Value | str, field: Field, unit: Unit) -> str:
-    """A value as a form prints it."""
+    """Return a value as a form prints it."""
     match value:
         case None:
             return ""
@@ -63,21 +63,21 @@ def shown_text(value: Value | str, field: Field, unit: Unit) -> str:
 
 
 def full_text(entry: Number | Relative, field: Field, unit: Unit) -> str:
-    """A typed number, in full where the form's decimals would lose some of what was typed."""
+    """Return a typed number, with all digits if the form's decimals would lose some."""
     text = show(entry.value, field.kind, unit)
     number = text if float(text) == entry.value else f"{entry.value:.12g}"
     return f"I{number}" if isinstance(entry, Relative) else number
 
 
 def unusable(value: Value | str, field: Field, unit: Unit) -> str | None:
-    """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
+    """Return why a value cannot be used, unreadable text or a number out of range; None if it can."""
     if isinstance(value, Unread):
         return unread_text(value, field, unit)
     return value_refusal(field, value.value, unit) if isinstance(value, Number | Relative) else None
 
 
 def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
-    """What is said of a text that cannot be read."""
+    """Return the error for text that cannot be read."""
     if outside := text_refusal(unread.text, field, unit):
         return outside
     if unread_reason(unread.text, field, unit) == TYPE_AGAIN:
@@ -86,5 +86,5 @@ def unread_text(unread: Unread, field: Field, unit: Unit) -> str:
 
 
 def prompt_of(field: Field) -> str:
-    """The field's prompt; a choice names its choices and how they are picked."""
+    """Return the field's prompt; for a choice, add the choices and how to pick one."""
     return f"{field.prompt} Type the first letters: {', '.join(field.choices)}." if field.choices else field.prompt

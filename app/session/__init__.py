@@ -1,1 +1,1 @@
-"""The session: what the screens are drawn from."""
+"""The session holds everything that the screens show."""

@@ -1,6 +1,6 @@
-"""What is to be said about a block, as a list: gouges first, what mends them, what stays uncut by its area, the rest.
+"""This module lists the findings of a block: gouges, errors, remedies, uncut stock by area, then the rest.
 
-The list, the loupe, DRAW and the numbers in the drawing of the part all show this one list in this order.
+The findings list, the loupe, DRAW and the numbers in the part's drawing all use this list in this order.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Kind(IntEnum):
-    """What sort of finding it is, in the order of the list."""
+    """The kind of a finding, in the order of the list."""
 
     GOUGE = 0
     ERROR = 1
@@ -34,21 +34,21 @@ class Kind(IntEnum):
 TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that something is still to be typed."""
 GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
-"""Errors by which the part is damaged."""
+"""Errors that mean damage to the part."""
 REMEDIES: Final = frozenset(
     {"BLENDLESS", "START_MID_SIDE", "START_BLENDLESS", "START_AT_END", "TOOL_FITS", "TOOL_BLENDLESS"}
 )
-"""Advice that has been tried: with it the path is clean."""
+"""Advice that has been tried and gives a clean path."""
 MENDED_ON_START: Final = {"CAL_NOT_CLEAN": "lookahead", "START_MID_SIDE": "x_start", "START_BLENDLESS": "x_start"}
-"""Advice that names a segment, and the field of START in which it is followed."""
+"""Advice that names a segment but is carried out on START, and the field of START for it."""
 _KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One finding as the list shows it: `title` in short, `where` the segments, `text` the whole sentence.
+    """One finding as the list shows it: `title` is short, `where` names the segment, `text` is the full sentence.
 
-    `at` (mm) is what the loupe goes to, `segment` and `field` where the cursor goes; each None where it has none.
+    The loupe goes to `at` (mm), the cursor to `segment` and `field`; each is None if there is none.
     """
 
     kind: Kind
@@ -62,10 +62,10 @@ class Entry:
 
 
 def block_findings(block: DerivedBlock, table: Table | None, unit: Unit) -> tuple[Entry, ...]:
-    """All findings of a block and the notes of its look-ahead table, the gravest first."""
+    """Return all findings of a block and the notes of its look-ahead table, sorted by kind."""
     notes = () if table is None else table.notes
-    found = [_entry(finding, unit) for finding in dict.fromkeys((*block.findings, *notes))]
-    return tuple(sorted(found, key=lambda entry: (entry.kind, -entry.area)))
+    entries = [_entry(finding, unit) for finding in dict.fromkeys((*block.findings, *notes))]
+    return tuple(sorted(entries, key=lambda entry: (entry.kind, -entry.area)))
 
 
 def _entry(finding: Finding, unit: Unit) -> Entry:
@@ -79,7 +79,7 @@ def _entry(finding: Finding, unit: Unit) -> Entry:
 
 
 def remedy(table: Table | None, field: str, unit: Unit) -> str:
-    """What a field of START should hold for a clean path, as a sentence; empty where nothing is known against it."""
+    """Return the first note about a field of START, such as a better value; empty if there is none."""
     for note in () if table is None else table.notes:
         if field == (note.field or MENDED_ON_START.get(note.code)):
             return sentence(note, unit)
@@ -97,7 +97,7 @@ def _kind(finding: Finding) -> Kind:
 
 
 def _title(finding: Finding, unit: Unit) -> str:
-    """A gouge with its depth and uncut stock with its thickness; of others the first sentence."""
+    """Return a gouge with its depth, uncut stock with its thickness, or the first sentence of any other finding."""
     if finding.code == "GOUGE" and finding.value is not None:
         return f"GOUGE {length(finding.value, unit)} deep"
     if finding.code == "UNCUT" and finding.lengths:

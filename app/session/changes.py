@@ -1,4 +1,4 @@
-"""Where two programs differ: the one field, or the one segment, that undo and redo lead the cursor to."""
+"""This module finds where two programs differ: the field or segment to which undo and redo move the cursor."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from core.program.edit import FormPlace
 from core.program.model import Block, Program, Segment
 
 Place = tuple[FormPlace, str | None]
-"""A segment, and the name of its field where one alone is different."""
+"""A segment, and the name of its field if exactly one differs."""
 SEGMENTS: Final = "segments"
 
 
 def changed(before: Program, after: Program) -> Place | None:
-    """The place in `after`; None where more than one block is different, or none, and where all are by their unit."""
+    """Return the changed place in `after`; None if the unit, no block, or several of equally many blocks differ."""
     if before.unit is not after.unit:
         return None
-    one, other = before.blocks, after.blocks
-    if len(one) != len(other):
-        return FormPlace(_first(one, other)), None
-    different = [number for number, pair in enumerate(zip(one, other, strict=True), 1) if pair[0] != pair[1]]
-    return _in_block(one[different[0] - 1], other[different[0] - 1], different[0]) if len(different) == 1 else None
+    old, new = before.blocks, after.blocks
+    if len(old) != len(new):
+        return FormPlace(_first(old, new)), None
+    different = [number for number, pair in enumerate(zip(old, new, strict=True), 1) if pair[0] != pair[1]]
+    return _in_block(old[different[0] - 1], new[different[0] - 1], different[0]) if len(different) == 1 else None
 
 
 def _in_block(before: Block, after: Block, number: int) -> Place:
@@ -37,13 +37,13 @@ def _in_block(before: Block, after: Block, number: int) -> Place:
 
 
 def _names(before: Block | Segment, after: Block | Segment) -> list[str]:
-    """The fields that differ; none of two segments of different kinds."""
+    """Return the names of the fields that differ; none for two segments of different kinds."""
     if type(before) is not type(after):
         return []
-    return [one.name for one in fields(before) if getattr(before, one.name) != getattr(after, one.name)]
+    return [field.name for field in fields(before) if getattr(before, field.name) != getattr(after, field.name)]
 
 
 def _first(before: tuple[object, ...], after: tuple[object, ...]) -> int:
-    """The number of the first that differs, or of the first that only one has."""
+    """Return the number, from 1, of the first item that differs or that only one side has."""
     pairs = enumerate(zip(before, after, strict=False), 1)
     return next((number for number, pair in pairs if pair[0] != pair[1]), min(len(before), len(after)) + 1)

@@ -1,4 +1,4 @@
-"""Derivation in the background: what the workers of the App run."""
+"""This module holds the calculations that the App's workers run in the background."""
 
 from __future__ import annotations
 
@@ -16,30 +16,30 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Request:
-    """A program to derive; `trial` where it is that of a half-typed number."""
+    """A program to derive; `trial` if it comes from a half-typed number."""
 
     program: Program
     trial: bool = False
 
 
 def derived(request: Request, progress: Progress = silent) -> Derived:
-    """Everything that follows from a program; imports the numeric libraries, which the first paint does without."""
+    """Derive a program; this imports the numeric libraries, which the first paint must not load."""
     from core.pipeline.derive import derive
 
     return derive(request.program, progress)
 
 
 def lookahead_table(block: DerivedBlock, program: Program, progress: Progress = silent) -> Table | None:
-    """What every look-ahead value makes of a block, None where there is nothing to compensate."""
+    """Return the effect of every look-ahead value on a block; None if there is nothing to compensate."""
     from core.pipeline.derive import look_ahead_table
 
     return look_ahead_table(block, program, progress)
 
 
 def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callable[[], bool]) -> Iterator[Table]:
-    """The table with notes as they are found: what would mend the contour, then what a better path would cut.
+    """Yield the table with notes as they are found: first remedies, then what a better path would cut.
 
-    `wanted` is asked between two remedies and between the two: where it says no, nothing more is tried.
+    Call `wanted` before each remedy and before the better path; stop as soon as it returns False.
     """
     from core.pipeline.derive import advice_for_block, better_path
 
@@ -53,7 +53,7 @@ def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callabl
 
 
 def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
-    """The time of the whole program, and cut, rapid and total of each block that can be posted, as texts."""
+    """Return the total time, and the cut, rapid and total times of each postable block, as texts."""
     from core.output.times import block_times, minutes_text, program_times, times_text
     from core.pipeline.jobs import jobs
 

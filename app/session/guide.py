@@ -1,8 +1,8 @@
-"""The guided first part: the next step of a small plate, from its first field to the posted file.
+"""The guide gives the next step of a small first part, a plate, from its first field to the posted file.
 
-The guide keeps no place of its own: what comes next follows from the program as it stands and from the field with the
-cursor, so that no key, wrong or right, can lose it.  The plate is 2 by 1, milled around its outside from the middle of
-its lower side, clockwise, the tool on the left.
+The guide has no state of its own: it derives the next step from the program and the field with the cursor, so no key,
+wrong or right, can make it lose its place.  The plate is 2 by 1, milled around its outside from the middle of its lower
+side, clockwise, with the tool on the left.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from core.program.fields import Form, field_of, form_of
 from core.program.model import CutterComp, LineSegment, Number
 
 CORNERS: Final = (("0", "0"), ("0", "1"), ("2", "1"), ("2", "0"), ("1", "0"))
-"""Where the five lines end."""
+"""The end points of the five lines."""
 SAVE_NAME: Final = "Type a name such as plate, then Enter. Without a folder it goes where you started the program."
 POST_NAME: Final = "Enter writes the NC file under the name that stands there."
 NOT_NEEDED: Final = "This screen is not needed now: Ctrl+K, then 8 goes back."
@@ -25,7 +25,7 @@ WHOLE_WAY: Final = "Typed, checked, saved, posted: that is the whole way."
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One field of the plate: what is typed there, and why."""
+    """One field of the plate: the text to type there, and why."""
 
     segment: int
     name: str
@@ -54,7 +54,7 @@ STEPS: Final = (
 
 
 def next_step(session: Session) -> Step | None:
-    """The first field that is not yet as the plate wants it, in block 1; None where all are."""
+    """Return the first field of block 1 that does not yet match the plate; None if all do."""
     block = session.program.blocks[0]
     for step in STEPS:
         if step.segment > len(block.segments):
@@ -72,7 +72,7 @@ def _meets(held: object, text: str) -> bool:
 
 
 def on_program(session: Session) -> str:
-    """The next step on the list of blocks."""
+    """Return the next step on PROGRAM, the list of blocks."""
     if len(session.program.blocks) > 1:
         here = session.place.block
         return "Down goes to block 2." if here == 1 else f"The plate needs no block {here}: F1 deletes it."
@@ -84,7 +84,7 @@ def on_program(session: Session) -> str:
 
 
 def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -> str:
-    """The next step on MILL CONTOUR: `names` are its fields, `at` has the cursor, and Enter goes on to `stop`."""
+    """Return the next step on MILL CONTOUR: `names` are its fields, `at` has the cursor, Enter goes to `stop`."""
     step = next_step(session)
     if step is None:
         return _finished(session)
@@ -94,7 +94,7 @@ def on_form(session: Session, names: Sequence[str], at: str, stop: str | None) -
     if step.segment > len(block.segments):
         return f"{len(block.segments)} of {len(CORNERS)} sides stand. Ctrl+End, then Page Down adds a LINE."
     held = block.segments[step.segment - 1] if step.segment else None
-    wrong = _wrong(session, step)
+    wrong = _mismatch(session, step)
     if place.segment != step.segment:
         return wrong + _to_segment(session, step)
     if held is not None and not isinstance(held, LineSegment):
@@ -106,8 +106,8 @@ def _label(step: Step) -> str:
     return field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
 
 
-def _wrong(session: Session, step: Step) -> str:
-    """Says that a field holds another number than the plate has; empty where nothing is typed in it yet."""
+def _mismatch(session: Session, step: Step) -> str:
+    """Return a note that a field's number differs from the plate's; empty if no number is typed there yet."""
     block = session.program.blocks[0]
     held = getattr(block.segments[step.segment - 1] if step.segment else block, step.name, None)
     return f"{_label(step)} is {held.value:g}, and the plate has {step.text}. " if isinstance(held, Number) else ""
@@ -123,14 +123,14 @@ def _to_segment(session: Session, step: Step) -> str:
 def _on_field(step: Step, names: Sequence[str], at: str, stop: str | None) -> str:
     label = _label(step)
     if at != step.name:
-        return f"{'Enter' if stop == step.name else _way(names, at, step.name)} goes to {label}."
+        return f"{'Enter' if stop == step.name else _arrow(names, at, step.name)} goes to {label}."
     if step.name == "cutter_comp":
         return f"{label}: press L until LEFT stands there. {step.why}"
     return f"{label}: type {step.text}, then Enter. {step.why}"
 
 
-def _way(names: Sequence[str], at: str, there: str) -> str:
-    """The arrow that is the shorter way, which may lead round, and how often it is pressed."""
+def _arrow(names: Sequence[str], at: str, there: str) -> str:
+    """Return the arrow of the shorter way, which may wrap around, and how often to press it."""
     here = names.index(at) if at in names else 0
     down = (names.index(there) - here) % len(names)
     key, count = ("Down", down) if down <= len(names) - down else ("Up", len(names) - down)

@@ -1,4 +1,4 @@
-"""Messages between widgets, workers and the App: frozen data, no callables, no screens."""
+"""Messages pass data between widgets, workers and the App; they hold no callables and no screens."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Tone(StrEnum):
-    """How a sentence on the prompt line is meant."""
+    """The tone of a sentence on the prompt line."""
 
     PLAIN = "plain"
     WARNING = "warning"
@@ -30,7 +30,7 @@ class Sentence(NamedTuple):
 
 @dataclass
 class ProgramDerived(Message):
-    """A worker has derived a program, None where it was stopped; `trial` for that of a half-typed number."""
+    """A worker has derived a program, or None if stopped; `trial` if it came from a half-typed number."""
 
     derived: Derived | None
     trial: bool
@@ -38,7 +38,7 @@ class ProgramDerived(Message):
 
 @dataclass
 class TableMade(Message):
-    """A worker has made the look-ahead table of a block, or added notes to it: `advised`; no block: stopped."""
+    """A worker has made a block's look-ahead table, or added notes (`advised`); `block` is None if it was stopped."""
 
     block: DerivedBlock | None
     table: Table | None

@@ -1,4 +1,4 @@
-"""Posting: a program's NC text for a choice of control, what stands against it in sentences, and its setup sheet."""
+"""This module makes a program's NC text for a control, the reasons that prevent posting, and the setup sheet."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from core.output.nc import Refusal
 
 CENTER_PATH: Final = "center path"
-"""The choice without a control: the path of the tool's center, which no control has to compensate."""
+"""The choice without a control: the tool's center path, which needs no compensation by the control."""
 OVERRIDE_PHRASES: Final = ("POST ANYWAY", "POST WITH GOUGE")
-"""What the operator types to post a path that gouges."""
+"""The phrases that the operator types to post a path that gouges."""
 
 
 @dataclass(frozen=True, slots=True)
 class NcText:
-    """An NC text, or what stands against it; `overridable` where a phrase of the operator's is enough."""
+    """An NC text, or the reasons `against` posting; `overridable` if the operator's phrase overrides them."""
 
     text: str = ""
     against: tuple[str, ...] = ()
@@ -36,8 +36,8 @@ class NcText:
 
 
 def choices() -> tuple[ControlChoice, ...]:
-    """The center path, and every control that posts."""
-    # the controls are not needed by the first paint
+    """Return the center path and every control that cutcomp can post for."""
+    # imported here: the first paint must not load the controls
     from core.controls.control_names import ControlChoice
     from core.controls.registry import choices as controls
 
@@ -48,9 +48,9 @@ def choices() -> tuple[ControlChoice, ...]:
 def nc_text(
     program: Program, name: str, choice: str, override: str | None = None, progress: Progress = silent
 ) -> NcText:
-    """The NC text of a program; everything is derived anew, so nothing stale is posted.
+    """Return the NC text of a program; everything is derived again, so nothing stale is posted.
 
-    `name` is that of the file, `override` a phrase the operator typed to post a path that gouges.
+    `name` is the file's name; `override` is the phrase the operator typed to post a path that gouges.
     """
     from core.output.nc import Posted
     from core.output.objections import OVERRIDABLE, OVERRIDE
@@ -66,15 +66,15 @@ def nc_text(
     asked = unit_question(derived)
     notes = () if asked is None else (sentence(asked, unit),)
     if isinstance(result, Posted):
-        told = (*_warnings(derived), *result.notes)
-        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in told)))
+        remarks = (*_warnings(derived), *result.notes)
+        return NcText(result.text, notes=(*notes, *(located_sentence(note, unit) for note in remarks)))
     against, remedies = refusals(derived, result)
     overridable = choice == CENTER_PATH and all(finding.code in OVERRIDABLE for finding in result.findings)
     return NcText(against=against, notes=(*remedies, *notes), overridable=overridable)
 
 
 def _warnings(derived: Derived) -> Iterator[Finding]:
-    """What warns of the blocks and does not forbid posting, with the number of its block."""
+    """Yield the warnings of all blocks, which do not prevent posting, each with its block's number."""
     for block in derived.blocks:
         for finding in block.findings:
             if finding.severity is Severity.WARNING:
@@ -82,7 +82,7 @@ def _warnings(derived: Derived) -> Iterator[Finding]:
 
 
 def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Why nothing was posted, each reason after its block and segment; and what cuts the blocks clean that gouge."""
+    """Return the reasons for a refusal, each with its block and segment, and the remedies for blocks that gouge."""
     from core.pipeline.derive import remedy_for_gouge
 
     reasons = tuple(located_sentence(finding, refusal.unit) for finding in refusal.findings)
@@ -91,7 +91,7 @@ def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple
 
 
 def objections(derived: Derived) -> Iterator[str]:
-    """A line on what is left uncut, one on what the look-ahead deletes, each with its blocks."""
+    """Yield a line on uncut stock and a line on segments the look-ahead deletes, each with its blocks."""
     unit = derived.program.unit
     left = [f"block {number} {length(uncut, unit)}" for number, uncut in _uncut_lengths(derived)]
     deleted = [(block.number, numbers) for block in derived.blocks if (numbers := deleted_segments(block))]
@@ -102,7 +102,7 @@ def objections(derived: Derived) -> Iterator[str]:
 
 
 def _uncut_lengths(derived: Derived) -> Iterator[tuple[int, float]]:
-    """Number and length (mm) of each block that leaves something uncut."""
+    """Yield the number and the uncut length (mm) of each block that leaves something uncut."""
     for block in derived.blocks:
         verdict = None if block.paths is None else block.paths.verdict
         if verdict is not None and verdict.uncut:
@@ -110,7 +110,7 @@ def _uncut_lengths(derived: Derived) -> Iterator[tuple[int, float]]:
 
 
 def deleted_segments(block: DerivedBlock) -> str:
-    """The numbers of the segments that the control's path deletes, where that is the path that is posted."""
+    """Return the segments that the control's path deletes; empty if the best path is posted instead."""
     paths = block.paths
     if paths is None or paths.compensated is None or paths.best is not None:
         return ""
@@ -118,7 +118,7 @@ def deleted_segments(block: DerivedBlock) -> str:
 
 
 def setup_sheet(program: Program, path: Path, now: datetime, *, name: str = "") -> str:
-    """The sheet as its file's ending asks: .html a page, anything else text; everything is derived anew."""
+    """Return the setup sheet: a page for .html and .htm, text for any other suffix; everything is derived again."""
     from core.pipeline.derive import derive
     from core.pipeline.setup_sheet import sheet_page, sheet_text
 

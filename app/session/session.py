@@ -1,6 +1,6 @@
-"""The session: one frozen value with everything the screens show.
+"""The session is one frozen value with everything the screens show.
 
-The App owns the only one; every accepted field makes a new one by the pure methods here.
+The App holds the current one; every accepted field makes a new one with the pure methods here.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
 
 SEGMENT: Final = "segment"
-"""The name of the SEGMENT line, where the cursor walks from segment to segment."""
+"""The name of the SEGMENT line, on which the cursor steps from segment to segment."""
 
 START_OF_FIRST_BLOCK: Final = FormPlace(1, 0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cursor:
-    """Where a move has put the cursor of the MILL CONTOUR form: the segment, and the field to begin with, if any.
+    """The target of a cursor move on the MILL CONTOUR form: the segment, and the field to focus, if any.
 
-    Every move makes a new one, so that a screen knows a move by its identity; from there the focus goes its own way.
+    Every move makes a new cursor, so that a screen detects a move by identity; later focus changes are not recorded.
     """
 
     place: FormPlace = START_OF_FIRST_BLOCK
@@ -38,11 +38,11 @@ class Cursor:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Session:
-    """What is being worked on.
+    """The current work.
 
-    `file` is None until the program has a name, `saved` is the program as the file holds it.  `derived` always belongs
-    to `program`: without paths at first, in full once the worker is done.  `title` names the example it began with.
-    `table` is the look-ahead table of the block that it was made of.  `look_only`: somebody else has the file open.
+    `file` is None until the program has a name; `saved` is the program in the file.  `derived` always belongs to
+    `program`: without paths at first, complete once the worker is done.  `title` names the example it started from.
+    `table` is a block and its look-ahead table.  `look_only`: someone else has the file open.
     """
 
     history: History
@@ -56,7 +56,7 @@ class Session:
 
     @staticmethod
     def of(program: Program, title: str = "") -> Session:
-        """A session that begins with this program, the cursor on START of block 1."""
+        """Return a session that starts with this program, with the cursor on START of block 1."""
         cursor = Cursor(field=_first_field(program))
         return Session(History(program), program, solve_fields(program), cursor, title=title)
 
@@ -71,7 +71,7 @@ class Session:
         *,
         look_only: bool = False,
     ) -> Session:
-        """A session on work that has a history, the cursor where it was; in a new program in its first field."""
+        """Return a session with a history and the cursor where it was; in a new program, on its first field."""
         if field == SEGMENT and not history.past:
             field = _first_field(history.program)
         cursor = Cursor(nearest_place(history.program, place), field)
@@ -79,22 +79,22 @@ class Session:
         return Session(history, saved, derived, cursor, file, title, look_only=look_only)
 
     def like(self, before: Session) -> Session:
-        """The session with what was known of the same program before."""
+        """Return the session with the results and the cursor of `before`, a session on the same program."""
         return replace(self, derived=before.derived, cursor=before.cursor, table=before.table)
 
     @property
     def program(self) -> Program:
-        """The program as it is now."""
+        """The current program."""
         return self.history.program
 
     @property
     def unsaved(self) -> bool:
-        """The file does not hold the program as it is now."""
+        """True if the file does not hold the current program."""
         return self.program is not self.saved and self.program != self.saved
 
     @property
     def file_label(self) -> str:
-        """The program's name as screens show it; a star where something is not saved."""
+        """The program's name as screens show it, with a star if it has unsaved changes."""
         if self.look_only:
             return f"LOOK ONLY {self.file.stem if self.file else ''}"
         name = self.file.stem if self.file else f"{self.title} (example)" if self.title else "NO NAME"
@@ -112,37 +112,37 @@ class Session:
 
     @property
     def segment(self) -> Segment | None:
-        """The segment with the cursor, None on START."""
+        """The segment with the cursor; None on START."""
         return self.block.segments[self.place.segment - 1] if self.place.segment else None
 
     @property
     def derived_block(self) -> DerivedBlock:
-        """What follows from the block with the cursor."""
+        """The derived block with the cursor."""
         return self.derived.block(self.place.block)
 
     @property
     def lookahead_table(self) -> Table | None:
-        """The look-ahead table of the block with the cursor, None until it is known."""
+        """The look-ahead table of the block with the cursor; None until it is known."""
         return self.table[1] if self.table is not None and self.table[0] is self.derived_block else None
 
     def with_program(self, program: Program, label: str) -> Session:
-        """The session after an edit."""
+        """Return the session after an edit."""
         return self._with_history(self.history.do(program, label))
 
     def undone(self) -> Session:
-        """One edit taken back, the cursor on what it had changed."""
+        """Return the session with one edit undone and the cursor on what it had changed."""
         return self._moved_to_change(self.history.undo())
 
     def redone(self) -> Session:
-        """One undone edit made again, the cursor on what it changes."""
+        """Return the session with one edit redone and the cursor on what it changes."""
         return self._moved_to_change(self.history.redo())
 
     def at(self, place: FormPlace, field: str | None = SEGMENT) -> Session:
-        """The cursor moved; a place that does not exist becomes the nearest one that does."""
+        """Return the session with the cursor moved to a place, or to the nearest one that exists."""
         return replace(self, cursor=Cursor(nearest_place(self.program, place), field))
 
     def without_empty(self) -> Session:
-        """The session with the making of the new segment with the cursor undone, where nothing was typed in it."""
+        """Return the session with the insertion of an empty new segment at the cursor undone, if there is one."""
         segment, history = self.segment, self.history
         if segment is None or not is_empty(segment) or not (history.undo_label or "").startswith("new "):
             return self
@@ -155,15 +155,15 @@ class Session:
         return self._with_history(undone)
 
     def knowing(self, derived: Derived) -> Session:
-        """The session with what follows from its program; a result for another program is dropped."""
+        """Return the session with its program's derivation; ignore a result for another program."""
         return replace(self, derived=derived) if derived.program is self.program else self
 
     def with_table(self, block: DerivedBlock, table: Table | None) -> Session:
-        """The session with the look-ahead table of a block, as long as that block is what is worked on."""
+        """Return the session with a block's look-ahead table; ignore it if the block is outdated."""
         return replace(self, table=(block, table)) if block in self.derived.blocks else self
 
     def trying(self, derived: Derived) -> Session:
-        """The session as it would be with another program; only to be shown."""
+        """Return the session as it would be with another program, for display only."""
         return replace(self, history=replace(self.history, program=derived.program), derived=derived)
 
     def _moved_to_change(self, history: History) -> Session:
@@ -181,13 +181,13 @@ class Session:
 
 
 def _first_field(program: Program) -> str:
-    """Where the cursor begins: in TOOL of a new program, else on SEGMENT."""
+    """Return the field where the cursor starts: TOOL in a new program, else SEGMENT."""
     new = len(program.blocks) == 1 and not program.blocks[0].segments and program.blocks[0].x_start is None
     return "tool" if new else SEGMENT
 
 
 def nearest_place(program: Program, place: FormPlace) -> FormPlace:
-    """The place, or the nearest one that the program has."""
+    """Return the place, or the nearest one that the program has."""
     block = min(max(place.block, 1), len(program.blocks))
     return FormPlace(block, min(max(place.segment, 0), len(program.blocks[block - 1].segments)))
 

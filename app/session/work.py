@@ -1,4 +1,4 @@
-"""Work: what a thread is working out, how far it is, and whether it is to stop."""
+"""Work tracks a calculation in a thread: its progress, and whether it is to stop."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import Final
 from core.progress import Stopped
 
 SHOWN_AFTER: Final = 0.3
-"""Seconds after which it is shown how far a piece of work is."""
+"""Seconds after which the progress of work is shown."""
 STOPS_AFTER: Final = 1.0
-"""Seconds after which Esc stops it."""
+"""Seconds after which Esc stops work."""
 
 
 @dataclass(eq=False, slots=True)
 class Work:
-    """One piece of work; the thread calls it with the part that is done, the screen reads that and may stop it.
+    """One piece of work; the thread calls it with the fraction done, the screen reads that and may stop it.
 
-    `on_stop` tells whoever waits for the result that there is none.
+    `on_stop` is called when Esc stops the work, so that nothing waits for the result.
     """
 
     on_stop: Callable[[], None]
@@ -28,23 +28,23 @@ class Work:
     stopped: bool = False
 
     def __call__(self, done: float) -> None:
-        """Tell the part that is done, 0 to 1; raises Stopped where nobody waits for the rest."""
+        """Record the fraction done, 0 to 1; raise Stopped if the work has been stopped."""
         if self.stopped:
             raise Stopped
         self.done = done
 
     @property
     def long(self) -> bool:
-        """It takes long enough for it to be shown how far it is."""
+        """True if the work has run long enough for its progress to be shown."""
         return monotonic() - self.begun >= SHOWN_AFTER
 
     @property
     def stoppable(self) -> bool:
-        """It takes so long that Esc stops it."""
+        """True if the work has run long enough for Esc to stop it."""
         return monotonic() - self.begun >= STOPS_AFTER
 
     @property
     def text(self) -> str:
-        """How far it is, and from when on Esc stops it."""
+        """The progress, and whether Esc stops the work."""
         stops = ", Esc stops" if self.stoppable else ""
         return f"working {round(100 * min(self.done, 1.0))} %{stops}"
