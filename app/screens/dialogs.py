@@ -114,7 +114,10 @@ class Question(Dialog[str]):
         box = self._box
         if box is None:
             return
-        loss = box.query_one("#loss", Static)
+        loss = next(iter(box.query("#loss").results(Static)), None)
+        if loss is None:
+            # the dialog is leaving
+            return
         frame = box.region.height - box.size.height
         room = self.size.height - frame - (box.virtual_size.height - loss.size.height)
         visible = list(self.details)

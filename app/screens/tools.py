@@ -140,6 +140,17 @@ class ToolsScreen(FormScreen):
         program = self.current_session.program
         return _typed(program, program.tools[_row(field.name)], field, text)
 
+    def take_text(self, widget: NumberField, field: Field) -> bool:
+        """Take the text of a field; the cursor stays on a tool that another number has moved to another row."""
+        before, has_cursor = {tool.number for tool in self.current_session.program.tools}, widget is self.current
+        if not super().take_text(widget, field):
+            return False
+        numbers = [tool.number for tool in self.current_session.program.tools]
+        moved = [row for row, number in enumerate(numbers) if number not in before]
+        if has_cursor and moved and moved != [_row(field.name)]:
+            self._focus_row(moved[0])
+        return True
+
     def label(self, field: Field) -> str:
         """Return FIELD of a tool."""
         return f"{field.label} of tool {self.current_session.program.tools[_row(field.name)].number}"

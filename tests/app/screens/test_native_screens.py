@@ -116,6 +116,20 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
         assert [tool.number for tool in user.session.program.tools] == [1]
 
 
+@pytest.mark.parametrize(("key", "row"), [("enter", 2), ("tab", 2), ("up", 1)])
+async def test_the_cursor_stays_on_a_tool_whose_number_moves_it(key, row):
+    async with operator() as user:
+        await run(user, "app.tools")
+        await user.press("f2", "'.25", "enter", "f2", "'.125", "enter")
+        await everything(user)
+        assert isinstance(user.app.screen, ToolsScreen)
+        user.app.screen.focus_field("number@0")
+        await user.press("'9", key)
+        await everything(user)
+        assert [tool.number for tool in user.session.program.tools] == [2, 3, 9]
+        assert user.at.partition("@")[2] == str(row)
+
+
 async def test_speed_feeds_and_coolant_of_a_tool_are_proposals():
     async with operator() as user:
         await run(user, "app.tools")
