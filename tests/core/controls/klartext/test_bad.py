@@ -33,9 +33,17 @@ def test_the_finding_names_the_place_where_a_rule_is_broken(file: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "blocks", [("L X+10 ~", "Y+20 F100"), ("L X+0 F9 ; SLOWLY ~", "L X+5"), ("* - POCKET ~", "L X+5")]
+    "blocks",
+    [
+        ("L X+10 ~", "Y+20 F100"),
+        ("L X+0 F9 ; SLOWLY ~", "L X+5"),
+        ("* - POCKET ~", "L X+5"),
+        ("CYCL CALL POS X+10 ~", "Y+70 Z+0 FMAX"),
+        ("CYCL DEF 19.1 A+0 ~", "B+30"),
+        ("CYCL DEF 7.1 X+10 ~", "Y+10"),
+    ],
 )
-def test_a_block_that_goes_on_in_the_next_line_is_refused_but_for_a_cycle(blocks: tuple[str, ...]) -> None:
+def test_a_block_that_goes_on_in_the_next_line_is_refused_but_for_a_cycle_with_values(blocks: tuple[str, ...]) -> None:
     made = runs("L X+0 Y+0 F9", *blocks)
     assert [(finding.code, finding.line) for finding in made.findings if finding.severity is Severity.ERROR] == [
         ("BEYOND", 5)
