@@ -9,14 +9,22 @@ from __future__ import annotations
 import io
 import logging
 import re
+from collections.abc import Sequence
 from contextlib import suppress
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
-from core.importing.dxf_tags import BINARY_MARK, Scan, scan_tags, scan_text, text_lines
+from core.importing.dxf_tags import BINARY_MARK, MARKER, Scan, scan_tags, scan_text, text_lines
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
+
+R12: Final = "AC1009"
+R2000: Final = "AC1015"
+HANDLE: Final = 5
+_OF_LWPOLYLINE: Final = frozenset({10, 38, 39, 43, 70, 90})
+"""Group codes with which an LWPOLYLINE's own data may begin."""
 
 MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
 
@@ -51,7 +59,55 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
         fault = scan.first_fault
         readable = sum(not entity.fault for entity in scan.entities)
         raise damaged_file(f"The {fault.kind} {fault.where} {fault.fault}", readable)
-    return scan, _loaded(data, scan, damaged=damaged)
+    return scan, _loaded(_with_markers(data, scan), scan, damaged=damaged)
+
+
+def _with_markers(data: bytes, scan: Scan) -> bytes:
+    """Return a text file in which ezdxf reads every entity whole.
+
+    In a file of R12, or of no version, ezdxf reads only what comes before an entity's first subclass marker: such a
+    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.
+    """
+    is_r12 = scan.version in ("", R12) and (scan.marked or scan.unmarked)
+    if scan.bad_line or not (is_r12 or scan.unmarked):
+        return data
+    lines = text_lines(data)
+    written, begin = list[bytes](), 0
+    for row in (*range(2, len(lines) - 1, 2), len(lines)):
+        if row < len(lines) and int(lines[row]):
+            continue
+        written += _entity_with_markers(lines[begin:row])
+        begin = row
+    return b"\n".join([*(_as_r2000(written) if is_r12 else written), b""])
+
+
+def _as_r2000(lines: list[bytes]) -> list[bytes]:
+    """Return the lines of a file with the version R2000 in its header."""
+    values = [line.strip() for line in lines]
+    version = _lines_of([(9, "$ACADVER"), (1, R2000)])
+    if b"$ACADVER" in values:
+        at = values.index(b"$ACADVER") - 1
+        return [*lines[:at], *version, *lines[at + 4 :]]
+    header = [row for row, pair in enumerate(pairwise(values[1::2])) if pair == (b"SECTION", b"HEADER")]
+    if header:
+        at = 2 * header[0] + 4
+        return [*lines[:at], *version, *lines[at:]]
+    return [*_lines_of([(0, "SECTION"), (2, "HEADER")]), *version, *_lines_of([(0, "ENDSEC")]), *lines]
+
+
+def _entity_with_markers(lines: list[bytes]) -> list[bytes]:
+    """Return an entity's lines, an LWPOLYLINE's with both its markers; as they are if its layer comes too late."""
+    codes = [int(code) for code in lines[::2]]
+    first = next((row for row, code in enumerate(codes) if code in _OF_LWPOLYLINE), 0)
+    if lines[1].strip() != b"LWPOLYLINE" or MARKER in codes or not first or 8 in codes[first:]:
+        return lines
+    common = 2 if codes[1] == HANDLE else 1
+    markers = [_lines_of([(MARKER, name)]) for name in ("AcDbEntity", "AcDbPolyline")]
+    return [*lines[: 2 * common], *markers[0], *lines[2 * common : 2 * first], *markers[1], *lines[2 * first :]]
+
+
+def _lines_of(tags: Sequence[tuple[int, str]]) -> list[bytes]:
+    return [line.encode() for code, value in tags for line in (str(code), value)]
 
 
 def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
@@ -81,6 +137,8 @@ def _binary_document(data: bytes) -> tuple[Scan, Document]:
         scan = scan_tags((tag.code, tag.value) for tag in binary_tags_loader(data))
         if len(scan.entities) > MAX_ENTITIES:
             raise too_much("entities", len(scan.entities), MAX_ENTITIES)
+        if scan.unmarked or (scan.marked and scan.version in ("", R12)):
+            raise damaged_file("its version does not have its kinds of entity. Export it as text DXF of R2000")
         if scan.whole:
             return scan, Document.load(binary_tags_loader(data))
     except DrawingError:

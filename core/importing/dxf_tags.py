@@ -17,6 +17,8 @@ from typing import Final, NamedTuple
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
 COMMENT: Final = 999
+MARKER: Final = 100
+"""The group code of a subclass marker, such as AcDbPolyline."""
 
 _BREAK: Final = re.compile(rb"\r\n|\r")
 
@@ -91,6 +93,12 @@ class Scan:
     blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
     units: int = 0
     """$INSUNITS, 0 if the file has none."""
+    version: str = ""
+    """$ACADVER, empty if the file has none."""
+    marked: bool = False
+    """An entity has subclass markers (group code 100), which R12 does not know."""
+    unmarked: bool = False
+    """An LWPOLYLINE has none."""
     bad_line: int = 0
     """The first line that should be a group code and is not, 0 if there is none."""
     open_section: str = ""
@@ -242,12 +250,16 @@ class _Scanner:
 
     def _header(self, body: list[Tag]) -> None:
         for variable, value in pairwise(body):
+            if variable[:2] == (9, "$ACADVER"):
+                self.scan.version = value.value
             if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
                 self.scan.units = int(value.value)
 
     def _check(self, kind: str, body: list[Tag]) -> None:
         assert self.entity is not None
         counts = Counter(tag.code for tag in body)
+        self.scan.marked |= MARKER in counts
+        self.scan.unmarked |= kind == "LWPOLYLINE" and MARKER not in counts
         if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
             self.entity.paper = True
         fault = _fault(kind, counts, body)

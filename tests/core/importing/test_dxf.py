@@ -366,3 +366,55 @@ def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
     (contour,) = listed(dxf([(0, "POLYLINE"), (8, "0"), (66, 1), (70, 0), *vertices, (0, "SEQEND")])).contours
     with pytest.raises(DoesNotFitError, match="Chain 1 has an arc of radius 1000000"):
         block_of(contour, Program(unit=Unit.MM))
+
+
+VERSIONS = [None, "", "AC1006", "AC1009", "AC1012", "AC1015", "AC1032"]
+"""A file without a header, one without a version in it, and versions."""
+
+
+def of_version(version: str | None, *tags: tuple[int, object]) -> bytes:
+    """A drawing of one entity."""
+    named = [(9, "$ACADVER"), (1, version)] if version else []
+    head = [] if version is None else [(0, "SECTION"), (2, "HEADER"), *named, (9, "$INSUNITS"), (70, 4), (0, "ENDSEC")]
+    every = [*head, (0, "SECTION"), (2, "ENTITIES"), *tags, (0, "ENDSEC"), (0, "EOF")]
+    return "".join(f"{code}\n{value}\n" for code, value in every).encode()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("marked", [True, False])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_polyline_is_read_whole_whatever_version_and_markers_say(
+    version: str | None, marked: bool, mirrored: bool
+) -> None:
+    markers: list[tuple[int, object]] = [(100, "AcDbEntity"), (100, "AcDbPolyline")] if marked else []
+    corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0), (10, 0.0), (20, 30.0)]
+    own: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *([(230, -1.0)] if mirrored else [])]
+    tags = [(0, "LWPOLYLINE"), (5, "1A"), *markers[:1], (8, "CUT"), *markers[1:], *own]
+    data = of_version(version, *tags)
+    (contour,) = listed(data).contours
+    across = [piece.start[0] for piece in contour.pieces]
+    assert contour.closed
+    assert contour.length == pytest.approx(160.0)
+    assert (min(across), max(across)) == ((-50.0, 0.0) if mirrored else (0.0, 50.0))
+    assert read(data).layers == ("CUT",)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
+    # a Bezier parabola: without its degree of 2 it would need another number of knots
+    knots = [(40, knot) for knot in (0, 0, 0, 1, 1, 1)]
+    points = [tag for x, y in ((0, 0), (10, 20), (20, 0)) for tag in ((10, x), (20, y), (30, 0))]
+    markers = (0, "SPLINE"), (5, "1A"), (100, "AcDbEntity"), (8, "CUT"), (100, "AcDbSpline")
+    tags = [*markers, (70, 8), (71, 2), (72, 6), (73, 3), *knots, *points]
+    (contour,) = listed(of_version(version, *tags)).contours
+    middle = min(contour.pieces, key=lambda piece: abs(piece.point_at(0.5)[0] - 10.0)).point_at(0.5)
+    assert max(point[1] for piece in contour.pieces for point in (piece.start, piece.end, middle)) == pytest.approx(
+        10.0, abs=0.05
+    )
+
+
+def test_a_polyline_whose_layer_comes_late_is_refused_and_not_put_on_another() -> None:
+    tags = [(0, "LWPOLYLINE"), (90, 2), (70, 0), (10, 0.0), (20, 0.0), (10, 5.0), (20, 0.0), (8, "CUT")]
+    with pytest.raises(DrawingError) as refused:
+        read(of_version("AC1015", *tags))
+    assert refused.value.code == "DXF_DAMAGED"
