@@ -370,6 +370,7 @@ def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
 
 VERSIONS = [None, "", "AC1006", "AC1009", "AC1012", "AC1015", "AC1032"]
 """A file without a header, one without a version in it, and versions."""
+MIRRORED: list[tuple[int, object]] = [(210, 0.0), (220, 0.0), (230, -1.0)]
 
 
 def of_version(version: str | None, *tags: tuple[int, object]) -> bytes:
@@ -388,7 +389,7 @@ def test_a_polyline_is_read_whole_whatever_version_and_markers_say(
 ) -> None:
     markers: list[tuple[int, object]] = [(100, "AcDbEntity"), (100, "AcDbPolyline")] if marked else []
     corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0), (10, 0.0), (20, 30.0)]
-    own: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *([(230, -1.0)] if mirrored else [])]
+    own: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *(MIRRORED if mirrored else [])]
     tags = [(0, "LWPOLYLINE"), (5, "1A"), *markers[:1], (8, "CUT"), *markers[1:], *own]
     data = of_version(version, *tags)
     (contour,) = listed(data).contours
