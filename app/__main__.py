@@ -12,7 +12,7 @@ from pathlib import Path
 
 from app.cli import lifeline
 from app.cli.shell import HELP, NOTHING_ASKED, SHOP_HELP, UNUSABLE, TerminalOptions, prepare, say
-from app.documents.naming import is_drawing
+from app.documents.paths import is_drawing
 
 
 def main(arguments: list[str] | None = None) -> int:

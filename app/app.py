@@ -20,7 +20,7 @@ from textual.screen import ModalScreen, Screen
 
 from app import theme
 from app.documents.document import ContourDocument, NcDocument
-from app.documents.folders import current_folder
+from app.documents.paths import current_folder
 from app.documents.service import DocumentService, Opened
 from app.documents.settings import SettingsFile
 from app.screens.base import HEIGHTS, WIDTHS, BaseScreen

@@ -18,10 +18,9 @@ from textual import work
 from app.derivation_actions import DerivationActions
 from app.documents.document import AnyDocument, ContourDocument, Document, NcDocument
 from app.documents.files import refuse_program, why, write_data, write_output
-from app.documents.folders import chosen, short_path, written_at
 from app.documents.left_overs import file_of_copy
-from app.documents.naming import is_drawing, is_folder, program_named, typed, with_suffix
 from app.documents.nc_text import NC_SUFFIXES
+from app.documents.paths import chosen, is_drawing, is_folder, program_named, short_path, typed, with_suffix, written_at
 from app.documents.patience import DISK, FILE, Disk, within
 from app.documents.questions import (
     DISCARD,

@@ -21,9 +21,9 @@ from typing import Final
 
 from app.cli.control_options import add_options, bytes_of, control_of, tools_of, unit_of
 from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, Unusable, reported, say
-from app.documents.folders import printable_path
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NC_SUFFIXES
+from app.documents.paths import printable_path
 from core.controls.control_tools import commented_size
 from core.controls.program_text import lines_of
 from core.controls.registry import choices

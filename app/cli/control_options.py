@@ -7,8 +7,8 @@ from pathlib import Path
 
 from app.cli.shell import Unusable
 from app.documents.files import read_file, why
-from app.documents.folders import printable_path
 from app.documents.nc_text import MAX_NC_BYTES
+from app.documents.paths import printable_path
 from core.controls.control_tools import CutterTool, ToolTable, read_table, tool_id
 from core.controls.program_text import quoted
 from core.program.tools import table_faults

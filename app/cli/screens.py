@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from app.cli.shell import NOTHING_ASKED, UNUSABLE, TerminalOptions, say
 from app.documents.document import ContourDocument
-from app.documents.naming import is_drawing, program_named
 from app.documents.nc_text import NC_SUFFIXES
+from app.documents.paths import is_drawing, program_named
 from app.documents.programs import empty_program
 from app.documents.service import DocumentService, Notice, Opened, Trouble
 from app.documents.settings import SettingsFile, load_settings, settings_file

@@ -19,8 +19,8 @@ from types import MappingProxyType
 from typing import BinaryIO, Final
 from zlib import adler32, crc32
 
-from app.documents.naming import is_drawing
 from app.documents.nc_text import NC_SUFFIXES
+from app.documents.paths import is_drawing
 from core.program.file.read import StoreError, loads_bytes
 from core.program.file.write import dumps
 from core.program.model import Program

@@ -13,10 +13,10 @@ from typing import Final
 
 from app.documents import times
 from app.documents.document import Document
-from app.documents.folders import folder, outside, printable_path
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import UNNAMED, Unreadable
 from app.documents.lock import Owner
+from app.documents.paths import folder, outside, printable_path
 from core.units import printable
 
 GO_BACK: Final = "GO BACK"

@@ -15,7 +15,6 @@ from typing import Any, Final, Generic
 from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
 from app.documents.files import holds_program, load, read_file, refuse_program, stamp_of, stamp_of_data, why, write_data
-from app.documents.folders import chosen, folder, outside, printable_path, short_path, written_at
 from app.documents.interrupted import interrupted_saves
 from app.documents.journal import Head, Journal, Kind, beginning, continuing
 from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
@@ -33,7 +32,7 @@ from app.documents.left_overs import (
     wants_answer,
 )
 from app.documents.lock import Lock, Owner, alive, held_by, myself, release, take, take_over, taken_by
-from app.documents.naming import as_program, is_folder
+from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
 from app.documents.patience import FILE, within
 from app.documents.programs import empty_program, example, examples
 from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, whole_name

@@ -15,8 +15,8 @@ from app.documents.files import load, read_start
 from app.documents.journal import Journal, Kind
 from app.documents.left_overs import KeptCopy, kept_copies, left_by_dead, left_of, never_saved, state_folder
 from app.documents.lock import alive, user
-from app.documents.naming import is_drawing
 from app.documents.nc_text import NC_SUFFIXES
+from app.documents.paths import is_drawing
 from app.documents.patience import FILE, FOLDER, within
 from app.documents.programs import examples, is_program
 from core.finding import Severity

@@ -18,7 +18,7 @@ from textual.widgets import DataTable, Static
 from textual.worker import get_current_worker
 
 from app.documents.files import load, why
-from app.documents.folders import short_path
+from app.documents.paths import short_path
 from app.documents.survey import (
     DRAWING,
     NC_PROGRAM,

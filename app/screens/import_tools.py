@@ -10,7 +10,7 @@ from textual.app import ComposeResult
 from textual.content import Content
 from textual.widgets import Static
 
-from app.documents.naming import typed
+from app.documents.paths import typed
 from app.documents.questions import Answer
 from app.documents.tool_tables import merged, read_table, tool_line
 from app.screens.dialogs import Question

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from app.documents.naming import typed
+from app.documents.paths import typed
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import SAVE_NAME
 from app.session.messages import Sentence

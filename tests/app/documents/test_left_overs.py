@@ -16,6 +16,7 @@ from app.documents.journal import Kind
 from app.documents.journal_file import journal_path, set_aside
 from app.documents.left_overs import KeptCopy, file_of_copy, kept_copies, never_saved
 from app.documents.programs import example
+from app.documents.questions import Ask
 from app.documents.service import Opened, Trouble
 from tests.app.documents.typist import (
     ALIVE,
@@ -300,7 +301,8 @@ def test_discarded_a_file_that_is_cut_off_stays_until_somebody_decides(own: Path
     rest = part.read_bytes()
     operator = started(own, part).answer("DISCARD").type(3)
     ask = operator.try_to_save()
-    assert "part.toml cannot be read. It was written" in words(ask)  # type: ignore[arg-type]
+    assert isinstance(ask, Ask)
+    assert "part.toml cannot be read. It was written" in words(ask)
     operator.save(None, "FILE AS IT IS")
     assert part.read_bytes() == rest
     assert operator.document.file.path.name.startswith("part.mine-")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.naming import as_program, is_folder, program_named, typed, with_suffix
+from app.documents.paths import as_program, is_folder, program_named, typed, with_suffix
 
 LONG = "中" * 100
 
