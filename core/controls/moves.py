@@ -7,7 +7,7 @@ an arc that ends where it starts is a full circle; an arc that also moves along 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from struct import Struct
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Flags, Floats, Path
+from core.tolerance import JOINED
 
 Point3 = tuple[float, float, float]
 
@@ -35,6 +36,12 @@ class Plane(IntEnum):
 
 
 _AXES: Final = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
+
+
+def without_rounding(end: Sequence[float], here: Sequence[float]) -> Point3:
+    """Return the end of a move; each coordinate that differs from that of `here` by a rounding only becomes equal."""
+    x, y, z = (old if abs(new - old) <= JOINED else new for new, old in zip(end, here, strict=True))
+    return x, y, z
 
 
 def flat(point: Point3, plane: Plane) -> Point3:

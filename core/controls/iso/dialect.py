@@ -126,6 +126,7 @@ class Dialect:
     is only a program's number.  `program_names`: a name in angle brackets may replace O and its number.
     `without_point`: what makes X10 ten least increments.  `diameters_apart`: D has a memory of its own, in diameters.
     `macro_codes`: the parameters that make G codes macros.  `g54_takes_p`: G54 P is G54.1 P.
+    `rounding_moves`: what rounding leaves between two equal positions is a move, as LinuxCNC's interpreter has it.
     `max_repeated_blocks`: how many blocks subprograms and loops may repeat before cutcomp gives up the run.
     """
 
@@ -165,6 +166,7 @@ class Dialect:
     diameters_apart: bool = False
     macro_codes: str = ""
     g54_takes_p: bool = False
+    rounding_moves: bool = False
     max_repeated_blocks: int = 400_000
 
 

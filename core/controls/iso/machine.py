@@ -19,7 +19,7 @@ from core.controls.iso.code_support import CODES, OFFSETS_ANYWHERE, TOOL_DATA, l
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
-from core.controls.moves import Plane, Point3, flat
+from core.controls.moves import Plane, Point3, flat, without_rounding
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
@@ -324,6 +324,8 @@ class Machine(ModalState):
             self._drill(block)
 
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
+        if not self.dialect.rounding_moves:
+            end = without_rounding(end, self.position)
         feed = self.feed
         if not rapid and self.rate != PER_MINUTE:
             feed = self.feed_over(block, dist(self.position, end))

@@ -13,7 +13,7 @@ from core.controls.klartext.corner_rounding import NO_LEAD, PendingCorner
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON_WORDS, SIDES, State, Words
-from core.controls.moves import Plane, solid
+from core.controls.moves import Plane, solid, without_rounding
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED
@@ -55,6 +55,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
     state.chosen_side(block, words)
     rapid, feed = state.chosen_feed(block, words)
     corner_rules = functions(state, block, words)
+    end = list(without_rounding(end, state.position))
     if end == state.position:
         return
     state.moving(block, rapid=rapid, feed=feed)

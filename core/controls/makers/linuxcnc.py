@@ -63,6 +63,7 @@ DIALECT: Final = Dialect(
     rate_clears_feed=True,
     tool_data_kinds=frozenset((1, 10, 11)),
     tells_unused=False,
+    rounding_moves=True,
 )
 
 REFUSED: Final = {

@@ -48,6 +48,7 @@ DIALECT: Final = Dialect(
     Unit.MM,
     parameters=ParameterStore.MACRO_B,
     cycle_rule="C8",
+    rounding_moves=True,
 )
 
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)

@@ -204,6 +204,18 @@ def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_
     assert any(abs(from_mm(depth, Unit.IN) - 0.3) < 1e-6 for depth in cut)
 
 
+@pytest.mark.parametrize("control", ["allen-bradley:a", "allen-bradley:b", "fanuc:a", "haas:a"])
+def test_what_rounding_leaves_between_equal_positions_is_no_move(control: str) -> None:
+    head = "G71 G90 G17" if control.startswith("allen") else "G21 G90 G17"
+    text = f"{head} G40\nT1 M6\nG0 X-70. Y-20.\nG1 Z-5. F100.\nG41 D1 X-50. Y-10.\nG1 Y0.\nX0.\n{{}}"
+    text += "X50.\nY-10.\nG40 X70.\nM30\n"
+    # .1 + .1 + .1 is .30000000000000004
+    tenths = ran(text.format("G91\nX.1\nX.1\nX.1\nG90\nX.3\n"), control, t1=12)
+    plain = ran(text.format("X.1\nX.2\nX.3\n"), control, t1=12)
+    assert not deepest_gouge(judge_run(tenths))[0]
+    assert tenths.moves.points[-1] == pytest.approx(plain.moves.points[-1])
+
+
 def test_cuts_between_parts_of_one_side_are_judged_where_the_side_changes_later() -> None:
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
     text = f"{head}X0 Y2\nX5\nY-1\nX.3\nD2\nY0\nY2\nX-3\n{{side}}X-5 Y3\nX-9\nG40 X-9 Y9\nM2\n"

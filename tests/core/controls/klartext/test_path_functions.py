@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, radians, sin, sqrt
 
 import pytest
@@ -48,6 +49,19 @@ def test_arc_about_the_pole_both_ways() -> None:
 def test_incremental_pole_and_pole_where_the_tool_stands() -> None:
     assert told("CC IX+10 IY+0", "C X+20 Y+0 DR+") == [(20, 0, 10, 0, 1)]
     assert told("CC", "L X+5", "C X-5 Y+0 DR-")[-1] == (-5, 0, 0, 0, -1)
+
+
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        ("L IX+0.1", "L IX+0.1", "L IX+0.1", "L X+0.3"),
+        ("Q1 = 0.1 * 3", "L X+Q1", "L X+0.3"),
+        ("CC X+0 Y+0", "LP PR+30 PA+0", "LP PR+30 PA+360"),
+    ],
+)
+def test_what_rounding_leaves_between_equal_positions_is_no_move(blocks: tuple[str, ...]) -> None:
+    ends = told(*blocks, "L X+50 Y+0")
+    assert all(abs(before[0] - after[0]) > 0.01 for before, after in pairwise(ends))
 
 
 def test_an_arc_that_ends_where_it_starts_is_a_full_circle() -> None:
