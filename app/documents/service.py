@@ -1,6 +1,6 @@
-"""The document service: opens documents, keeps every edit on the disk, saves, locks, takes over, offers what was left.
+"""This module opens, journals, saves and locks documents, and offers the unsaved work that earlier runs left behind.
 
-It knows no screen.  What an operator must be asked comes back as an `Ask`, what went wrong as a sentence.
+It knows no screen.  A question for the operator comes back as an `Ask`, a failure as a sentence.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ from core.program.model import unread_texts
 from core.units import Unit, printable
 
 TEMPORARY: Final = ".tmp"
-"""The end of the name of what an interrupted save leaves."""
+"""The suffix of the file that an interrupted save leaves."""
 MAX_JOURNAL_GROWTH: Final = {Kind.CONTOUR: 8_000_000, Kind.NC: 64_000_000}
-"""Bytes of a journal that is not saved for very long; then it is begun anew with all work as it is."""
+"""The length in bytes beyond which the journal of a document that stays unsaved is rewritten from its current work."""
 
 
 # ---- what comes back
@@ -59,7 +59,7 @@ class Notice:
 
 @dataclass(frozen=True, slots=True)
 class Trouble:
-    """Why nothing was done, as a sentence; `open_already` is the document that is open under this name here."""
+    """A sentence that says why nothing was done; `open_already` is the document that is already open here."""
 
     text: str
     open_already: Document | None = None
@@ -67,7 +67,7 @@ class Trouble:
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """A question about a document that was opened; `left` is the work that it is about, at `path`."""
+    """A question about an opened document; `left` is the unsaved work that it concerns, stored at `path`."""
 
     ask: Ask
     path: Path | None = None
@@ -77,7 +77,7 @@ class Offer:
 
 @dataclass(frozen=True, slots=True)
 class Opened(Generic[AnyDocument]):
-    """A document, what there is to say about it, and the next question, if there is one."""
+    """A document, a notice about it, and the next question, if there is one."""
 
     document: AnyDocument
     notice: Notice | None = None
@@ -86,7 +86,7 @@ class Opened(Generic[AnyDocument]):
 
 @dataclass(frozen=True, slots=True)
 class Saved(Generic[AnyDocument]):
-    """A document that was written; `notice` says where, and what could not be kept."""
+    """A document that was written; `notice` says where, and what else the operator must know."""
 
     document: AnyDocument
     notice: Notice
@@ -97,11 +97,11 @@ class Saved(Generic[AnyDocument]):
 
 @dataclass(slots=True)
 class _Kept:
-    """What is kept of one opening: the document as it was kept last, its journal, its lock.
+    """One open document as it was last kept, with its journal and its lock.
 
-    `whole` says that the journal must be begun anew; `failing` that the last edit is not on the disk; `warned` that
-    somebody has taken the document over; `away` that the operator knows of a journal that is not beside its file.
-    `copy` is the name under which a question would save.
+    `whole`: the journal must be rewritten from the current work.  `failing`: the last edit is not on disk.  `warned`:
+    the operator knows that somebody has taken the document over.  `away`: the operator knows that the journal is not
+    beside its file.  `copy` is the name that questions propose for a copy.
     """
 
     known: Document
@@ -116,9 +116,9 @@ class _Kept:
 
 @dataclass(slots=True)
 class DocumentService:
-    """The documents that this process has open, each by its opening.
+    """The documents that this process has open, by their `FileState.opening`.
 
-    `state` is this person's folder for journals that cannot be beside their file.
+    `state` is the user's folder for journals that cannot lie beside their file.
     """
 
     me: Owner = field(default_factory=lambda: myself(times.now()))
@@ -126,34 +126,34 @@ class DocumentService:
     clock: Callable[[], str] = times.now
     _open: dict[object, _Kept] = field(default_factory=dict)
 
-    def _from_now(self) -> Owner:
-        """This process as the owner of a file that it opens now."""
+    def _owner_now(self) -> Owner:
+        """Return this process as the owner of a file that it opens now."""
         return replace(self.me, since=self.clock())
 
     # ---- open
 
     def new(self, unit: Unit = Unit.IN, *, offers: bool = False) -> Opened[ContourDocument]:
-        """A new program without a name; `offers` asks about work without a name that was left, as at a start."""
+        """Begin a program without a name; `offers` asks about unsaved work without a name, as at startup."""
         document = ContourDocument.of(empty_program(unit))
         self._open[document.file.opening] = _Kept(document)
         return self._next_offer(document) if offers else Opened(document)
 
     def example(self, name: str) -> Opened[ContourDocument]:
-        """An example: it is nobody's to overwrite, and has no file until it is saved under a name."""
+        """Open an example; SAVE cannot overwrite it, since it has no file until SAVE AS gives it a name."""
         document = ContourDocument.of(load(example(name)), title=name)
         self._open[document.file.opening] = _Kept(document)
         return Opened(document, Notice(f"Example {name}: SAVE gives it a name."))
 
     def open(self, path: Path, *, kept_copy: Path | None = None) -> Opened[Any] | Trouble:
-        """The document of a file, whichever kind it is; a program that does not exist yet is a new one.
+        """Open a file of either kind; a contour program that does not exist yet begins empty.
 
-        `kept_copy` is a journal that was set aside, whose work is offered first.
+        `kept_copy` is a journal that was set aside; its work is offered first.
         """
         if path.parent == examples():
             return self.example(path.stem)
         if _real_path(path) is None:
             return Trouble(f"{short_path(path)} cannot be opened: that is not a file name. Choose another.")
-        if (kept := self._standing(path)) is not None:
+        if (kept := self._open_here(path)) is not None:
             return Trouble(f"{printable(path.name)} is open already.", kept.known)
         try:
             document = within(FILE, lambda: self._read(path, kept_copy))
@@ -164,28 +164,28 @@ class DocumentService:
         except StoreError as error:
             return Trouble(error.text)
         new = document.file.stamp is None and not os.path.lexists(path) and kept_copy is None
-        word = f"{short_path(path)} does not exist yet: saving makes it." if new else f"Opened: {short_path(path)}"
-        return self._begun(document, Notice(word), kept_copy)
+        text = f"{short_path(path)} does not exist yet: saving makes it." if new else f"Opened: {short_path(path)}"
+        return self._opened(document, Notice(text), kept_copy)
 
     def copy_without_name(self, kept_copy: Path) -> Opened[ContourDocument]:
-        """A new program in which the work of a kept copy that has no name is offered."""
-        return self._begun(ContourDocument.of(empty_program()), None, kept_copy)
+        """Begin a new program and offer the work of a kept copy that has no file name."""
+        return self._opened(ContourDocument.of(empty_program()), None, kept_copy)
 
-    def _standing(self, path: Path) -> _Kept | None:
-        """What is open here under this name, or under another name of the same file."""
+    def _open_here(self, path: Path) -> _Kept | None:
+        """Return the document that is open here under this or another name of the same file, None if there is none."""
         real = _real_path(path)
         if real is None:
             return None
         return next((kept for kept in self._open.values() if _real_path(kept.known.file.path) == real), None)
 
     def changed(self, document: Document) -> bool:
-        """Whether the file of a document is another than it was when it was read or saved last."""
+        """True if a document's file differs from what was last read or saved."""
         path, then = document.file.path, document.file.stamp
         now = None if path is None else stamp_of(path, MAX_BYTES[document.kind])
         return (now is None) is not (then is None) or not (now is None or then is None or now.same_content(then))
 
     def _read(self, path: Path, kept_copy: Path | None) -> Document:
-        """The document of a file, or an empty one where only work on it was left; StoreError for neither."""
+        """Read a file; return an empty document for a new file or for unsaved work alone, else raise StoreError."""
         named = FileState(path)
         program = path.suffix.lower() == ".toml"
         try:
@@ -210,9 +210,9 @@ class DocumentService:
             return self._rescued(named, error, kept_copy)
 
     def _rescued(self, file: FileState, error: StoreError, kept_copy: Path | None) -> ContourDocument:
-        """An empty program in the place of a file that cannot be read, on which work that was left will be offered.
+        """Return an empty program in place of an unreadable file if unsaved work on it exists, else raise `error`.
 
-        It has no stamp: whoever saves it is asked, and what stands in the file is kept beside it.
+        It has no stamp, so a save asks first and can keep the file's content, unless not even its bytes can be read.
         """
         assert file.path is not None
         wanted = None if kept_copy is None else read(kept_copy, Kind.CONTOUR)
@@ -225,37 +225,37 @@ class DocumentService:
         program = empty.restored(journal).program
         return ContourDocument.of(empty_program(program.unit), file)
 
-    def _begun(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
+    def _opened(self, document: AnyDocument, notice: Notice | None, kept_copy: Path | None) -> Opened[AnyDocument]:
         kept = self._open[document.file.opening] = _Kept(document)
         holder = self._lock(kept)
         if holder is not None:
-            document = self._put(kept, replace(document, file=replace(document.file, holder=holder)))
+            document = self._remember(kept, replace(document, file=replace(document.file, holder=holder)))
             return Opened(document, notice, Offer(questions.open_already(holder, self.clock()), kept_copy))
         opened = self._next_offer(document, kept_copy)
         return replace(opened, notice=opened.notice or notice)
 
-    def _put(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
+    def _remember(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
         kept.known = document
         return document
 
     def _lock(self, kept: _Kept) -> Owner | None:
-        """Lock the file; who has it, if somebody else does.  Where no lock can be written, nothing can be saved."""
+        """Lock the file, or return who else has it; where no lock can be written, no save can be written either."""
         kept.lock, path = None, kept.known.file.path
         if path is None:
             return None
         with suppress(OSError):
-            lock = take(path, self._from_now())
+            lock = take(path, self._owner_now())
             if isinstance(lock, Owner):
                 return lock
             kept.lock = lock
-            # what a program that was killed has not put in its place
+            # a killed process may have left a new journal that it had not yet renamed
             new_path(journal_path(path)).unlink(missing_ok=True)
         return None
 
     # ---- offers
 
     def answer(self, document: AnyDocument, offer: Offer, word: str) -> Opened[AnyDocument]:
-        """What comes of the answer to an offer; GO BACK changes nothing, and it is asked again at the next start."""
+        """Apply the answer to an offer; GO BACK changes nothing, and the next start asks again."""
         kept = self._open[document.file.opening]
         match word, offer.path, offer.left:
             case questions.TAKE_OVER, path, _:
@@ -278,14 +278,14 @@ class DocumentService:
         answered: frozenset[Path] = frozenset(),
         notice: Notice | None = None,
     ) -> Opened[AnyDocument]:
-        """The next question about work that was left; a journal that holds nothing new is removed.
+        """Return the document with the next question about unsaved work; remove journals that hold nothing new.
 
-        Of what is kept for somebody else, and of what was answered, nothing is asked; a notice tells of it.
+        Work that was answered or is kept for somebody else raises no question; a notice mentions the latter.
         """
         for_others: list[str] = []
-        # before a journal is answered: what it holds too is not asked about twice
+        # before any journal is answered: a save that a journal also holds is not asked about twice
         interrupted = tuple(self._interrupted(document))
-        for path, left in self._left(document, kept_copy):
+        for path, left in self._left_work(document, kept_copy):
             if path in answered:
                 continue
             ask = self._question(document, path, left, chosen=path == kept_copy)
@@ -302,11 +302,11 @@ class DocumentService:
         return Opened(document, notice or (Notice(" ".join(for_others), warning=True) if for_others else None))
 
     def _interrupted(self, document: Document) -> Iterator[tuple[Path, Journal]]:
-        """What an interrupted save has left and is nowhere else; the rest of such content is removed."""
+        """Yield the interrupted saves whose content exists nowhere else; remove the others."""
         if document.file.path is None or document.file.holder is not None:
             return
         saves = tuple(interrupted_saves(document.file.path, document.kind))
-        journals = [left for _, left in self._left(document, None) if isinstance(left, Journal)] if saves else []
+        journals = [left for _, left in self._left_work(document, None) if isinstance(left, Journal)] if saves else []
         for save in saves:
             journal = save.journal(document, self.me.user)
             kept = [document.data(), *(document.restored(other).data() for other in journals)]
@@ -316,8 +316,8 @@ class DocumentService:
             else:
                 yield save.path, journal
 
-    def _left(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
-        """What may be asked about; a copy that was chosen comes first."""
+    def _left_work(self, document: Document, kept_copy: Path | None) -> Iterator[tuple[Path, Journal | Unreadable]]:
+        """Yield the unsaved work to ask about; a chosen kept copy comes first."""
         if kept_copy is not None and (copy := read(kept_copy, document.kind) or unreadable(kept_copy)) is not None:
             yield kept_copy, copy
         for path, left in left_of(document.file.path, document.kind, self.state):
@@ -327,13 +327,13 @@ class DocumentService:
     def _question(
         self, document: Document, path: Path, left: Journal | Unreadable, *, chosen: bool
     ) -> Ask | str | None:
-        """The question about work that was left, a sentence for those who are not asked, None where nothing is new."""
+        """Return the question about unsaved work, a sentence for users who are not asked, or None if nothing is new."""
         today = self.clock()
         if isinstance(left, Unreadable):
             if why_aside(path) and not left.ours:
                 return _kept_for(left.user, left.time, path, today)
             return questions.unreadable_work(document, path, left, today)
-        living, mine = alive(left.head.owner), self._mine(path, left)
+        living, mine = alive(left.head.owner), self._is_mine(path, left)
         if document.holds(left) and not left.damaged and not chosen:
             if not living:
                 with suppress(OSError):
@@ -344,33 +344,33 @@ class DocumentService:
         copy = chosen and not wants_answer(path)
         return questions.unsaved_work(document, left, mine=mine, me=self.me, living=living, chosen=copy, today=today)
 
-    def _mine(self, path: Path, journal: Journal) -> bool:
+    def _is_mine(self, path: Path, journal: Journal) -> bool:
         return of_user(journal.head.owner, path, self.state, self.me.user)
 
     def _take_over(self, kept: _Kept, document: AnyDocument, kept_copy: Path | None) -> Opened[AnyDocument]:
-        """The file read again and locked by us."""
+        """Read the file again and lock it for this process."""
         path = document.file.path
         assert path is not None
         try:
             fresh = self._read(path, kept_copy)
-            lock = take_over(path, self._from_now())
+            lock = take_over(path, self._owner_now())
         except (OSError, StoreError) as error:
             return Opened(document, Notice(f"It cannot be taken over: {_reason(error)}", warning=True))
         if not isinstance(fresh, type(document)):
             return Opened(document, Notice("It cannot be taken over: the file is of another kind now.", warning=True))
         kept.lock = lock
         state = replace(fresh.file, opening=document.file.opening)
-        taken = self._put(kept, replace(fresh, file=state))
+        taken = self._remember(kept, replace(fresh, file=state))
         opened = self._next_offer(taken, kept_copy)
         notice = opened.notice or Notice(f"{name_of(taken)} is yours now.")
         return Opened(opened.document, notice, opened.offer)
 
     def _restore(self, kept: _Kept, document: AnyDocument, path: Path, journal: Journal) -> Opened[AnyDocument]:
-        """The work as it was, with its undo; its journal begins anew with all of it."""
+        """Restore the work with its undo history, and begin its journal anew with all of it."""
         now = document.file
         stamp = journal.head.stamp if now.stamp is not None else None
         work = document.restored(journal)
-        work = self._put(kept, replace(work, file=replace(now, stamp=stamp)))
+        work = self._remember(kept, replace(work, file=replace(now, stamp=stamp)))
         try:
             aside = self._journal_of_restored(kept, work, path, journal)
         except (OSError, StoreError) as error:
@@ -380,48 +380,48 @@ class DocumentService:
         return Opened(work, Notice(f"{copy}Your work is back. Ctrl+Z undoes it step by step, Ctrl+S saves it."))
 
     def _journal_of_restored(self, kept: _Kept, work: Document, path: Path, journal: Journal) -> Path | None:
-        """A journal with all of it.  That of this user's own program that died goes; what stays aside is given back."""
-        mine, living = self._mine(path, journal), alive(journal.head.owner)
+        """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""
+        mine, living = self._is_mine(path, journal), alive(journal.head.owner)
         replaced = mine and not living and wants_answer(path) and not journal.damaged
         place, aside = journal_place(work.file.path, self.me, self.state), None
         if replaced and path == place:
             kept.journal = new_journal(path, work.file.path)
-            kept.journal.replace(self._everything(work))
+            kept.journal.replace(self._all_records(work))
             return None
         if journal.damaged and mine and not living and wants_answer(path):
             aside = set_aside(path, "damaged") if path.exists() else None
         elif not replaced and path.exists():
-            aside = self._out_of_the_way(path, journal)
-        self._begin(kept, work)
+            aside = self._move_aside(path, journal)
+        self._begin_journal(kept, work)
         if replaced:
             # all of it is in the new journal
             path.unlink(missing_ok=True)
         return aside
 
-    def _out_of_the_way(self, path: Path, journal: Journal) -> Path:
-        """Make room without taking it from whoever typed it: he is asked still, if more is typed by the same user."""
+    def _move_aside(self, path: Path, journal: Journal) -> Path:
+        """Set a journal aside: as "kept" or "theirs" if its author can be asked about it later, else as "discarded"."""
         if why_aside(path):
             return path
         try:
-            if not self._mine(path, journal):
+            if not self._is_mine(path, journal):
                 return set_aside(path, "kept")
             if alive(journal.head.owner):
                 return set_aside(path, f"theirs-{times.stamp(self.clock())}-at-{path.stat().st_size}")
             return set_aside(path, "discarded")
         except PermissionError:
-            # in its folder nothing may be renamed: it stays, and the next journal is elsewhere
+            # the folder forbids renaming: this journal stays, and the next one goes elsewhere
             return path
 
     def _discard(
         self, document: AnyDocument, path: Path, left: Journal | Unreadable, answered: frozenset[Path]
     ) -> Opened[AnyDocument]:
-        """The saved document; the work is kept under a name that is not offered again."""
+        """Return the document without the work, which is kept as a backup that is not offered by itself."""
         aside = path
         try:
             if isinstance(left, Journal) and path.suffix == TEMPORARY:
-                aside = self._copy_of_save(document, path, left)
+                aside = self._keep_interrupted(document, path, left)
             elif isinstance(left, Journal) and alive(left.head.owner):
-                aside = self._out_of_the_way(path, left)
+                aside = self._move_aside(path, left)
             else:
                 aside = set_aside(path, "discarded")
             notice = Notice(f"Kept as a backup in {whole_name(aside)}; Ctrl+O lists it.")
@@ -432,11 +432,11 @@ class DocumentService:
             notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
 
-    def _copy_of_save(self, document: Document, path: Path, journal: Journal) -> Path:
-        """What an interrupted save has left, as a journal among the kept copies."""
+    def _keep_interrupted(self, document: Document, path: Path, journal: Journal) -> Path:
+        """Turn an interrupted save into a journal among the kept copies, and return its path."""
         work, file = document.restored(journal), document.file.path
         copy = new_journal(journal_place(file, self.me, self.state).with_suffix(f"{SUFFIX}.saved"), file)
-        copy.add(self._everything(work))
+        copy.add(self._all_records(work))
         copy.close()
         path.unlink()
         return set_aside(copy.path, "discarded")
@@ -444,10 +444,10 @@ class DocumentService:
     def _leave_to_owner(
         self, document: AnyDocument, path: Path, journal: Journal, answered: frozenset[Path]
     ) -> Opened[AnyDocument]:
-        """The document without the work, which stays kept for whoever typed it."""
+        """Return the document without the work, which stays kept for its author."""
         aside = path
         try:
-            aside = self._out_of_the_way(path, journal)
+            aside = self._move_aside(path, journal)
             notice = Notice(f"Kept for {printable(journal.head.owner.user)}: {whole_name(aside)}; Ctrl+O lists it.")
         except FileNotFoundError:
             notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
@@ -458,17 +458,17 @@ class DocumentService:
     # ---- keep
 
     def keep(self, document: Document) -> Notice | None:
-        """Put on the disk what was edited since the last time; call it before the next key is read."""
+        """Write the edits since the last call to disk; call it before the next key is read."""
         closed = document.file.opening not in self._open
         kept = self._open.setdefault(document.file.opening, _Kept(document))
         known, kept.known = kept.known, document
         if closed and document.unsaved:
-            # edited behind its closing, which waited for the disk: it is open again, with all of its work
+            # edited while its closing waited for the disk: it is open again, with all of its work
             self._lock(kept)
         elif document.same_edits(known):
             return None
         try:
-            gone = self._write(kept, known, document)
+            gone = self._write_journal(kept, known, document)
         except (OSError, StoreError) as error:
             kept.failing = True
             return Notice(f"Not on disk: {_reason(error)} SAVE AS (Ctrl+K) saves elsewhere.", warning=True)
@@ -479,57 +479,57 @@ class DocumentService:
             or (Notice("Work is kept on the disk again.") if was_failing else None)
         )
 
-    def _write(self, kept: _Kept, known: Document, document: Document) -> bool:
-        """On the disk: beside the file, else in this person's own folder.  Whether the journal was gone before."""
+    def _write_journal(self, kept: _Kept, known: Document, document: Document) -> bool:
+        """Write the edits to a journal beside the file, else in the user's folder; True if the old journal was gone."""
         gone = kept.journal is not None and kept.journal.lost()
         if gone and kept.journal is not None:
             kept.journal.close()
             kept.journal = None
         try:
             if kept.journal is None:
-                self._begin(kept, document)
+                self._begin_journal(kept, document)
             else:
-                self._continue(kept, kept.journal, known, document)
+                self._continue_journal(kept, kept.journal, known, document)
         except (OSError, StoreError):
             if not self._begin_elsewhere(kept, document):
                 raise
         kept.whole = False
         return gone
 
-    def _continue(self, kept: _Kept, journal: JournalFile, known: Document, document: Document) -> None:
+    def _continue_journal(self, kept: _Kept, journal: JournalFile, known: Document, document: Document) -> None:
         records = None if kept.whole else document.records_since(known)
         if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
             journal.add(continuing(records, document.place, self.clock()))
             return
         kept.whole = True
-        journal.replace(self._everything(document))
+        journal.replace(self._all_records(document))
 
-    def _everything(self, document: Document) -> Iterator[Any]:
-        """All work as the lines of a journal."""
+    def _all_records(self, document: Document) -> Iterator[Any]:
+        """Return all work as the records of a new journal."""
         return beginning(document.kind, self._head(document), document.whole_records(), document.place, self.clock())
 
     def _head(self, document: Document) -> Head:
         path = document.file.path
         return Head(self.me, None if path is None else str(path.absolute()), document.file.stamp)
 
-    def _begin(self, kept: _Kept, document: Document) -> None:
-        """A journal with all work, beside the file if that can be; OSError where it can be nowhere."""
+    def _begin_journal(self, kept: _Kept, document: Document) -> None:
+        """Begin a journal with all work, beside the file if possible, else elsewhere; raise OSError if both fail."""
         path = document.file.path
         kept.journal = new_journal(journal_place(path, self.me, self.state), path)
         try:
-            kept.journal.add(self._everything(document))
+            kept.journal.add(self._all_records(document))
         except OSError:
             if not self._begin_elsewhere(kept, document):
                 raise
 
     def _begin_elsewhere(self, kept: _Kept, document: Document) -> bool:
-        """Put all work into this person's own folder; only when it is there its place beside is given up."""
+        """Begin a journal with all work in the user's folder, then remove the one beside the file; False on failure."""
         path = document.file.path
         if path is None or (kept.journal is not None and kept.journal.path.parent == self.state):
             return False
         try:
             other = new_journal(elsewhere(path, self.state), path)
-            other.add(self._everything(document))
+            other.add(self._all_records(document))
         except OSError:
             return False
         if kept.journal is not None:
@@ -538,7 +538,7 @@ class DocumentService:
         return True
 
     def _place_notice(self, kept: _Kept, *, gone: bool) -> Notice | None:
-        """Say where the work is kept if not beside its file, that it was gone, and what was moved aside for it."""
+        """Say that the journal was gone, that it is not beside its file, and what was moved aside for it."""
         journal, path = kept.journal, kept.known.file.path
         if journal is None:
             return None
@@ -569,14 +569,14 @@ class DocumentService:
     def save(
         self, document: AnyDocument, path: Path | None = None, agreed: frozenset[str] = frozenset()
     ) -> Saved[AnyDocument] | Ask | Trouble:
-        """Write a document to its own file or to another; `agreed` holds the answers to what was asked before.
+        """Write a document to its own file or to `path`; `agreed` holds the answers to earlier questions.
 
-        Ask again with the answer among `agreed`, until there is nothing to ask.
+        When an Ask comes back, call again with its answer added to `agreed`.
         """
         try:
             return self._save(document, path, agreed)
         except OSError as error:
-            # such as that the current folder is gone
+            # for example, the current folder is gone
             return Trouble(f"{name_of(document)} is not saved: {why(error)}")
 
     def _save(
@@ -589,15 +589,15 @@ class DocumentService:
         assert target is not None
         if document.kind is Kind.CONTOUR and target != file:
             target = as_program(target)
-        if (trouble := self._refused(document, target)) is not None:
+        if (trouble := self._refusal(document, target)) is not None:
             return trouble
         if target != file:
-            ask = None if agreed else self._before_another_file(document, target)
-            return ask or self._written(kept, document, target, None)
+            ask = None if agreed else self._ask_before_other(document, target)
+            return ask or self._write_file(kept, document, target, None)
         return self._save_own(kept, document, target, agreed)
 
-    def _refused(self, document: Document, target: Path) -> Trouble | None:
-        """Why a file is not written, whatever the operator answers."""
+    def _refusal(self, document: Document, target: Path) -> Trouble | None:
+        """Return why a file cannot be written, whatever the operator answers; None if it can."""
         name, holder = short_path(target), document.file.holder
         if _real_path(target) is None:
             return Trouble(f"{name} is not saved: that is not a file name. Choose another.")
@@ -605,9 +605,9 @@ class DocumentService:
             return Trouble(f"{name} is not saved: this is a folder. Type a file's name.")
         if holder is not None and target == document.file.path:
             return Trouble(f"{held_sentence(holder, self.clock())} SAVE AS (Ctrl+K) saves your own copy.")
-        standing = self._standing(target)
-        if standing is not None and standing.known.file.opening is not document.file.opening:
-            return Trouble(f"{printable(target.name)} is open here, too. Type another name.", standing.known)
+        open_here = self._open_here(target)
+        if open_here is not None and open_here.known.file.opening is not document.file.opening:
+            return Trouble(f"{printable(target.name)} is open here, too. Type another name.", open_here.known)
         try:
             if document.kind is Kind.NC:
                 refuse_program(target)
@@ -615,7 +615,7 @@ class DocumentService:
             return Trouble(error.text)
         return None
 
-    def _before_another_file(self, document: Document, target: Path) -> Ask | None:
+    def _ask_before_other(self, document: Document, target: Path) -> Ask | None:
         if outside(target, document.file.path):
             return questions.write_outside(target, document.file.path, held_by(target))
         return questions.replace_file(target, held_by(target)) if os.path.lexists(target) else None
@@ -623,13 +623,13 @@ class DocumentService:
     def _save_own(
         self, kept: _Kept, document: AnyDocument, path: Path, agreed: frozenset[str]
     ) -> Saved[AnyDocument] | Ask | Trouble:
-        """Save under the name that it has."""
+        """Save a document to its own file."""
         today = self.clock()
         if not agreed or kept.copy is None or os.path.lexists(kept.copy):
             kept.copy = free_copy_name(path, "mine", today)
         copy = kept.copy
         if {questions.KEEP_BOTH, questions.THEIRS, questions.FILE_AS_IT_IS} & agreed:
-            return self._written(kept, document, copy, None)
+            return self._write_file(kept, document, copy, None)
         if _leads_elsewhere(path) and not document.file.link_agreed and questions.WRITE_THERE not in agreed:
             return questions.write_through_link(path)
         owner = None if kept.lock is None else taken_by(kept.lock)
@@ -641,12 +641,12 @@ class DocumentService:
                 theirs = put_theirs_aside(path, MAX_BYTES[document.kind], today)
             except StoreError as error:
                 return Trouble(error.text)
-        elif (ask := self._changed(document, path, copy, today)) is not None:
+        elif (ask := self._ask_if_changed(document, path, copy, today)) is not None:
             return ask
-        return self._written(kept, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
+        return self._write_file(kept, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
 
-    def _changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | None:
-        """The question where the file is not as it was read."""
+    def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | None:
+        """Return a question if the file differs from what was last read or saved; None also if it cannot be read."""
         then = document.file.stamp
         try:
             data, status = read_file(path, MAX_BYTES[document.kind])
@@ -658,7 +658,7 @@ class DocumentService:
         written = times.in_words(times.of(now.changed), today)
         return questions.changed_meanwhile(document, written, copy, document.compared(data))
 
-    def _written(
+    def _write_file(
         self, kept: _Kept, document: AnyDocument, path: Path, theirs: Path | None, *, link_agreed: bool = False
     ) -> Saved[AnyDocument] | Trouble:
         try:
@@ -671,28 +671,28 @@ class DocumentService:
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)
-        saved = self._put(kept, document.saved(state))
+        saved = self._remember(kept, document.saved(state))
         if kept.journal is not None:
             kept.journal.remove()
         kept.journal, kept.whole, kept.failing, kept.away = None, False, False, False
         if path != before.path:
-            saved = self._moved(kept, saved)
+            saved = self._relock(kept, saved)
         other = "" if theirs is None else f" The other version is in {whole_name(theirs)}."
         reason = f", in place: {in_place}" if in_place else ""
-        return Saved(saved, Notice(f"Saved: {written_at(path)}{reason}{other}{_marked(saved)}"))
+        return Saved(saved, Notice(f"Saved: {written_at(path)}{reason}{other}{_unread_note(saved)}"))
 
-    def _moved(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
-        """Under another name there is another lock."""
+    def _relock(self, kept: _Kept, document: AnyDocument) -> AnyDocument:
+        """Replace the lock after a save under another name."""
         if kept.lock is not None:
             release(kept.lock)
         kept.warned = False
         holder = self._lock(kept)
-        return self._put(kept, replace(document, file=replace(document.file, holder=holder)))
+        return self._remember(kept, replace(document, file=replace(document.file, holder=holder)))
 
     # ---- leave
 
     def close(self, document: Document) -> None:
-        """The document is saved or given up: neither journal nor lock of it stays."""
+        """Close a saved or abandoned document: remove its journal and its lock."""
         kept = self._open.pop(document.file.opening, None)
         if kept is None:
             return
@@ -702,7 +702,7 @@ class DocumentService:
             release(kept.lock)
 
     def stop(self) -> None:
-        """The end, wanted or not: what is not saved stays in the journals."""
+        """End the service, wanted or not; unsaved work stays in the journals."""
         for kept in self._open.values():
             if kept.journal is not None and kept.known.unsaved:
                 self._last_try(kept, kept.journal)
@@ -713,10 +713,10 @@ class DocumentService:
         self._open.clear()
 
     def _last_try(self, kept: _Kept, journal: JournalFile) -> None:
-        """What could not be written before may find room by now."""
+        """Try once more to write what failed before; the disk may have room by now."""
         try:
             if kept.whole or journal.lost():
-                self._begin(kept, kept.known)
+                self._begin_journal(kept, kept.known)
             elif journal.unwritten:
                 journal.add(())
         except OSError:
@@ -726,7 +726,7 @@ class DocumentService:
 
 
 def free_copy_name(path: Path, whose: str, today: str) -> Path:
-    """A free name such as `part.mine-2025-03-04-140509.toml`."""
+    """Return a free name such as `part.mine-2025-03-04-140509.toml`."""
     name = f"{path.stem}.{whose}-{times.stamp(today)}"
     free, number = path.with_name(f"{name}{path.suffix}"), 1
     while os.path.lexists(free):
@@ -736,10 +736,10 @@ def free_copy_name(path: Path, whose: str, today: str) -> Path:
 
 
 def put_theirs_aside(path: Path, most: int, today: str) -> Path:
-    """Copy what stands in the file to a name of its own, which is returned; StoreError if that fails."""
+    """Copy a file's content to a free name and return that name; raise StoreError if the copy fails."""
     aside = free_copy_name(path, "theirs", today)
     try:
-        # whole or not at all: no half copy may pass for the other version
+        # written in one step: no half copy may pass for the other version
         write_data(aside, read_file(path, most)[0])
     except (OSError, StoreError) as error:
         cause = error if isinstance(error, OSError) else error.__cause__
@@ -749,7 +749,7 @@ def put_theirs_aside(path: Path, most: int, today: str) -> Path:
 
 
 def _real_path(path: Path | None) -> str | None:
-    """The path without links; None for none and for a name that no file can have."""
+    """Return a path with its links resolved; None for None and for a name that no file can have."""
     try:
         return None if path is None else os.path.realpath(path)
     except ValueError:
@@ -760,18 +760,18 @@ def _real_path(path: Path | None) -> str | None:
 
 
 def _leads_elsewhere(path: Path) -> bool:
-    """Whether a name is a link into another folder."""
+    """True if a path is a link into another folder."""
     return path.is_symlink() and Path(os.path.realpath(path)).parent != folder(path)
 
 
 def _kept_for(user: str, time: str, path: Path, today: str) -> str:
-    """A sentence for those who are not asked."""
+    """Return the sentence for users who are not asked about the work."""
     when = times.short(time, today)
     return f"Unsaved work of {printable(user)}, {when}, is kept in {whole_name(path)}; Ctrl+O lists it."
 
 
-def _marked(document: Document) -> str:
-    """Says that what cannot be used is in the file too."""
+def _unread_note(document: Document) -> str:
+    """Return the end of a sentence that says that unreadable texts are saved too, empty if there are none."""
     if isinstance(document, ContourDocument) and any(unread_texts(document.program)):
         return ", what is marked ERR as it was typed."
     return ""
