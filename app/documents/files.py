@@ -1,7 +1,7 @@
-"""Files: read programs; save without ever leaving a half-written file.
+"""This module reads program files, and saves them without ever leaving a half-written one.
 
-A file is written next to its place, forced to the disk and renamed over the old one: whatever happens, the old
-file or the new one is there.  A save that is killed may leave the new one beside it, which the next opening finds.
+A save writes a temporary file in the same folder, forces it to disk and renames it over the old file: whatever
+happens, the old or the new file is there.  A killed save may leave the temporary file, which the next opening finds.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from core.program.file.write import dumps
 from core.program.model import Program
 
 LARGEST_FILE: Final = 4_000_000
-"""Bytes of the largest program file: about twenty thousand segments."""
+"""The size of the largest program file in bytes: about twenty thousand segments."""
 SEARCHED_BYTES: Final = 4096
-"""Bytes in which a program says that it is one."""
+"""The number of bytes at the start of a file in which a program's `format` key must appear."""
 _PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
 MAX_NAME_BYTES: Final = 200
-"""Bytes of a file's name that a hidden name beside it begins with."""
+"""The most bytes of a file's name that the name of a hidden file beside it repeats."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stamp:
-    """What a file was when it was read: enough to notice that somebody has written it since.
+    """The state of a file when it was read: enough to notice that somebody has written it since.
 
-    Size in bytes, time of the last change in nanoseconds since 1970, and a sum over the content.
+    Size in bytes, time of the last change in nanoseconds since 1970, and a checksum of the content.
     """
 
     size: int
@@ -46,16 +46,16 @@ class Stamp:
     digest: str
 
     def same_content(self, other: Stamp) -> bool:
-        """Whether both are of the same content; the time does not count, since a copy changes it.
+        """True if the contents are the same; the time does not count, since a copy changes it.
 
-        Journals of format 1 hold only the first half of the sum.
+        Journals of format 1 hold only the first half of the checksum.
         """
         digits = min(len(self.digest), len(other.digest))
         return self.size == other.size and self.digest[:digits] == other.digest[:digits]
 
 
 class NotAFileError(OSError):
-    """Something else stands where a file was to be read: `what` says what."""
+    """The path is not a regular file; `what` says what it is."""
 
     def __init__(self, path: Path, mode: int) -> None:
         super().__init__(errno.EISDIR, "no file", str(path))
@@ -72,40 +72,40 @@ _OTHER_THINGS: Final[tuple[tuple[Callable[[int], bool], str], ...]] = (
 
 
 def read_file(path: Path, most: int) -> tuple[bytes, os.stat_result]:
-    """A file's content, and its status; OSError at once for what is no file, and for one of more than `most` bytes.
+    """Return a file's content and status; raise OSError if it is not a regular file or exceeds `most` bytes.
 
-    Nothing else is opened: a pipe would be waited for, and opening a device may do something.
+    Nothing else is opened: opening a pipe would block, and opening a device may have side effects.
     """
-    _only_a_file(path, path.stat())
+    _check_regular(path, path.stat())
     handle = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
-        _only_a_file(path, status)
+        _check_regular(path, status)
         if status.st_size > most:
             raise TooLargeError
-        return _whole(file, most), status
+        return _read_all(file, most), status
 
 
 def read_start(path: Path, most: int) -> bytes:
-    """The first bytes of a file; OSError at once for what is no file."""
-    _only_a_file(path, path.stat())
+    """Return the first `most` bytes of a file; raise OSError if it is not a regular file."""
+    _check_regular(path, path.stat())
     with path.open("rb") as file:
         return file.read(most)
 
 
-def _only_a_file(path: Path, status: os.stat_result) -> None:
+def _check_regular(path: Path, status: os.stat_result) -> None:
     if not stat.S_ISREG(status.st_mode):
         raise NotAFileError(path, status.st_mode)
 
 
 def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
-    """The stamp of a file with this content."""
-    # against mistakes, not against forgers: hashlib would load OpenSSL at every start
+    """Return the stamp of a file with this content."""
+    # a checksum against mistakes, not against forgery: hashlib would load OpenSSL at every start
     return Stamp(len(data), changed, f"{crc32(data):08x}{adler32(data):08x}")
 
 
 def stamp_of(path: Path, most: int = LARGEST_FILE) -> Stamp | None:
-    """The file's stamp as it is now, None where there is no file that can be read."""
+    """Return the file's current stamp, None if it cannot be read."""
     try:
         data, status = read_file(path, most)
         return stamp_of_data(data, status.st_mtime_ns)
@@ -114,7 +114,7 @@ def stamp_of(path: Path, most: int = LARGEST_FILE) -> Stamp | None:
 
 
 def load(path: str | Path) -> Program:
-    """The program of a file; StoreError says what is wrong with it and what to do."""
+    """Return the program in a file; StoreError says what is wrong with it and what to do."""
     path = Path(path)
     try:
         data, _ = read_file(path, LARGEST_FILE)
@@ -123,18 +123,18 @@ def load(path: str | Path) -> Program:
     try:
         return loads_bytes(data, str(path))
     except StoreError as error:
-        if holds_program(data) or not (kind := _other_file(path)):
+        if holds_program(data) or not (kind := _other_kind(path)):
             raise
         raise StoreError(f"{path} is {kind}") from error
 
 
 def holds_program(data: bytes) -> bool:
-    """Whether the content of a file, or its beginning, is that of one of our own programs."""
+    """True if a file's content, or its beginning, is that of a contour program."""
     return _PROGRAM.search(data[:SEARCHED_BYTES]) is not None
 
 
-def _other_file(path: Path) -> str:
-    """What a file is by its name, and what reads it; empty where it may be a contour program."""
+def _other_kind(path: Path) -> str:
+    """Return what a file's name says it is, and which command reads it; empty if it may be a contour program."""
     if is_drawing(path):
         return "a drawing, not a contour program. cutcomp import makes one of it."
     if path.suffix.lower() in NC_SUFFIXES - {".txt"}:
@@ -143,22 +143,22 @@ def _other_file(path: Path) -> str:
 
 
 def load_from(stream: BinaryIO, name: str) -> Program:
-    """The program that comes through a pipe; StoreError calls it `name`."""
+    """Return the program read from a stream, such as a pipe; StoreError calls it `name`."""
     try:
-        data = _whole(stream)
+        data = _read_all(stream)
     except (OSError, ValueError) as error:
         raise StoreError(f"{name} cannot be read: {why(error)}") from error
     return loads_bytes(data, name)
 
 
 class TooLargeError(OSError):
-    """A file has more bytes than anybody reads."""
+    """The file is larger than the limit for its kind."""
 
     def __init__(self) -> None:
         super().__init__(errno.EFBIG, "too large")
 
 
-def _whole(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
+def _read_all(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
     data = file.read(most + 1) or b""
     if len(data) > most:
         raise TooLargeError
@@ -166,12 +166,12 @@ def _whole(file: BinaryIO, most: int = LARGEST_FILE) -> bytes:
 
 
 def save(program: Program, path: str | Path) -> None:
-    """Write a program's file in one step; see `write_text`."""
+    """Write a program to a file; see `write_data`."""
     write_text(path, dumps(program))
 
 
 def write_text(path: str | Path, text: str) -> str:
-    """Write a file's text; see `write_data`."""
+    """Write a text to a file; see `write_data`."""
     try:
         data = text.encode()
     except ValueError as error:
@@ -180,11 +180,11 @@ def write_text(path: str | Path, text: str) -> str:
 
 
 def write_data(path: str | Path, data: bytes) -> str:
-    """Write a file, through a symbolic link if there is one; why it is written in place, empty where it is not.
+    """Write a file, through a symbolic link if it is one; return why it was written in place, empty if it was not.
 
-    The file keeps its owner, group, mode, extended attributes and links.  It is replaced in one step; where that would
-    take one of them away, it is written in place, its whole new content lying beside it meanwhile.  StoreError leaves
-    the old file as it was and nothing next to it.
+    The file keeps its owner, group, mode, extended attributes and links.  It is replaced in one step; if that would
+    lose one of them, it is overwritten in place while a complete copy of the new content lies beside it.  After a
+    StoreError the old file is unchanged and no temporary file is left.
     """
     try:
         return _write(Path(os.path.realpath(path)), data)
@@ -193,13 +193,13 @@ def write_data(path: str | Path, data: bytes) -> str:
 
 
 def write_output(path: Path, text: str) -> None:
-    """Write what is made of a program, such as NC text or a drawing; StoreError rather than over a program."""
+    """Write output made from a program, such as NC text; raise StoreError if it would replace a program."""
     refuse_program(path)
     write_text(path, text)
 
 
 def refuse_program(path: Path) -> None:
-    """StoreError where what is made of a program would be written over one."""
+    """Raise StoreError if the path is that of a program, which output must not replace."""
     if _is_program(path):
         raise StoreError(f"{path} is a program and would be overwritten. Choose another name.")
 
@@ -214,12 +214,12 @@ def _is_program(path: Path) -> bool:
 
 
 def temporary_path(target: Path, size: int) -> Path:
-    """Where a file's new content is written first; the name says how long it is when it is whole."""
+    """Return the temporary path for a file's new content; the name holds the full size in bytes."""
     return target.with_name(f".{short_name(target.name)}.{os.urandom(6).hex()}-{size}.tmp")
 
 
 def short_name(name: str) -> str:
-    """A file's name, cut such that a hidden one can be made of it: 255 bytes are the most."""
+    """Return a file's name, cut so that a hidden name made from it stays within 255 bytes."""
     return name.encode("utf-8", "surrogateescape")[:MAX_NAME_BYTES].decode("utf-8", "ignore")
 
 
@@ -230,13 +230,13 @@ def _write(target: Path, data: bytes) -> str:
     try:
         try:
             with suppress(OSError):
-                # whoever finds the file knows that it is being written
+                # the lock shows others that the file is still being written
                 flock(handle, LOCK_EX | LOCK_NB)
             write_all(handle, data)
             reason = "" if old is None else _taken_on(handle, target, old)
             os.fsync(handle)
         finally:
-            # some network folders tell of a full disk only here
+            # some network folders report a full disk only here
             os.close(handle)
         reason = reason or _put_in_place_of(temporary, target)
         if reason and old is not None:
@@ -251,7 +251,7 @@ def _write(target: Path, data: bytes) -> str:
 
 
 def _put_in_place_of(temporary: Path, target: Path) -> str:
-    """Rename; where the folder lets nobody replace the file of another, say so."""
+    """Rename a file over another; return why not if the folder protects other users' files, else an empty text."""
     try:
         temporary.replace(target)
     except PermissionError:
@@ -262,7 +262,7 @@ def _put_in_place_of(temporary: Path, target: Path) -> str:
 
 
 def _taken_on(handle: int, target: Path, old: os.stat_result) -> str:
-    """Give a new file what the old one has besides its content; what it cannot have, empty where it has all."""
+    """Copy the old file's owner, group, mode and attributes; return what cannot be copied, empty if nothing."""
     if old.st_nlink > 1:
         return "it has more than one name"
     new = os.fstat(handle)
@@ -272,14 +272,14 @@ def _taken_on(handle: int, target: Path, old: os.stat_result) -> str:
         except PermissionError:
             return "it stays its owner's" if new.st_uid != old.st_uid else "it keeps its group"
     os.fchmod(handle, stat.S_IMODE(old.st_mode))
-    return _attributes_taken_on(handle, target)
+    return _copy_attributes(handle, target)
 
 
-def _attributes_taken_on(handle: int, target: Path) -> str:
+def _copy_attributes(handle: int, target: Path) -> str:
     try:
         names = os.listxattr(target)
     except OSError:
-        # a file system without attributes, or one that tells nobody of them
+        # a file system that has no attributes or does not list them
         return ""
     try:
         for name in names:
@@ -290,7 +290,7 @@ def _attributes_taken_on(handle: int, target: Path) -> str:
 
 
 def _write_in_place(target: Path, data: bytes, old: os.stat_result) -> None:
-    """Overwrite a file; an error puts back what it held."""
+    """Overwrite a file in place; restore the old content after an error."""
     before = target.read_bytes()
     handle = os.open(target, os.O_WRONLY | os.O_CLOEXEC | os.O_NOFOLLOW)
     try:
@@ -307,7 +307,7 @@ def _write_in_place(target: Path, data: bytes, old: os.stat_result) -> None:
 
 
 def _reserve(handle: int, size: int) -> None:
-    """Room for what a file grows by, before anything of it is overwritten; some file systems reserve nothing."""
+    """Reserve room for a longer file before it is overwritten; some file systems cannot, which is no error."""
     try:
         os.posix_fallocate(handle, 0, size)
     except OSError as error:
@@ -323,7 +323,7 @@ def _overwrite(handle: int, data: bytes) -> None:
 
 
 def _status(target: Path) -> os.stat_result | None:
-    """The old file's status, None if there is none; an error for what cannot be replaced."""
+    """Return the old file's status, None if there is none; raise OSError if it cannot be replaced."""
     try:
         old = target.stat()
     except FileNotFoundError:
@@ -336,14 +336,14 @@ def _status(target: Path) -> os.stat_result | None:
 
 
 def write_all(handle: int, data: bytes) -> None:
-    """Write every byte; OSError leaves some of them written."""
+    """Write every byte; after an OSError some may be written."""
     rest = memoryview(data)
     while rest:
         rest = rest[os.write(handle, rest) :]
 
 
 def sync_folder(folder: Path) -> None:
-    """Force a new name in a folder to the disk; some file systems cannot, and then each file is whole all the same."""
+    """Force a folder's new names to disk; some file systems cannot, but each file is complete all the same."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
         try:
@@ -376,7 +376,7 @@ _REASONS: Final[Mapping[int, str]] = MappingProxyType(
 
 
 def why(error: OSError | ValueError) -> str:
-    """The reason why a file cannot be read or written, and the remedy."""
+    """Return why a file cannot be read or written, and the remedy."""
     if isinstance(error, NotAFileError):
         return f"this is {error.what}. Choose the name of a file."
     if isinstance(error, TooLargeError):
@@ -384,13 +384,13 @@ def why(error: OSError | ValueError) -> str:
     if not isinstance(error, OSError):
         return "that is not a file name. Choose another."
     if error.errno in (errno.EACCES, errno.EPERM):
-        what = "it" if _there(error) else "its folder"
+        what = "it" if _exists(error) else "its folder"
         return f"{what} is protected. Ask for permission, or choose another place."
     reason = None if error.errno is None else _REASONS.get(error.errno)
     return reason or f"{error.strerror or 'the system refuses'}. Try again or choose another place."
 
 
-def _there(error: OSError | ValueError) -> bool:
-    """Whether an error is about a file that there is: what cannot be made, or found, is kept out by its folder."""
+def _exists(error: OSError | ValueError) -> bool:
+    """True if the error concerns an existing file; otherwise its folder is what refuses to find or create it."""
     name = error.filename if isinstance(error, OSError) else None
     return not isinstance(name, str | Path) or os.path.lexists(name)

@@ -1,6 +1,6 @@
-"""Journals on the disk: where they are, what a program that died has left, and the copies that are kept.
+"""This module finds journals on disk: their paths, the unsaved work of processes that died, and kept copies.
 
-A journal lies beside its document, or in this person's own folder where there is no place beside it.
+A journal lies beside its document, or in the user's own folder if it cannot lie there.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from app.documents.lock import Owner, alive
 from core.units import plain
 
 MAX_KEPT_COPIES: Final = 20
-"""So many kept copies are listed, the last ones; the folder holds the others."""
+"""The most kept copies that are listed, the newest; the others stay in the folder."""
 UNNAMED: Final = "a program without a name"
 CUT_NAME: Final = 100
-"""Characters from which on the name of a journal may not hold all of its file's name."""
+"""The length in characters from which a file's name may be cut in the name of its journal."""
 KEPT_COPY_WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
 
 
@@ -32,14 +32,14 @@ KEPT_COPY_WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "t
 
 
 def state_folder() -> Path:
-    """This person's folder for what a program keeps from one time to the next."""
+    """Return the user's folder for what a program keeps between runs."""
     from platformdirs import user_state_path
 
     return user_state_path("cutcomp", appauthor=False)
 
 
 def journal_place(file: Path | None, me: Owner, state: Path) -> Path:
-    """The journal of work on a file, or of work that has no file yet."""
+    """Return the path of the journal for work on a file, or for work without a file."""
     if file is None:
         return state / f"unnamed-{me.host}-{me.pid}-{times.stamp(me.since)}{SUFFIX}"
     adjacent = journal_path(file)
@@ -47,20 +47,20 @@ def journal_place(file: Path | None, me: Owner, state: Path) -> Path:
 
 
 def elsewhere(file: Path, state: Path) -> Path:
-    """The journal of work on a file whose folder takes nothing."""
+    """Return the path of the journal for a file whose folder cannot be written."""
     from hashlib import blake2b
 
     target = os.path.realpath(file)
     digest = blake2b(target.encode("utf-8", "surrogateescape"), digest_size=8).hexdigest()
-    return state / f"{_name_begin(target)}{digest}{SUFFIX}"
+    return state / f"{_name_prefix(target)}{digest}{SUFFIX}"
 
 
-def _name_begin(target: str) -> str:
+def _name_prefix(target: str) -> str:
     return f"{Path(target).name[:CUT_NAME]}-"
 
 
 def new_journal(path: Path, file: Path | None) -> JournalFile:
-    """A journal that is to be begun there; beside its document, whoever may read that one may read it too."""
+    """Return a journal that will begin at this path; beside its document it gets the document's group and mode."""
     adjacent = file is not None and path == journal_path(file)
     if not adjacent:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -72,10 +72,10 @@ def new_journal(path: Path, file: Path | None) -> JournalFile:
 
 @dataclass(frozen=True, slots=True)
 class Unreadable:
-    """Work that was left and cannot be read: who wrote it, and when, in ISO format.
+    """Unsaved work that cannot be read: who wrote it, and when, in ISO format.
 
-    `hidden` from us, else damaged; `ours`: the file belongs to this login.  `what` says what stands there instead of a
-    file, if something does.
+    `hidden`: we may not read it; otherwise it is damaged.  `ours`: the file belongs to this login.  `what` says what
+    the path is if it is not a regular file.
     """
 
     user: str
@@ -86,9 +86,9 @@ class Unreadable:
 
 
 def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
-    """What was left of a file, or of work without a name, whosever it is, the last first.
+    """Yield the unsaved work on a file, or work without a name, of every user; asides come last, newest first.
 
-    Not what was discarded, nor what was set aside while somebody else typed on in it, unless he did and died.
+    Skip what was discarded, and what was set aside from a running process unless that wrote more and has died.
     """
     for path in _unnamed(state) if file is None else journals_of(file, state):
         left = read(path, kind) or unreadable(path)
@@ -100,7 +100,7 @@ def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, 
 
 
 def left_by_dead(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tuple[Path, Journal]]:
-    """The journals of a file that this user is asked about, of programs that died."""
+    """Yield the journals on a file that this user is asked about, left by processes that died."""
     for path, left in left_of(file, kind, state):
         if isinstance(left, Unreadable) or alive(left.head.owner):
             continue
@@ -109,26 +109,26 @@ def left_by_dead(file: Path, kind: Kind, state: Path, user: str) -> Iterator[tup
 
 
 def of_user(owner: Owner, path: Path, state: Path, user: str) -> bool:
-    """Whether work is this user's: everything in a person's own folder is."""
+    """True if work is this user's; everything in the user's own folder is."""
     return owner.user == user or path.parent == state
 
 
 def journals_of(file: Path, state: Path) -> Iterator[Path]:
-    """The journals of a file that are to be offered, those set aside after the others."""
+    """Yield the journals of a file that are to be offered; those set aside come last."""
     candidates = [journal_path(file)]
-    begin = _name_begin(os.path.realpath(file))
-    if any(path.name.startswith(begin) for path in _inside(state)):
+    prefix = _name_prefix(os.path.realpath(file))
+    if any(path.name.startswith(prefix) for path in _entries(state)):
         candidates.append(elsewhere(file, state))
     yield from (path for path in candidates if os.path.lexists(path))
-    yield from (path for place in candidates for path in asides(place) if _wants_answer_still(path))
+    yield from (path for place in candidates for path in asides(place) if _still_wants_answer(path))
 
 
 def wants_answer(path: Path) -> bool:
-    """Whether a journal is offered by itself, or is a copy that only somebody who looks for it sees."""
+    """True if a journal is offered by itself; False if it is a copy that is only listed."""
     return why_aside(path).partition("-")[0] in ("", "kept", "theirs")
 
 
-def _wants_answer_still(path: Path) -> bool:
+def _still_wants_answer(path: Path) -> bool:
     why, _, length = why_aside(path).partition("-at-")
     if why == "kept" or not length.isdecimal():
         return wants_answer(path)
@@ -138,14 +138,14 @@ def _wants_answer_still(path: Path) -> bool:
 
 
 def never_saved(folder: Path, state: Path) -> list[Path]:
-    """The programs of a folder that have no file yet, of which there is a journal; OSError where it cannot be read."""
+    """Return a folder's programs that have a journal but no file yet; raise OSError if the folder cannot be read."""
     adjacent = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
-    there = [path for path in adjacent if _holds_something(journal_path(path))]
-    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(state))
-    there += [
+    unsaved = [path for path in adjacent if _holds_something(journal_path(path))]
+    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _entries(state))
+    unsaved += [
         folder / name for path, name in named if elsewhere(folder / name, state) == path and _holds_something(path)
     ]
-    return sorted({path for path in there if path.suffix.lower() == ".toml" and not path.exists()})
+    return sorted({path for path in unsaved if path.suffix.lower() == ".toml" and not path.exists()})
 
 
 def _holds_something(path: Path) -> bool:
@@ -155,7 +155,7 @@ def _holds_something(path: Path) -> bool:
         return False
 
 
-def _inside(folder: Path) -> list[Path]:
+def _entries(folder: Path) -> list[Path]:
     with suppress(OSError):
         return list(folder.iterdir())
     return []
@@ -174,7 +174,7 @@ def _changed(path: Path) -> float:
 
 
 def read(path: Path, kind: Kind | None = None) -> Journal | None:
-    """What a journal of this kind, or of any, holds; None where there is none or nothing of it can be read."""
+    """Return what a journal holds; None if there is none, it is unreadable, or it is not of this kind."""
     try:
         data, _ = read_file(path, MAX_JOURNAL_BYTES)
     except OSError:
@@ -184,7 +184,7 @@ def read(path: Path, kind: Kind | None = None) -> Journal | None:
 
 
 def unreadable(path: Path) -> Unreadable | None:
-    """What can be said of a journal that cannot be read; None where there is none, or nothing in it."""
+    """Describe a journal that cannot be read; return None if there is none or it is empty."""
     hidden, what = False, ""
     try:
         status = path.stat()
@@ -207,7 +207,7 @@ def unreadable(path: Path) -> Unreadable | None:
 
 
 def login(number: int) -> str:
-    """The name of a login, its number where it has none."""
+    """Return the name of a login, or its number if it has none."""
     from pwd import getpwuid
 
     try:
@@ -221,7 +221,7 @@ def login(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class KeptCopy:
-    """A journal that was set aside: why, its last change in ISO format, and the name of the file it is about."""
+    """A journal that was set aside: why, when it last changed in ISO format, and the name of its file."""
 
     path: Path
     word: str
@@ -229,12 +229,12 @@ class KeptCopy:
     name: str
 
     def sentence(self, today: str) -> str:
-        """What it is."""
+        """Describe the copy for the operator."""
         return f"Unsaved work on {self.name}, {self.word} {times.in_words(self.time, today)}."
 
 
 def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:
-    """The journals of a kind set aside in a folder and in a person's own one, the last one first."""
+    """Return the journals of a kind that were set aside in a folder or in the user's own folder, newest first."""
     dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
     of_kind = [(time, path) for time, path in dated if _may_be(path, kind, folder, state)]
     return [
@@ -244,9 +244,9 @@ def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:
 
 
 def file_of_copy(path: Path, folder: Path) -> Path | None:
-    """The file that a kept copy is about; None for work without a name.
+    """Return the file that a kept copy is about; None for work without a name.
 
-    It is beside the copy, should the folder have moved; where a long name was cut, the journal knows all of it.
+    It is beside the copy, even if the folder has moved; if a long name was cut, the journal holds the full one.
     """
     journal = read(path)
     name = None if journal is None else journal.head.file
@@ -271,9 +271,9 @@ def _why(path: Path) -> str:
 
 
 def _may_be(path: Path, kind: Kind, folder: Path, state: Path) -> bool:
-    """Whether a copy may be of this kind; one of an NC text in the own folder must be about a file of this folder.
+    """True if a copy may be of this kind; an NC text's copy in the user's folder must be about a file in `folder`.
 
-    The name alone tells, so that a list needs no journal read; a name so long that its end is cut may be of either.
+    The name alone decides, so that listing reads no journal; a name whose end is cut may be of either kind.
     """
     name = _file_name(path)
     if name == UNNAMED:
@@ -284,7 +284,7 @@ def _may_be(path: Path, kind: Kind, folder: Path, state: Path) -> bool:
 
 
 def _file_name(path: Path) -> str:
-    """The name of the file that a journal is about, as far as the journal's own name says it."""
+    """Return the name of the file that a journal is about, possibly cut, from the journal's own name."""
     name = place_of(path).name.removesuffix(SUFFIX)
     if name.startswith("."):
         return name[1:]
