@@ -1,4 +1,4 @@
-"""What is open: a contour program or an NC text, each with its file; both can do the same."""
+"""This module holds open documents: a contour program or an NC text with its file, both with the same methods."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from core.program.history import History
 from core.program.model import Program
 
 SEGMENT: Final = "segment"
-"""The field on which the cursor stands when a program is opened."""
+"""The field that the cursor is on when a program is opened."""
 FIRST_START: Final = FormPlace(1, 0)
 """START of block 1."""
 
@@ -31,10 +31,9 @@ FIRST_START: Final = FormPlace(1, 0)
 class FileState:
     """The file of a document.
 
-    `path` is None until it has a name.  `stamp` is the file's as it was read or saved last, None where there was none
-    that could be read.  `holder` is somebody else who has it open: then the document may only be looked at.
-    `link_agreed` says that the operator agreed to write where a link leads.  `opening` tells one opening of a file from
-    another.
+    `path` is None until it has a name.  `stamp` describes the file as it was last read or saved, None if no file could
+    be read.  `holder` is somebody else who has it open: then the document is read-only.  `link_agreed`: the operator
+    has agreed to write where a link leads.  `opening` distinguishes one opening of a file from another.
     """
 
     path: Path | None = None
@@ -46,7 +45,7 @@ class FileState:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ContourDocument:
-    """A contour program with its undo and the cursor; `title` names the example that it began with."""
+    """A contour program with its undo history and cursor; `title` names the example that it began with."""
 
     kind: ClassVar[Kind] = Kind.CONTOUR
     history: History
@@ -58,66 +57,66 @@ class ContourDocument:
 
     @classmethod
     def of(cls, program: Program, file: FileState | None = None, *, title: str = "") -> Self:
-        """A program that its file holds, or that nobody has edited."""
+        """Return the document of a program that is saved in its file or not edited yet."""
         return cls(History(program), program, FileState() if file is None else file, title=title)
 
     @classmethod
     def read(cls, data: bytes, file: FileState) -> Self:
-        """The program of a file's content; StoreError says what is wrong with it."""
+        """Return the document of a file's content; StoreError says what is wrong with it."""
         return cls.of(loads_bytes(data, str(file.path)), file)
 
     @property
     def program(self) -> Program:
-        """The program as it is now."""
+        """The current program."""
         return self.history.program
 
     @property
     def is_new(self) -> bool:
-        """Nothing has been typed into the program yet."""
+        """True if nothing has been typed into the program yet."""
         return self.program == empty_program(self.program.unit)
 
     @property
     def unsaved(self) -> bool:
-        """The file does not hold the program as it is now."""
+        """True if the file does not hold the current program."""
         return self.program is not self.saved_program and self.program != self.saved_program
 
     @property
     def place(self) -> Place:
-        """Block, segment and name of the field."""
+        """The cursor's block, segment and field name."""
         return (self.cursor.block, self.cursor.segment, self.field_name)
 
     def edited(self, history: History, cursor: FormPlace, name: str) -> Self:
-        """After an edit, an undo, or a move of the cursor."""
+        """Return the document after an edit, an undo, or a move of the cursor."""
         return replace(self, history=history, cursor=cursor, field_name=name)
 
     def data(self) -> bytes:
-        """The text of the program's file."""
+        """Return the content of the program's file."""
         return dumps(self.program).encode()
 
     def saved(self, file: FileState) -> Self:
-        """After the file was written."""
+        """Return the document after its file was written."""
         return replace(self, file=file, saved_program=self.program)
 
     def after_saving(self, saved: Self) -> Self:
-        """This work, of which an earlier state was saved while it went on."""
+        """Return this newer document after an earlier state of it, `saved`, was written."""
         return replace(self, file=saved.file, saved_program=saved.saved_program)
 
     def same_edits(self, other: Document) -> bool:
-        """Whether nothing was edited, undone or redone between the two."""
+        """True if nothing was edited, undone or redone between the two."""
         return isinstance(other, ContourDocument) and self.history is other.history
 
     def whole_records(self) -> Iterator[Record]:
-        """All work, as the records of a journal that begins."""
+        """Return all work as the records of a new journal."""
         return contour_journal.whole_records(self.history)
 
     def records_since(self, before: Document) -> list[Record] | None:
-        """The edits since an earlier state; None where the one does not lead to the other."""
+        """Return the edits since an earlier state; None if that does not lead to this one."""
         if not isinstance(before, ContourDocument):
             return None
         return contour_journal.records_between(before.history, self.history)
 
     def restored(self, journal: Journal) -> Self:
-        """The work of a journal, the cursor where it was; ValueError for one of an NC text."""
+        """Return the work of a journal with its cursor; raise ValueError if it is of an NC text."""
         history, place = _history_of(journal), journal.place
         match place:
             case (int(block), int(segment), str(name)):
@@ -126,27 +125,27 @@ class ContourDocument:
                 return replace(self, history=history)
 
     def holds(self, journal: Journal) -> bool:
-        """Whether this is the program of a journal already."""
+        """True if this is already the journal's program."""
         return _history_of(journal).program == self.program
 
     def work_of(self, data: bytes) -> History | None:
-        """A file's program as one edit; None where it is no program."""
+        """Return the history with a file's program as one more edit; None if it is not a program."""
         try:
             return self.history.do(loads_bytes(data, ""), "SAVE")
         except StoreError:
             return None
 
     def differences(self, journal: Journal) -> tuple[str, ...]:
-        """What the program of a journal has otherwise; a new program is compared in the units of the journal's."""
+        """Describe how a journal's program differs from this one; a new program is compared in the journal's units."""
         mine, left = self.program, _history_of(journal).program
         if mine.unit is not left.unit and self.is_new:
             mine = empty_program(left.unit)
         return program_history.differences(mine, left)
 
     def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """What a file's program has otherwise than the saved one, and what this has otherwise than it.
+        """Describe how a file's program differs from the saved one, and how this program differs from the file's.
 
-        None where it is no program.
+        Return None if the file is not a program.
         """
         try:
             theirs = loads_bytes(data, "")
@@ -165,7 +164,7 @@ def _history_of(journal: Journal) -> History:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NcDocument:
-    """An NC text with its undo, and the row of the cursor."""
+    """An NC text with its undo history, and the row of the cursor."""
 
     kind: ClassVar[Kind] = Kind.NC
     text: NcText = field(default_factory=NcText)
@@ -174,53 +173,53 @@ class NcDocument:
 
     @classmethod
     def read(cls, data: bytes, file: FileState) -> Self:
-        """The text of a file's content."""
+        """Return the document of a file's content."""
         return cls(NcText.read(data), file)
 
     @property
     def unsaved(self) -> bool:
-        """The file does not hold the lines as they are."""
+        """True if the file does not hold the current lines."""
         return self.text.unsaved
 
     @property
     def place(self) -> Place:
-        """The row of the cursor, from 0."""
+        """The cursor's row, from 0."""
         return (self.row,)
 
     def edited(self, text: NcText, row: int) -> Self:
-        """After an edit, an undo, or a move of the cursor."""
+        """Return the document after an edit, an undo, or a move of the cursor."""
         return replace(self, text=text, row=row)
 
     def data(self) -> bytes:
-        """The file's content: what nobody touched byte by byte."""
+        """Return the file's content; unedited lines are the same byte for byte."""
         return self.text.data
 
     def saved(self, file: FileState) -> Self:
-        """After the file was written."""
+        """Return the document after its file was written."""
         return replace(self, file=file, text=self.text.written(self.text.data))
 
     def after_saving(self, saved: Self) -> Self:
-        """This work, of which an earlier state was saved while it went on."""
+        """Return this newer document after an earlier state of it, `saved`, was written."""
         text = replace(self.text, origin=saved.text.origin, saved=saved.text.saved)
         return replace(self, file=saved.file, text=text)
 
     def same_edits(self, other: Document) -> bool:
-        """Whether nothing was edited, undone or redone between the two."""
+        """True if nothing was edited, undone or redone between the two."""
         past, future = self.text.past, self.text.future
         return isinstance(other, NcDocument) and past is other.text.past and future is other.text.future
 
     def whole_records(self) -> Iterator[Record]:
-        """All work, as the records of a journal that begins."""
+        """Return all work as the records of a new journal."""
         return nc_journal.whole_records(self.text)
 
     def records_since(self, before: Document) -> list[Record] | None:
-        """The edits since an earlier state; None where the one does not lead to the other."""
+        """Return the edits since an earlier state; None if that does not lead to this one."""
         if not isinstance(before, NcDocument):
             return None
         return nc_journal.records_between(before.text, self.text)
 
     def restored(self, journal: Journal) -> Self:
-        """The work of a journal; where an undo of it leads back to this text, nothing is unsaved there."""
+        """Return the work of a journal; if undoing it leads back to this text, nothing is unsaved there."""
         text = _text_of(journal)
         work = replace(text, origin=self.text.origin)
         if self.file.stamp is not None:
@@ -229,21 +228,21 @@ class NcDocument:
         return replace(self, text=work, row=row if isinstance(row, int) else 0)
 
     def holds(self, journal: Journal) -> bool:
-        """Whether these are the lines of a journal already."""
+        """True if these are already the journal's lines."""
         return "".join(_text_of(journal).lines) == "".join(self.text.lines)
 
     def work_of(self, data: bytes) -> NcText | None:
-        """A file's lines as one edit; of another encoding they are none."""
+        """Return the text with a file's lines as one more edit; None if the encoding differs."""
         text = NcText.read(data, self.text.encoding)
         same = text.encoding == self.text.encoding
         return self.text.done(Change(0, self.text.lines, text.lines)) if same else None
 
     def differences(self, journal: Journal) -> tuple[str, ...]:
-        """What the lines of a journal have otherwise."""
+        """Describe how a journal's lines differ from these."""
         return nc_journal.differences(self.text, _text_of(journal))
 
     def compared(self, data: bytes) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """What a file's lines have otherwise than the file as it was opened, and what these have otherwise than it."""
+        """Describe how a file's lines differ from the file as opened, and how these lines differ from the file's."""
         theirs = NcText.read(data)
         opened = NcText.read(self.text.origin)
         return nc_journal.differences(opened, theirs, "was"), nc_journal.differences(theirs, self.text, "theirs")
@@ -256,8 +255,8 @@ def _text_of(journal: Journal) -> NcText:
 
 
 Document = ContourDocument | NcDocument
-"""Either kind; a value, so that every edit makes a new one."""
+"""A document of either kind; it is a value, and every edit makes a new one."""
 AnyDocument = TypeVar("AnyDocument", ContourDocument, NcDocument)
 
 MAX_BYTES: Final = {Kind.CONTOUR: LARGEST_FILE, Kind.NC: MAX_NC_BYTES}
-"""Bytes of the largest file of a kind."""
+"""The size of the largest file of each kind in bytes."""

@@ -1,6 +1,6 @@
-"""Drawing files: read in a process of their own, with a time limit, progress and cancel; the screen stays alive.
+"""This module reads drawing files in a separate process with progress, cancel and a time limit; the screen stays alive.
 
-A file may be damaged in any way, and a small one may ask for a million shapes.
+A file may be damaged in any way, and a small one may expand to a million shapes.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ from core.units import Unit
 Result = TypeVar("Result")
 
 TIME_LIMIT: Final = 60.0
-"""Seconds that a drawing may take."""
+"""The most seconds that reading a drawing may take."""
 
 PROGRESS_PAUSE: Final = 0.1
-"""Seconds between two messages of progress."""
+"""The least seconds between two progress messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """What a worker is doing, and how much of it is done."""
+    """What a worker is doing, and how much of the whole is done."""
 
     stage: str
     done: int
@@ -47,35 +47,35 @@ class Progress:
 
 
 def prepare_workers() -> None:
-    """Start what watches over processes, in the main thread: what stands in for stderr under Textual has no number."""
+    """Start the resource tracker, in the main thread and with the real stderr, since Textual's has no descriptor."""
     with redirect_stderr(sys.__stderr__):
         ensure_running()
 
 
 class Worker(Generic[Result]):
-    """A function run in a process of its own; it takes the arguments and `progress`, both can be pickled.
+    """A function that runs in its own process, with picklable arguments and a `progress` callback.
 
-    `poll` tells how far it is; `cancel` ends it at once.  After `limit` seconds it is ended.
+    `poll` returns its progress or its result, and ends it after `limit` seconds; `cancel` ends it at once.
     """
 
     def __init__(self, function: Callable[..., Result], *arguments: object, limit: float = TIME_LIMIT) -> None:
         context = get_context("spawn")
-        self._here, there = context.Pipe(duplex=False)
+        self._receiver, sender = context.Pipe(duplex=False)
         self._cache = TemporaryDirectory(prefix="cutcomp-")
-        work = (there, self._cache.name, function, arguments)
+        work = (sender, self._cache.name, function, arguments)
         self._process = context.Process(target=_work, args=work, daemon=True)
         self._limit, self._deadline = limit, time.monotonic() + limit
         self._process.start()
-        there.close()
+        sender.close()
 
     def poll(self, wait: float = 0.0) -> Progress | Result | None:
-        """How far it is, or the result; None if neither comes within `wait` seconds.
+        """Return progress or the result; None if neither comes within `wait` seconds.
 
-        Raises DrawingError: what the function raised, or that the limit is passed or the process has died.
+        Raise DrawingError if the function raised it, the time limit has passed, or the process has died.
         """
         try:
-            if self._here.poll(min(wait, max(self._deadline - time.monotonic(), 0.0))):
-                return self._received(self._here.recv())
+            if self._receiver.poll(min(wait, max(self._deadline - time.monotonic(), 0.0))):
+                return self._received(self._receiver.recv())
         except (EOFError, OSError) as error:
             self.cancel()
             raise DrawingError("TOO_MUCH", "Reading the drawing was ended, perhaps for want of memory.") from error
@@ -93,15 +93,15 @@ class Worker(Generic[Result]):
         return cast("Result", message)
 
     def cancel(self) -> None:
-        """End the process, whatever it does."""
+        """End the process, whatever it is doing."""
         if self._process.is_alive():
             self._process.kill()
         self._process.join()
-        self._here.close()
+        self._receiver.close()
         self._cache.cleanup()
 
     def result(self) -> Result:
-        """Wait for the result."""
+        """Wait for the result and return it."""
         try:
             while (message := self.poll(1.0)) is None or isinstance(message, Progress):
                 pass
@@ -114,9 +114,9 @@ class Worker(Generic[Result]):
 def read_and_list(
     data: bytes, name: str, program: Unit | None, *, damaged: bool = False, progress: ReportProgress
 ) -> Drawing | ContourList:
-    """A drawing's contours with the usual options of a program's unit, None for that of the drawing.
+    """Return a drawing's contours with the usual options for a program's unit, None for the drawing's unit.
 
-    The drawing alone where something is to be asked first: its unit, or the layers to take.
+    Return the drawing alone if the operator must first be asked for its unit or for the layers to take.
     """
     drawing = read_dxf(data, name, damaged=damaged, progress=progress)
     if drawing.unit is None or drawing.not_flat:
@@ -124,9 +124,9 @@ def read_and_list(
     return contours_of(drawing, ImportOptions.usual(drawing.unit, program), progress)
 
 
-def _work(there: Connection, cache: str, function: Callable[..., object], arguments: tuple[object, ...]) -> None:
-    """In the process: the result or the error goes through the pipe."""
-    # Ctrl+C is for the process that waits
+def _work(sender: Connection, cache: str, function: Callable[..., object], arguments: tuple[object, ...]) -> None:
+    """Run the function in the worker process and send its result or error through the pipe."""
+    # only the waiting process handles Ctrl+C
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_end_with_parent, daemon=True).start()
     _spare_fonts(Path(cache))
@@ -137,7 +137,7 @@ def _work(there: Connection, cache: str, function: Callable[..., object], argume
         now = time.monotonic()
         if now - sent >= PROGRESS_PAUSE:
             sent = now
-            there.send(Progress(stage, done, whole))
+            sender.send(Progress(stage, done, whole))
 
     try:
         message: object = function(*arguments, progress=progress)
@@ -148,11 +148,11 @@ def _work(there: Connection, cache: str, function: Callable[..., object], argume
     except MemoryError:
         message = DrawingError("TOO_MUCH", "The drawing needs more memory than there is.")
     with suppress(BrokenPipeError):
-        there.send(message)
+        sender.send(message)
 
 
 def _end_with_parent() -> None:
-    """In the process: end at once when the program that waits for it is gone, however it went."""
+    """End the worker process at once when the program that waits for it is gone, for whatever reason."""
     parent = parent_process()
     if parent is not None:
         parent.join()
@@ -160,7 +160,7 @@ def _end_with_parent() -> None:
 
 
 def _spare_fonts(cache: Path) -> None:
-    """Have ezdxf find an empty list of fonts: at its first import it would read every font and keep a list at home.
+    """Give ezdxf an empty font list: at its first import it would read every font and cache a list in the home folder.
 
     No contour needs a font, and a system may have thousands.
     """
@@ -171,7 +171,7 @@ def _spare_fonts(cache: Path) -> None:
 
 
 def drawing_bytes(path: Path) -> bytes:
-    """What a drawing file holds; StoreError where it cannot be read, DrawingError TOO_MUCH where it is too large."""
+    """Return a drawing file's content; raise StoreError if it is unreadable, DrawingError TOO_MUCH if too large."""
     try:
         return read_file(path, MAX_BYTES)[0]
     except TooLargeError as error:

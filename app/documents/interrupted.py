@@ -1,7 +1,7 @@
-"""Saves that were interrupted: new content that lies whole beside a file, since whoever wrote it was killed.
+"""This module finds interrupted saves: complete new content beside a file, left by a process that was killed.
 
-What was not written to its end is removed; what the file holds by now, too.  The rest is offered as work that was not
-saved.
+Incomplete content is removed here, and the service removes content that is stored elsewhere.  The rest is offered as
+unsaved work.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from app.documents.journal import Head, Journal, Kind
 from app.documents.lock import Owner
 
 NOBODY: Final = 0
-"""The number of no process: whoever wrote the content is dead."""
+"""The process number of an owner that is dead."""
 _NAME: Final = re.compile(r"\.[0-9a-f]{12}-(?P<size>\d{1,12})\.tmp")
 
 
 @dataclass(frozen=True, slots=True)
 class InterruptedSave:
-    """The whole new content that a save has left, and when it was written, in nanoseconds since 1970."""
+    """The complete new content that a save has left, and when it was written, in nanoseconds since 1970."""
 
     path: Path
     data: bytes
     changed: int
 
     def journal(self, document: Document, user: str) -> Journal | None:
-        """The content as this user's work on a document, one edit; None where it is no content of this kind."""
+        """Return the content as a journal of one edit by this user; None if it is not of the document's kind."""
         work = document.work_of(self.data)
         if work is None:
             return None
@@ -46,7 +46,7 @@ class InterruptedSave:
 
 
 def interrupted_saves(file: Path, kind: Kind) -> Iterator[InterruptedSave]:
-    """What interrupted saves of this login have left of a file; what is not whole is removed, and nothing of others."""
+    """Yield the complete content that this login's saves of a file have left; remove incomplete content of its own."""
     target = Path(os.path.realpath(file))
     for path, size in _temporaries(target):
         with suppress(OSError):
@@ -58,23 +58,23 @@ def interrupted_saves(file: Path, kind: Kind) -> Iterator[InterruptedSave]:
                 continue
             data, status = read_file(path, MAX_BYTES[kind])
             if data.endswith(b"\0\0"):
-                # a power cut leaves zeros in place of what was not on the disk yet
+                # after a power cut, data that had not reached the disk reads as zeros
                 path.unlink()
                 continue
             yield InterruptedSave(path, data, status.st_mtime_ns)
 
 
 def _temporaries(target: Path) -> list[tuple[Path, int]]:
-    begin = f".{short_name(target.name)}"
-    with suppress(OSError), os.scandir(target.parent) as inside:
-        names = [entry.name for entry in inside if entry.name.startswith(begin)]
-        matches = ((name, _NAME.fullmatch(name[len(begin) :])) for name in names)
+    prefix = f".{short_name(target.name)}"
+    with suppress(OSError), os.scandir(target.parent) as entries:
+        names = [entry.name for entry in entries if entry.name.startswith(prefix)]
+        matches = ((name, _NAME.fullmatch(name[len(prefix) :])) for name in names)
         return [(target.with_name(name), int(match["size"])) for name, match in matches if match is not None]
     return []
 
 
 def _being_written(path: Path) -> bool:
-    """Whether somebody is at it now."""
+    """True if a process is still writing the file."""
     handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW | os.O_CLOEXEC)
     try:
         flock(handle, LOCK_EX | LOCK_NB)

@@ -1,8 +1,8 @@
-"""The journal of a document: every accepted edit as one line, so that a crash loses no more than a half-typed field.
+"""This module journals every accepted edit as one line, so that a crash loses no more than a half-typed field.
 
 The first line says whose work it is, on which file, and what it began with; each later one holds an edit, an undo or a
-redo, with the time and where the operator was.  Both kinds of document have the same lines; only what an edit holds
-differs.  Journals of format 1 are read, too: there the two kinds had formats of their own.
+redo, with the time and the operator's place.  Both kinds of document have the same lines; only the content of an edit
+differs.  Journals of format 1 are read, too; there each kind had its own format.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from core.program.history import History
 
 FORMAT: Final = 2
 MAX_JOURNAL_BYTES: Final = 200_000_000
-"""Bytes of a journal that is read: an NC text of the largest size and edits as long as the text."""
+"""The size in bytes of the largest journal that is read: room for the largest NC text and edits as long as it."""
 _DIGEST: Final = re.compile(r"(?:[0-9a-f]{8}){1,2}")
 _DAMAGE: Final = (DamagedError, ValueError, RecursionError, OverflowError)
-"""What reading a line raises that is not what was written."""
+"""The errors that reading a damaged line raises."""
 
 Place = tuple[int | str, ...]
-"""Where the operator was, as the kind of document says it; empty where it says nothing."""
+"""The operator's place in a document, in the form that its kind has; empty if unknown."""
 
 
 class Kind(StrEnum):
@@ -44,7 +44,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """Whose work it is, on which file (None without a name), and what that file was when it was read."""
+    """Whose work it is, on which file (None without a name), and the stamp of that file when it was read."""
 
     owner: Owner
     file: str | None = None
@@ -53,9 +53,9 @@ class Head:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Journal:
-    """What a journal holds; `time` is that of the last edit, in ISO format.
+    """The content of a journal; `time` is that of the last edit, in ISO format.
 
-    `damaged` says that more than a torn end could not be read.
+    `damaged`: more than a torn last line could not be read.
     """
 
     kind: Kind
@@ -67,12 +67,12 @@ class Journal:
 
     @property
     def edits(self) -> int:
-        """How many edits can be undone."""
+        """The number of edits that can be undone."""
         return len(self.work.past)
 
 
 def beginning(kind: Kind, head: Head, work: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
-    """The lines of a journal that begins with all of this work."""
+    """Yield the records of a new journal that begins with all of this work."""
     at: Record = {"at": place, "time": time}
     stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
     whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
@@ -83,12 +83,12 @@ def beginning(kind: Kind, head: Head, work: Iterable[Record], place: Place, time
 
 
 def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
-    """The lines of further edits."""
+    """Return the records of further edits."""
     return ({**record, "at": place, "time": time} for record in records)
 
 
 def read_journal(data: bytes) -> Journal | None:
-    """What a journal holds; None where not even its first line can be read."""
+    """Return what a journal holds; None if not even its first line can be read."""
     reading, length = _Reading(), 0
     for line, after, _ in whole_lines(data):
         try:
@@ -101,7 +101,7 @@ def read_journal(data: bytes) -> Journal | None:
 
 @dataclass(slots=True)
 class _Reading:
-    """A journal read so far."""
+    """The part of a journal that has been read so far."""
 
     kind: Kind = Kind.CONTOUR
     head: Head | None = None
@@ -111,13 +111,13 @@ class _Reading:
     old_nc: bool = field(default=False)
 
     def journal(self, *, damaged: bool) -> Journal | None:
-        """What was read, None for nothing."""
+        """Return what was read, None if nothing was."""
         if self.head is None or self.replay is None:
             return None
         return Journal(self.kind, self.head, self.replay.work(), self.place, self.time, damaged)
 
     def take(self, record: object) -> None:
-        """One line; one of `_DAMAGE` leaves everything as it was."""
+        """Apply one line; an error of `_DAMAGE` leaves everything unchanged."""
         if not isinstance(record, dict):
             raise DamagedError
         if self.replay is None:
@@ -168,7 +168,7 @@ def _head_of(record: Record) -> Head:
 
 
 def _path_of(file: str | None) -> str | None:
-    """A path that the system could have."""
+    """Return the path; raise DamagedError if no file can have it."""
     if file is not None and (not Path(file).name or b"\0" in os.fsencode(file)):
         raise DamagedError
     return file
@@ -185,7 +185,7 @@ def _place_of(record: Record) -> Place:
 
 
 def _head_of_format_1(record: Record) -> Record:
-    """The head of an NC text's journal, which had a sum of the file and no name."""
+    """Convert the head of an NC text's journal of format 1, which holds the file's checksum but not its name."""
     match record.get("file"):
         case [int(size), int(total)] if 0 <= total < 2**32:
             return {**record, "file": None, "stamp": [size, 0, f"{total:08x}"]}

@@ -1,7 +1,7 @@
-"""The journal's file: lines that are on the disk before `add` returns, and where it is stored.
+"""This module writes journal files, whose lines are on disk before `add` returns, and names their paths.
 
-A line is a sum over itself and everything before it, a blank, and a JSON object.  A line that was torn by a power
-cut, or that is not what was written, ends what can be read.
+A line is a checksum over itself and all lines before it, a blank, and a JSON object.  Reading stops at the first line
+that was torn by a power cut or is not what was written.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ SUFFIX: Final = ".cutcomp-journal"
 
 @dataclass(slots=True)
 class JournalFile:
-    """A journal that is being written.  `handle` is None while there is no file; `total` is the sum of all lines.
+    """A journal that is being written.  `handle` is None while there is no file; `total` is the checksum of all lines.
 
-    `unwritten` holds lines that could not be written yet, such as on a full disk: the next `add` tries them again.
-    `program` is the file it is about where it lies next to it: whoever may read or write that one may read or write the
-    journal.  `aside` is what a file that stood in its place is called now.
+    `unwritten` holds lines that could not be written yet, for example on a full disk; the next `add` tries them again.
+    `program` is the file that the journal is about if it lies beside it; the journal gets that file's group and mode.
+    `aside` is the new path of a file that was in the journal's place.
     """
 
     path: Path
@@ -43,7 +43,7 @@ class JournalFile:
     aside: Path | None = None
 
     def add(self, records: Iterable[Record]) -> None:
-        """Put lines on the disk, with those that could not be written before; OSError keeps them for the next time."""
+        """Write lines to disk, after those that could not be written before; after an OSError the next call retries."""
         data, self.total = lines(records, self.total)
         self.unwritten += data
         if self.handle is None:
@@ -60,37 +60,37 @@ class JournalFile:
         self.unwritten = b""
 
     def _create(self) -> None:
-        """Make the file; one that stands in its place is moved aside, never overwritten, unless it holds nothing."""
+        """Create the file; set aside a file in its place rather than overwrite it, unless that file is empty."""
         if os.path.lexists(self.path):
             status = self.path.lstat()
             if status.st_size or not stat.S_ISREG(status.st_mode):
                 self.aside = set_aside(self.path, "kept")
             else:
                 self.path.unlink()
-        handle, data = self._beside_first(self.unwritten, _named), self.unwritten
+        handle, data = self._write_then_move(self.unwritten, _link_into_place), self.unwritten
         self.handle, self.length, self.unwritten = handle, len(data), b""
 
     def replace(self, records: Iterable[Record]) -> None:
-        """Put a journal with these lines in the place of this one, in one step; OSError leaves the one that stands."""
+        """Replace the journal by one with these lines in one step; after an OSError the old one is still there."""
         data, total = lines(records)
         if self.handle is not None and self.standing() != self.path:
-            # somebody has taken over: what stands in the place is not ours
+            # somebody has taken over: the file in this place is not ours
             self.close()
             self.unwritten, self.total = data, total
             self._create()
             return
-        handle = self._beside_first(data)
+        handle = self._write_then_move(data)
         self.close()
         self.unwritten, self.total, self.length, self.handle = b"", total, len(data), handle
 
-    def _beside_first(self, data: bytes, put: Callable[[Path, Path], object] = Path.replace) -> int:
-        """The open file, written beside its place and put into it: half of it would be offered as older work."""
+    def _write_then_move(self, data: bytes, put: Callable[[Path, Path], object] = Path.replace) -> int:
+        """Write a file beside its place, move it there, return its handle: a half-written journal would be offered."""
         new = new_path(self.path)
         new.unlink(missing_ok=True)
         handle = os.open(new, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
         try:
             if self.program is not None:
-                _share(handle, self.program)
+                _copy_permissions(handle, self.program)
             write_all(handle, data)
             os.fsync(handle)
             put(new, self.path)
@@ -103,7 +103,7 @@ class JournalFile:
         return handle
 
     def remove(self) -> None:
-        """Remove the file, wherever it stands by now; never another one in its place."""
+        """Remove the file, even if it was moved aside; never remove another file in its place."""
         standing = self.standing()
         if standing is not None:
             with suppress(OSError):
@@ -112,7 +112,7 @@ class JournalFile:
         self.close()
 
     def standing(self) -> Path | None:
-        """Where the file that is written stands: somebody may have moved it aside; None where it is gone."""
+        """Return where this journal's file is now, since somebody may have moved it aside; None if it is gone."""
         if self.handle is None:
             return None
         status = os.fstat(self.handle)
@@ -123,20 +123,20 @@ class JournalFile:
         return None
 
     def lost(self) -> bool:
-        """Whether the file that was written is gone: removed, moved away, replaced, or not as long as it was."""
+        """True if the file that was written was removed, moved elsewhere or replaced, or its length has changed."""
         if self.handle is None:
             return False
         return os.fstat(self.handle).st_size != self.length or self.standing() is None
 
     def close(self) -> None:
-        """Leave the file where it is."""
+        """Close the file and leave it where it is."""
         if self.handle is not None:
             os.close(self.handle)
         self.handle, self.length = None, 0
 
 
 def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
-    """The records as lines that go on from the sum `total`, and the sum at their end."""
+    """Return the records as lines that continue from the checksum `total`, and the checksum after them."""
     written = []
     for record in records:
         data = json.dumps(record, separators=(",", ":"), allow_nan=False).encode()
@@ -146,7 +146,7 @@ def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
 
 
 def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
-    """The JSON of each line up to the first that is not what was written, with the length and the sum up to its end."""
+    """Yield the JSON of each line before the first invalid one, with the length and checksum up to its end."""
     length, total = 0, 0
     for line in data.splitlines(keepends=True):
         total = crc32(line[9:-1], total)
@@ -157,41 +157,41 @@ def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
 
 
 def journal_path(path: Path) -> Path:
-    """The journal of a program file: hidden, next to the file that a symbolic link leads to."""
+    """Return the path of a file's journal: hidden, beside the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
     return target.with_name(f".{short_name(target.name)}{SUFFIX}")
 
 
 def new_path(path: Path) -> Path:
-    """Where a journal is written that is to take the place of another; a program that was killed may leave it."""
+    """Return the path where a journal is written before it is moved into place; a killed process may leave it."""
     return path.with_name(f"{path.name}.new")
 
 
 def asides(path: Path) -> Iterator[Path]:
-    """The journals that were moved aside from a place, the last one first; looked for when the first is asked for."""
-    begin, new = f"{place_of(path).name}.", new_path(place_of(path)).name
+    """Yield the journals that were set aside from a place, newest first; the folder is read at the first one."""
+    prefix, new = f"{place_of(path).name}.", new_path(place_of(path)).name
     dated = list[tuple[int, Path]]()
-    with suppress(OSError), os.scandir(path.parent) as inside:
-        for entry in inside:
-            if entry.name.startswith(begin) and entry.name != new:
+    with suppress(OSError), os.scandir(path.parent) as entries:
+        for entry in entries:
+            if entry.name.startswith(prefix) and entry.name != new:
                 with suppress(OSError):
                     dated.append((entry.stat().st_mtime_ns, Path(entry.path)))
     yield from (path for _, path in sorted(dated, reverse=True))
 
 
 def place_of(path: Path) -> Path:
-    """The place of a journal that was moved aside; its own where it was not."""
-    begin, suffix, _ = path.name.partition(SUFFIX)
-    return path.with_name(begin + suffix)
+    """Return the original path of a journal that was set aside; the path itself if it was not."""
+    prefix, suffix, _ = path.name.partition(SUFFIX)
+    return path.with_name(prefix + suffix)
 
 
 def why_aside(path: Path) -> str:
-    """Why a journal was moved aside, as `set_aside` recorded it; empty where it was not."""
+    """Return why a journal was set aside, as `set_aside` recorded it; empty if it was not."""
     return path.name.partition(f"{SUFFIX}.")[2].rpartition("-")[0]
 
 
 def set_aside(path: Path, why: str) -> Path:
-    """Rename a journal; returns the name it has then, from which `why_aside` and `place_of` are read."""
+    """Rename a journal and return its new path, from which `why_aside` and `place_of` read."""
     place, number = place_of(path), 1
     while os.path.lexists(aside := place.with_name(f"{place.name}.{why}-{number}")):
         number += 1
@@ -200,32 +200,32 @@ def set_aside(path: Path, why: str) -> Path:
     return aside
 
 
-def _named(new: Path, path: Path) -> None:
-    """Give a file its name; FileExistsError where another journal has it by now."""
+def _link_into_place(new: Path, path: Path) -> None:
+    """Move a file to its path; raise FileExistsError if another journal has that path by now."""
     try:
         os.link(new, path)
     except FileExistsError:
         raise
     except OSError:
-        # a file system without links
+        # a file system without hard links
         new.replace(path)
     else:
         new.unlink()
 
 
-def _share(handle: int, program: Path) -> None:
-    """Give a new journal the group and the mode of its program's file, which will hold the same as soon as it is saved.
+def _copy_permissions(handle: int, program: Path) -> None:
+    """Give a new journal the group and mode of its program's file, which will hold the same work after a save.
 
-    Where the group cannot be given, the journal's own group may do what everybody may.
+    If the group cannot be set, the journal's own group gets only the permissions of others.
     """
     try:
-        like = program.stat()
+        status = program.stat()
     except OSError:
         return
     with suppress(OSError):
-        os.fchown(handle, -1, like.st_gid)
-    mode = stat.S_IMODE(like.st_mode) & 0o666 | 0o600
-    if os.fstat(handle).st_gid != like.st_gid:
+        os.fchown(handle, -1, status.st_gid)
+    mode = stat.S_IMODE(status.st_mode) & 0o666 | 0o600
+    if os.fstat(handle).st_gid != status.st_gid:
         mode = mode & 0o606 | (mode & 0o006) << 3
     with suppress(OSError):
         os.fchmod(handle, mode)

@@ -1,8 +1,8 @@
-"""Who has a program open: a small hidden file next to it, made in one step, with the owner's name in it.
+"""This module locks open programs by a small hidden file beside each, created in one step, with the owner's name in it.
 
-The lock tells, it does not force: a second opener may look or take over, and the first one finds another name in the
-file before it saves.  Two who recognize the same dead lock in the same moment may both believe that it is theirs;
-before saving, one of them finds the other's name.
+The lock is advisory: a second user may look or take over, and the first one finds the other name in the file before
+saving.  Two processes that find the same dead lock at the same moment may both believe that they have it; before
+saving, one of them finds the other's name.
 """
 
 from __future__ import annotations
@@ -37,31 +37,31 @@ class Owner:
 
 
 UNKNOWN: Final = Owner("somebody", "", 0, "", "")
-"""The owner of a lock that we may not read."""
+"""The owner of a lock that this login may not read."""
 MAX_PID: Final = 2**31 - 1
-"""The largest number that a system could give to a process."""
+"""The largest process number that a system can assign."""
 MAX_LOCK_BYTES: Final = 4096
 ENDED: Final = "ended"
 LOOKS: Final = 4
 BETWEEN: Final = 0.05
-"""How often, and after how many seconds, a lock that says nothing yet is looked at: it is written in one go."""
+"""How many times, and how many seconds apart, an incomplete lock is read; writing one takes only a moment."""
 
 
 @dataclass(frozen=True, slots=True)
 class Lock:
-    """A lock that is held: its file and what it says."""
+    """A lock that is held: its file and the owner in it."""
 
     path: Path
     owner: Owner
 
 
 def myself(since: str) -> Owner:
-    """This process."""
+    """Return this process as an owner."""
     return Owner(user(), gethostname(), os.getpid(), started(os.getpid()), since)
 
 
 def user() -> str:
-    """The login this process runs under."""
+    """Return the login that this process runs under."""
     try:
         return getuser()
     except (OSError, KeyError):
@@ -69,9 +69,9 @@ def user() -> str:
 
 
 def started(pid: int) -> str:
-    """What tells a process from another one of the same number, empty where the system does not say it.
+    """Return what distinguishes a process from a later one of the same number, empty if the system does not say it.
 
-    ENDED is what tells of one that is dead and that nobody has asked after yet: its number is still taken.
+    Return ENDED for a process that is dead but not yet reaped, so that its number is still taken.
     """
     try:
         boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
@@ -83,11 +83,11 @@ def started(pid: int) -> str:
 
 
 def alive(owner: Owner) -> bool:
-    """Whether the owner may still be running; one on another host always may."""
+    """True if the owner may still be running; on another host it always may."""
     if owner == UNKNOWN or owner.host != gethostname():
         return True
     if not 0 < owner.pid <= MAX_PID:
-        # 0 and less would ask after groups of processes
+        # kill takes 0 and negative numbers for groups of processes
         return False
     try:
         os.kill(owner.pid, 0)
@@ -100,13 +100,13 @@ def alive(owner: Owner) -> bool:
 
 
 def lock_path(path: Path) -> Path:
-    """The lock's file: hidden, next to the file that a symbolic link leads to."""
+    """Return the path of a file's lock: hidden, beside the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
     return target.with_name(f".{short_name(target.name)}{SUFFIX}")
 
 
 def take(path: Path, me: Owner) -> Lock | Owner:
-    """Lock a program file, also one that does not exist yet, or who has it; OSError where no lock can be written."""
+    """Lock a file, which need not exist yet, or return who has it; raise OSError if no lock can be written."""
     lock = Lock(lock_path(path), me)
     for _ in range(3):
         try:
@@ -122,7 +122,7 @@ def take(path: Path, me: Owner) -> Lock | Owner:
 
 
 def take_over(path: Path, me: Owner) -> Lock:
-    """Lock a program file whoever has it; OSError where no lock can be written."""
+    """Lock a file no matter who has it; raise OSError if no lock can be written."""
     lock = Lock(lock_path(path), me)
     _clear(lock.path)
     _create(lock)
@@ -130,26 +130,26 @@ def take_over(path: Path, me: Owner) -> Lock:
 
 
 def taken_by(lock: Lock) -> Owner | None:
-    """Who has taken over a lock that was held, None while it is held still (or nobody has it)."""
+    """Return who has taken over a lock, None while its owner still has it or if nobody has."""
     owner = _owner(lock.path)
     return None if owner == lock.owner else owner
 
 
 def held_by(path: Path) -> Owner | None:
-    """Who has a program file open, without locking it; None for nobody, or for somebody dead."""
+    """Return who has a file open, without locking it; None if nobody has, or if that process is dead."""
     owner = _owner(lock_path(path))
     return owner if owner is not None and alive(owner) else None
 
 
 def release(lock: Lock) -> None:
-    """Give a lock back, unless somebody has taken it over."""
+    """Release a lock, unless somebody has taken it over."""
     if _owner(lock.path) == lock.owner:
         with suppress(OSError):
             lock.path.unlink()
 
 
 def _clear(path: Path) -> None:
-    """Take away what stands in a lock's place; a folder is renamed, since it may hold something."""
+    """Remove what is in a lock's place; rename a folder, since it may hold something."""
     with suppress(FileNotFoundError):
         if path.is_dir() and not path.is_symlink():
             path.rename(path.with_name(f"{path.name}.{os.urandom(4).hex()}"))
@@ -158,29 +158,29 @@ def _clear(path: Path) -> None:
 
 
 def _create(lock: Lock) -> None:
-    """Make the lock's file, whole or not at all: half a lock has an unknown owner and is held for ever."""
+    """Create the lock's file completely or not at all: half a lock names no owner."""
     handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
     try:
         try:
-            # it holds no more than a name: hidden by a umask, others could never see that its owner is dead
+            # the file holds only a name; if a umask hid it, others could never see that its owner is dead
             os.fchmod(handle, 0o644)
             write_all(handle, json.dumps(asdict(lock.owner)).encode())
-            # that a power cut takes all of a lock away is right
+            # a power cut may take the whole lock, whose owner dies too, but must not leave half of it
             os.fsync(handle)
         finally:
             os.close(handle)
     except BaseException:
-        # it is this process's own file: O_EXCL made it
+        # the file is this process's own: O_EXCL created it
         with suppress(OSError):
             lock.path.unlink()
         raise
 
 
 def _owner(path: Path) -> Owner | None:
-    """What a lock file says; None where there is none, or none that says anything; UNKNOWN where it is hidden from us.
+    """Return the owner in a lock file; None if there is no lock or no owner in it; UNKNOWN if it may not be read.
 
-    A lock of which only a beginning stands is being written just now, or whoever wrote it found the disk full or lost
-    power: it is looked at again for a moment, and then it is nobody's.
+    An incomplete lock is just being written, or its writer met a full disk or a power cut: it is read again for a
+    moment, and then counts as nobody's.
     """
     for _ in range(LOOKS):
         try:
@@ -188,7 +188,7 @@ def _owner(path: Path) -> Owner | None:
         except FileNotFoundError:
             return None
         except (NotAFileError, TooLargeError):
-            # no lock of ours, and nobody's
+            # not a lock of this program: nobody's
             return None
         except OSError:
             return UNKNOWN
@@ -198,7 +198,7 @@ def _owner(path: Path) -> Owner | None:
 
 
 def owner_of(values: object) -> Owner:
-    """The owner that `dataclasses.asdict` wrote; ValueError for anything else."""
+    """Return the owner that `dataclasses.asdict` wrote; raise ValueError for anything else."""
     match values:
         case {"user": str(user), "host": str(host), "pid": int(pid), "started": str(begun), "since": str(since)}:
             if isinstance(pid, bool):

@@ -1,4 +1,4 @@
-"""Edits of an NC text as plain values for JSON, the way back from them, and what two texts differ in."""
+"""This module turns edits of an NC text into plain values for JSON and back, and describes how two texts differ."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from core.units import printable
 
 NEVER_SAVED: Final = Change(-1, (), ())
-"""As the change that the file has: it has none of those in the text."""
+"""The `saved` change of a text none of whose states any file holds."""
 MAX_COMPARED_LINES: Final = 500
-"""Lines up to which differences are told line by line."""
+"""The most differing lines that are described line by line."""
 
 
 def whole_records(text: NcText) -> Iterator[Record]:
-    """A text with everything that can be undone and redone; the first record holds the packed text before all of it."""
+    """Yield a text with all that can be undone and redone; the first record holds the packed text before all of it."""
     first = text.first
     data = "".join(first.lines).encode(text.encoding)
     yield {"base": [text.encoding, b85encode(zlib.compress(data, 1)).decode()]}
@@ -32,7 +32,7 @@ def whole_records(text: NcText) -> Iterator[Record]:
 
 
 def records_between(old: NcText, new: NcText) -> list[Record] | None:
-    """What led from one text to the next; None where the one does not lead to the other."""
+    """Return the edits that lead from `old` to `new`; None if `old` does not lead to `new`."""
     common = _common_changes(old.past, new.past)
     records: list[Record] = [{"undo": 1} for _ in old.past[common:]]
     now = old
@@ -46,7 +46,7 @@ def records_between(old: NcText, new: NcText) -> list[Record] | None:
 
 
 def _common_changes(old: tuple[Change, ...], new: tuple[Change, ...]) -> int:
-    """How many changes both begin with; nearly always all of the shorter one."""
+    """Return how many changes both begin with; nearly always all of the shorter one."""
     shorter = min(len(old), len(new))
     if not shorter or old[shorter - 1] is new[shorter - 1]:
         return shorter
@@ -59,7 +59,7 @@ def _edit(change: Change) -> Record:
 
 @dataclass(slots=True)
 class NcReplay:
-    """The edits of a journal made again, in one list of lines."""
+    """A replay of a journal's edits in one list of lines."""
 
     encoding: str
     lines: list[str]
@@ -68,7 +68,7 @@ class NcReplay:
 
     @classmethod
     def begun(cls, base: object) -> NcReplay:
-        """Before the first edit; DamagedError or ValueError for what is no text."""
+        """Return the replay before the first edit; raise DamagedError or ValueError if `base` is not a text."""
         match base:
             case [str(encoding), str(packed)]:
                 unpacking = zlib.decompressobj()
@@ -84,13 +84,13 @@ class NcReplay:
                 raise DamagedError
 
     def do(self, _label: str, values: object) -> None:
-        """One edit; DamagedError leaves everything as it was."""
+        """Apply one edit; an error leaves everything unchanged."""
         match values:
             case [int(row), [*removed], [*inserted]] if row >= 0 and not isinstance(row, bool):
                 change = Change(row, tuple(map(self._text, removed)), tuple(map(self._text, inserted)))
             case _:
                 raise DamagedError
-        self._put(change.row, change.removed, change.inserted)
+        self._replace_lines(change.row, change.removed, change.inserted)
         self.past.append(change)
         self.future.clear()
 
@@ -100,36 +100,36 @@ class NcReplay:
         value.encode(self.encoding)
         return value
 
-    def _put(self, row: int, removed: tuple[str, ...], inserted: tuple[str, ...]) -> None:
+    def _replace_lines(self, row: int, removed: tuple[str, ...], inserted: tuple[str, ...]) -> None:
         if row > len(self.lines) or tuple(self.lines[row : row + len(removed)]) != removed:
             raise DamagedError
         self.lines[row : row + len(removed)] = inserted
 
     def undo(self) -> None:
-        """One edit taken back."""
+        """Undo one edit; raise DamagedError if there is none."""
         if not self.past:
             raise DamagedError
         change = self.past.pop()
-        self._put(change.row, change.inserted, change.removed)
+        self._replace_lines(change.row, change.inserted, change.removed)
         self.future.append(change)
 
     def redo(self) -> None:
-        """One undone edit made again."""
+        """Redo one undone edit; raise DamagedError if there is none."""
         if not self.future:
             raise DamagedError
         change = self.future.pop()
-        self._put(change.row, change.removed, change.inserted)
+        self._replace_lines(change.row, change.removed, change.inserted)
         self.past.append(change)
 
     def work(self) -> NcText:
-        """The text that the edits led to; no file holds it."""
+        """Return the text that the edits led to, marked as not saved in any file."""
         return NcText(
             tuple(self.lines), self.encoding, past=tuple(self.past), future=tuple(self.future), saved=NEVER_SAVED
         )
 
 
 def known_in_file(work: NcText, file: NcText) -> NcText:
-    """The work, knowing after which of its changes it is what the file holds: undone to there nothing is unsaved."""
+    """Return the work, marked with the change after which it equals the file: undone to there, nothing is unsaved."""
     at = work.first
     for change in (None, *work.past, *reversed(work.future)):
         at = at if change is None else at.done(change)
@@ -139,9 +139,9 @@ def known_in_file(work: NcText, file: NcText) -> NcText:
 
 
 def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple[str, ...]:
-    """What the work has changed in the file, line by line in words; of very much only where it begins and ends.
+    """Describe line by line how the work differs from the file; for long differences, only the range of lines.
 
-    `other` says in a line's sentence where the other text of it stands.
+    `other` says in the sentence on a line where its other text is from.
     """
     old, new = ([text.text(row) for row in range(len(text))] for text in (file, work))
     shorter = min(len(old), len(new))

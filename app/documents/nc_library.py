@@ -1,4 +1,4 @@
-"""The programs a control calls, by number or label: files of the folder a program is in, as in its memory."""
+"""This module finds the programs that a control calls by number or label, in the calling program's folder."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ PROGRAM_FILE_NAMES: Final = (
     *("O{0:04}", "O{0:04}.nc", "{0:04}.nc", "{0}.nc"),
     *("O{0:04}.txt", "{0}.txt", "{0}.tap", "{0}.eia"),
 )
-"""How the file of program number {0} may be called that a control has in its memory."""
+"""The names that the file of program number {0} may have; the folder stands for the control's memory."""
 
 MAX_SEARCHED_FILES: Final = 500
 SEARCHED_BYTES: Final = 4096
-"""At the beginning of a file its number is looked for."""
+"""The number of bytes at the start of a file in which its program number is searched for."""
 _NUMBER: Final = re.compile(rb"^[ \t]*[O:][ \t]*([0-9]{1,8})(?![0-9.])", re.MULTILINE | re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
 class FolderLibrary:
-    """The programs of a folder by their numbers or labels; None finds nothing, for a text that is in no folder yet."""
+    """The programs of a folder by number or label; None, for a text without a folder, finds none."""
 
     folder: Path | None
 
     def __call__(self, program: int | str) -> tuple[str, bytes] | None:
-        """The name and text of a program, None where there is no file of it that can be read.
+        """Return the name and text of a program, None if it has no readable file.
 
         A str is the label by which LinuxCNC calls a subprogram.
         """
@@ -47,7 +47,7 @@ class FolderLibrary:
         return plain(path.name), text
 
     def _labeled(self, label: str) -> Path | None:
-        """The file that has the label's name; one in another folder is none of them."""
+        """Return the file named by a label; None if the label leads to another folder or there is no such file."""
         assert self.folder is not None
         path = self.folder / f"{label}.ngc"
         with suppress(OSError, ValueError):
@@ -60,7 +60,7 @@ class FolderLibrary:
         return next((path for path in named if path.is_file()), None) or self._beginning_with(number)
 
     def _beginning_with(self, number: int) -> Path | None:
-        """The file whose first program has this number, whatever the file is called."""
+        """Return the file whose first program has this number, whatever the file's name."""
         assert self.folder is not None
         with suppress(OSError):
             files = sorted(path for path in self.folder.iterdir() if path.suffix.lower() in NC_SUFFIXES)

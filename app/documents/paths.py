@@ -1,7 +1,7 @@
-"""Paths of files: as an operator types them, the chosen folder, and how a sentence names them.
+"""This module reads file paths as an operator types them, finds the chosen folder, and names paths in sentences.
 
 The chosen folder is that of the open file, or the current one for work without a name.  A name without a folder means a
-file there, and nothing is written elsewhere without a question.  What cannot be a path is told where it is used.
+file there, and nothing is written elsewhere without a question.  An impossible path is reported where it is used.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from typing import Final
 from core.units import plain
 
 MAX_PATH_IN_SENTENCE: Final = 60
-"""Characters of a path in a sentence."""
+"""The most characters of a path in a sentence."""
 
 
 # ---- typed names
 
 
 def typed(text: str) -> Path:
-    """Return the path of a typed name with ~ expanded, but for a ~ that is nobody's home."""
+    """Return the path of a typed name with ~ expanded, unless no home folder is known for it."""
     path = Path(text.strip())
     try:
         return path.expanduser()
@@ -70,7 +70,7 @@ def chosen(path: Path, file: Path | None) -> Path:
 
 
 def outside(path: Path, file: Path | None) -> bool:
-    """True if a file would be written outside the chosen folder, also through a link; folders are not written."""
+    """True if a file would be written outside the chosen folder, even through a link; False for a folder."""
     return not is_folder(path) and not Path(os.path.realpath(path)).is_relative_to(folder(file))
 
 
@@ -102,6 +102,6 @@ def printable_path(path: Path | str) -> str:
 
 
 def short_path(path: Path | str) -> str:
-    """Return a path as a sentence names it: the end of a long one."""
+    """Return a path for a sentence: only the end of a long one."""
     text = printable_path(path)
     return text if len(text) <= MAX_PATH_IN_SENTENCE else f"...{text[3 - MAX_PATH_IN_SENTENCE :]}"

@@ -1,4 +1,4 @@
-"""Files that may not answer: a folder of a network that is gone keeps whoever asks it waiting, for ever at worst."""
+"""This module limits the wait for files: a folder on a lost network may take forever to answer."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from threading import Lock, Thread
 from typing import Any, Final, TypeVar
 
 FOLDER: Final = 2.0
-"""Seconds that the start screen waits for a folder."""
+"""The seconds that the start screen waits for a folder."""
 FILE: Final = 5.0
-"""Seconds that opening a file may take."""
+"""The seconds that opening a file may take."""
 DISK: Final = 0.5
-"""Seconds that the keys wait for the disk; then they go on without it."""
+"""The seconds that a keystroke waits for the disk before it goes on without it."""
 LAST: Final = 2.0
-"""Seconds that the end of the program waits for the disk."""
+"""The seconds that the program waits for the disk when it ends."""
 
 Result = TypeVar("Result")
 
 
 class Disk:
-    """Does work on the disk in a thread, one piece after the other: there are never two writers.
+    """Does disk work in a thread, one piece after another, so that there are never two writers.
 
-    The thread ends when nothing is left to do; nobody waits for it at the end of the program.
+    The thread ends when no work is left; the program does not wait for it at its own end.
     """
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class Disk:
         self._lock = Lock()
 
     def do(self, work: Callable[[], Result]) -> Future[Result]:
-        """Have work done after all that waits already."""
+        """Queue work behind all that is waiting, and return its future."""
         future = Future[Result]()
         future.set_running_or_notify_cancel()
         with self._lock:
@@ -48,7 +48,7 @@ class Disk:
             result, error = None, None
             try:
                 result = work()
-            except Exception as raised:  # noqa: BLE001  # raised again where the result is asked for
+            except Exception as raised:  # noqa: BLE001  # raised again where the result is used
                 error = raised
             with self._lock:
                 self._waiting.popleft()
@@ -59,14 +59,14 @@ class Disk:
                 future.set_exception(error)
 
     def finish(self, work: Callable[[], object]) -> None:
-        """Do the last work behind all that waits; a folder that does not answer does not hold up the end."""
+        """Do the last work behind all that is waiting; wait no longer than `LAST` for it."""
         wait([self.do(work)], LAST)
 
 
 def within(seconds: float, work: Callable[[], Result]) -> Result:
-    """What the work returns or raises; TimeoutError when it takes longer.
+    """Return or raise what the work does; raise TimeoutError if it takes longer.
 
-    It then goes on in a thread that nobody waits for any more.
+    After a timeout it goes on in a thread, and its result is dropped.
     """
     future = Disk().do(work)
     if not wait([future], seconds).done:

@@ -1,6 +1,6 @@
-"""What an operator is asked about files: questions as values, with the words of their titles, lines and answers.
+"""This module builds the questions about files that an operator is asked: title, lines and answers.
 
-The answer GO BACK belongs to every question; it changes nothing.
+Every question also has the answer GO BACK, which changes nothing.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ FILE_AS_IT_IS: Final = "FILE AS IT IS"
 ADD: Final = "ADD"
 NEW_PROGRAM: Final = "NEW PROGRAM"
 MAX_DIFFERENCES: Final = 6
-"""Differences that a question lists."""
+"""The most differences that a question lists."""
 FEW_DIFFERENCES: Final = 3
-"""Differences of either version where two are listed."""
+"""The most differences of each version in a question that compares two."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +53,9 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A question: its title, the lines (the loss first), the answers, the word of the one chosen at first.
+    """A question: its title, the lines (what would be lost comes first), the answers, the word of the preselected one.
 
-    `details` are listed under the lines, as far as there is room.
+    `details` are listed under the lines if there is room.
     """
 
     title: str
@@ -69,7 +69,7 @@ class Ask:
 
 
 def name_of(document: Document) -> str:
-    """The document as a sentence names it."""
+    """Return the name of a document in a sentence."""
     path = document.file.path
     if path is not None:
         return printable(path.name)
@@ -77,23 +77,23 @@ def name_of(document: Document) -> str:
 
 
 def person(owner: Owner) -> str:
-    """Who somebody is."""
+    """Return a person's name in a sentence: the user, and the host if it is known."""
     return f"{printable(owner.user)}{f' on {printable(owner.host)}' if owner.host else ''}"
 
 
 def held_sentence(owner: Owner, today: str) -> str:
-    """Who has a document open, and since when."""
+    """Return the sentence that says who has a document open, and since when."""
     when = times.in_words(owner.since, today).removeprefix("at ").removeprefix("on ")
     return f"{person(owner)} has had this program open{f' since {when}' if owner.since else ''}."
 
 
 def whole_name(path: Path) -> str:
-    """A file's name in full, without control characters."""
+    """Return a file's full name without control characters."""
     return printable_path(path.name)
 
 
 def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
-    """The first few, and how many more there are."""
+    """Return the first `most` details and how many more there are."""
     rest = len(details) - most
     return tuple(details) if rest <= 0 else (*details[:most], f"And {rest} more.")
 
@@ -102,7 +102,7 @@ def shortened(details: Sequence[str], most: int) -> tuple[str, ...]:
 
 
 def into_which(drawing: Path, document: Document) -> Ask:
-    """Whether a drawing's contours go into the open program."""
+    """Ask whether a drawing's contours go into the open program."""
     lines = (f"Contours of {printable(drawing.name)}:",)
     name = "the open program" if document.file.path is None else name_of(document)
     answers = (Answer(ADD, f"behind the blocks of {name}"), Answer(NEW_PROGRAM, "of this drawing alone"))
@@ -113,7 +113,7 @@ def into_which(drawing: Path, document: Document) -> Ask:
 
 
 def leaving(title: str, documents: Sequence[Document]) -> Ask | None:
-    """Before documents are closed: what would be lost; None where all of them are saved."""
+    """Ask before documents are closed, listing those with unsaved changes; None if all are saved."""
     unsaved = [document for document in documents if document.unsaved]
     if not unsaved:
         return None
@@ -126,7 +126,7 @@ def leaving(title: str, documents: Sequence[Document]) -> Ask | None:
 
 
 def not_answering() -> Ask:
-    """Before the program is left while the disk is behind."""
+    """Ask before quitting while disk work is still pending."""
     lines = ("The folder does not answer.", "What was typed since then is not on the disk. GO BACK waits for it.")
     return Ask("QUIT?", lines, (Answer(LEAVE, "what is not on the disk is lost"),))
 
@@ -135,7 +135,7 @@ def not_answering() -> Ask:
 
 
 def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
-    """The one question before a file outside the chosen folder is written; it says what would be replaced there."""
+    """Ask once before a file outside the chosen folder is written; the lines say what would be replaced there."""
     target = Path(os.path.realpath(path))
     whose = "current" if file is None else "program's"
     lines = [f"{printable_path(target)} is not in the {whose} folder,", f"{printable_path(folder(file))}."]
@@ -146,21 +146,21 @@ def write_outside(path: Path, file: Path | None, holder: Owner | None) -> Ask:
 
 
 def before_output(path: Path, file: Path | None) -> Ask | None:
-    """Before what is made of the program of a file is written into another folder, or in the place of something."""
+    """Ask before a program's output is written into another folder or over an existing file; None if neither."""
     if outside(path, file):
         return write_outside(path, file, None)
     return replace_file(path, None) if os.path.lexists(path) else None
 
 
 def write_through_link(path: Path) -> Ask:
-    """Before a document's own file is written, which is a link into another folder."""
+    """Ask before a document's own file is written if it is a link into another folder."""
     target = printable_path(os.path.realpath(path))
     line = f"{printable_path(path)} is a link to {target} in another folder."
     return Ask("WRITE IN ANOTHER FOLDER?", (line,), (Answer(WRITE_THERE),))
 
 
 def replace_file(path: Path, holder: Owner | None) -> Ask:
-    """Somebody's file stands in the place."""
+    """Ask before an existing file is replaced."""
     target = f", which leads to {printable_path(os.path.realpath(path))}" if path.is_symlink() else ""
     first, *rest = _replaced(path, holder)
     lines = (f"{printable_path(path)}{target} exists. {first}", *rest)
@@ -173,7 +173,7 @@ def _replaced(path: Path, holder: Owner | None) -> list[str]:
 
 
 def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
-    """Somebody has taken the document over since it was opened."""
+    """Ask before saving a document that somebody has taken over since it was opened."""
     lines = (f"{person(owner)} has taken {printable(path.name)} over.",)
     answers = (
         Answer(KEEP_BOTH, f"yours is saved as {whole_name(copy)}"),
@@ -185,14 +185,14 @@ def taken_over(path: Path, owner: Owner, copy: Path) -> Ask:
 def changed_meanwhile(
     document: Document, written: str, copy: Path, compared: tuple[tuple[str, ...], tuple[str, ...]] | None
 ) -> Ask:
-    """The file is not as it was read: both versions are kept, whichever gets the name.
+    """Ask which version gets the name if the file differs from what was read; both versions are kept.
 
-    `written` is when the file was changed, in words; `compared` is what differs, None where the file cannot be read.
+    `written` is when the file was changed, in words; `compared` is what differs, None if the file cannot be read.
     """
     name = name_of(document)
     unread = document.file.stamp is None and compared is None
     if unread:
-        # nobody need have changed it: it could not be read when it was opened
+        # perhaps nobody has changed it: it could not be read when it was opened either
         title, word, first = "REPLACE THE FILE?", FILE_AS_IT_IS, f"{name} cannot be read. It was written {written}."
     else:
         title, word, first = "CHANGED MEANWHILE", THEIRS, f"{name} was changed by somebody else {written}."
@@ -216,7 +216,7 @@ def _versions(compared: tuple[tuple[str, ...], tuple[str, ...]] | None) -> tuple
 
 
 def open_already(owner: Owner, today: str) -> Ask:
-    """Somebody else has the document open."""
+    """Ask before opening a document that somebody else has open."""
     lines = (held_sentence(owner, today),)
     answers = (
         Answer(LOOK, "nothing can be changed; SAVE AS makes a copy of your own"),
@@ -228,7 +228,7 @@ def open_already(owner: Owner, today: str) -> Ask:
 def unsaved_work(
     document: Document, journal: Journal, *, mine: bool, me: Owner, living: bool, chosen: bool, today: str
 ) -> Ask:
-    """Work that a program which died has left.  `chosen`: somebody wants it back from the list of OPEN."""
+    """Ask whether to restore unsaved work; `chosen`: the operator picked it in the list of kept copies."""
     owner, path = journal.head.owner, document.file.path
     name = "No name" if path is None else printable(path.name)
     by = "" if (owner.user, owner.host) == (me.user, me.host) else f" by {person(owner)}"
@@ -247,14 +247,14 @@ def unsaved_work(
     if journal.damaged:
         lines.append("The end of it cannot be read and is kept as a backup.")
     if chosen:
-        without = Answer(NOT_MINE, "it stays in the list")
+        refusal = Answer(NOT_MINE, "it stays in the list")
     elif mine:
-        without = Answer(DISCARD, "kept as a backup; Ctrl+O lists it")
+        refusal = Answer(DISCARD, "kept as a backup; Ctrl+O lists it")
     else:
-        without = Answer(NOT_MINE, "it stays kept for its owner")
+        refusal = Answer(NOT_MINE, "it stays kept for its owner")
     details = shortened(document.differences(journal), MAX_DIFFERENCES)
     compared = (f"Compared with {_compared_with(document)}:", *details) if details else ()
-    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), without), safe=RESTORE, details=compared)
+    return Ask("UNSAVED WORK FOUND", tuple(lines), (Answer(RESTORE), refusal), safe=RESTORE, details=compared)
 
 
 def _written_since(document: Document, journal: Journal) -> bool:
@@ -270,7 +270,7 @@ def _compared_with(document: Document) -> str:
 
 
 def unreadable_work(document: Document, path: Path, left: Unreadable, today: str) -> Ask:
-    """Nobody can restore it; it must not be overlooked all the same."""
+    """Report unsaved work that cannot be read, so that nobody overlooks it."""
     who, when = printable(left.user), times.short(left.time, today)
     name = UNNAMED if document.file.path is None else printable(document.file.path.name)
     if left.what:

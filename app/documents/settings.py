@@ -1,7 +1,6 @@
-"""Settings: what stays from one time to the next, in a TOML file in the platform's own folder.
+"""This module keeps settings between runs, in a TOML file in the platform's folder for them.
 
-A file of settings that cannot be read or written never stops the program: one sentence says so, and the usual values
-hold.
+A settings file that cannot be read or written never stops the program: one sentence says so, and the defaults apply.
 """
 
 from __future__ import annotations
@@ -18,19 +17,19 @@ from core.units import Unit
 
 MAX_RECENT_FILES: Final = 8
 MAX_FILES_WITH_TOOLS: Final = 100
-"""NC programs whose tools are remembered."""
+"""The most NC programs whose tools are remembered."""
 MAX_SETTINGS_BYTES: Final = 1_000_000
 CHARACTERS: Final = ("braille", "block", "ascii")
-"""The sets of characters that a drawing can be made of."""
+"""The character sets that a drawing can be made of."""
 THEMES: Final = ("dark", "light")
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """`recent` are absolute paths, the last used first; the texts are empty until something is chosen.
+    """A user's settings.  `recent`: absolute paths, the last used first.  A text is empty until a value is chosen.
 
-    `control` is the one that NC programs are run on, by its full name.  `tools` are the diameters given to the tools of
-    NC programs, as `1=0.5in 2=12.0mm` beside the absolute path, the last given first.
+    `control` is the full name of the control that NC programs run on.  `tools` pairs the absolute path of an NC program
+    with the diameters given to its tools, such as `1=0.5in 2=12.0mm`; the last given comes first.
     """
 
     recent: tuple[str, ...] = ()
@@ -43,11 +42,11 @@ class Settings:
     tools: tuple[tuple[str, str], ...] = ()
 
     def tools_of(self, file: Path) -> str:
-        """The tools that were given to an NC program, empty for none."""
+        """Return the tools that were given to an NC program, empty for none."""
         return dict(self.tools).get(str(file.absolute()), "")
 
     def with_tools(self, file: Path, text: str) -> Settings:
-        """After an NC program was given these tools."""
+        """Return the settings after an NC program was given these tools."""
         name = str(file.absolute())
         if not name.isprintable():
             return self
@@ -55,7 +54,7 @@ class Settings:
         return replace(self, tools=((name, text), *others)[:MAX_FILES_WITH_TOOLS])
 
     def using(self, file: Path) -> Settings:
-        """After a file was opened or saved; a name that no settings file can hold is not remembered."""
+        """Return the settings after a file was opened or saved; an unprintable path is not remembered."""
         here = file.absolute()
         name = str(here)
         if not name.isprintable():
@@ -65,17 +64,17 @@ class Settings:
 
 
 def settings_file() -> Path:
-    """The file of this person's settings."""
+    """Return the path of the user's settings file."""
     from platformdirs import user_config_path
 
     return user_config_path("cutcomp", appauthor=False) / "settings.toml"
 
 
 def parsed(text: str) -> Settings:
-    """Settings from a file's text; what is of no use in it is passed over.  ValueError when it is no TOML."""
+    """Return the settings in a file's text, without unusable values; raise ValueError if it is not TOML."""
     held = tomllib.loads(text)
     recent, unit, tools = held.get("recent"), held.get("unit"), held.get("tools")
-    # older files name the characters `mode`
+    # older files call the characters `mode`
     characters = held.get("characters", held.get("mode"))
     return Settings(
         tuple(filter(_usable, recent))[:MAX_RECENT_FILES] if isinstance(recent, list) else (),
@@ -90,17 +89,17 @@ def parsed(text: str) -> Settings:
 
 
 def _usable(name: object) -> bool:
-    """A path as `Settings.using` writes it."""
+    """True for a path such as `Settings.using` writes."""
     return isinstance(name, str) and name.isprintable() and Path(name).is_absolute()
 
 
 def _usable_tools(named: tuple[str, object]) -> bool:
-    """A path and tools as `Settings.with_tools` writes them."""
+    """True for a path and tools such as `Settings.with_tools` writes."""
     return _usable(named[0]) and isinstance(named[1], str)
 
 
 def written(settings: Settings) -> str:
-    """The text of a settings file."""
+    """Return the text of a settings file."""
     recent = "".join(f"  {_quoted(name)},\n" for name in settings.recent)
     lines = (
         "# cutcomp writes this file anew; what else is put into it is lost",
@@ -122,7 +121,7 @@ def _quoted(text: str) -> str:
 
 
 def load_settings(path: Path) -> tuple[Settings, str]:
-    """The settings in a file, and the sentence that says why they are the usual ones, empty if they are not."""
+    """Return a file's settings, and a sentence that says why it cannot be read, empty if it can or does not exist."""
     try:
         return parsed(read_file(path, MAX_SETTINGS_BYTES)[0].decode()), ""
     except FileNotFoundError:
@@ -134,14 +133,14 @@ def load_settings(path: Path) -> tuple[Settings, str]:
 
 @dataclass(slots=True)
 class SettingsFile:
-    """Writes settings when they change; `path` None keeps them for this time only."""
+    """Writes settings when they change; with `path` None they last for this run only."""
 
     path: Path | None = None
     held: Settings = field(default_factory=Settings)
     failed: bool = False
 
     def keep(self, settings: Settings) -> str:
-        """Put changed settings on the disk; the sentence that says why they are not kept, once."""
+        """Write changed settings to disk; return the sentence that says why they cannot be kept, only once."""
         if settings == self.held:
             return ""
         self.held = settings

@@ -1,4 +1,4 @@
-"""Survey: the files that can be opened, and what the list of them tells of a contour program: date, tools, verdict."""
+"""This module lists the files of a folder that can be opened, with each contour program's date, tools and verdict."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ from core.program.file.read import StoreError
 from core.program.model import Number, Program
 
 MAX_LISTED: Final = 500
-"""Files of a folder that are listed; more are reached by typing a path."""
+"""The most programs, other files and folders that are listed, each; others are opened by typing a path."""
 DRAWING: Final = "drawing"
 NC_PROGRAM: Final = "NC program"
 SHEET_START: Final = b"SETUP SHEET\n"
-"""The first line of a setup sheet's text."""
+"""The first line of a setup sheet."""
 
 
 class Outcome(StrEnum):
-    """The verdict on a file in one word, the gravest first; work that was not saved comes before it."""
+    """The verdict on a file in one word, the gravest first; unsaved work comes before every verdict."""
 
     NOT_SAVED = "not saved"
     OPEN = "open"
@@ -48,7 +48,7 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """One file.  `stamp` is its time and size: while it stays, so does what is known.  `trouble` is a sentence."""
+    """What is known of a file, valid while its `stamp` (time and size) stays the same; `trouble` is a sentence."""
 
     path: Path
     stamp: tuple[int, int] = (0, 0)
@@ -60,7 +60,7 @@ class Facts:
 
 
 def facts_of(path: Path, known: Facts | None = None) -> Facts:
-    """The facts of a file, from the disk; for a worker, since it derives the whole program."""
+    """Return the facts of a file on disk; call this in a worker, since it derives the whole program."""
     try:
         facts, program = within(FILE, lambda: _read(path, known))
     except TimeoutError as error:
@@ -69,7 +69,7 @@ def facts_of(path: Path, known: Facts | None = None) -> Facts:
 
 
 def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
-    """What the disk tells, and the program where it has to be judged."""
+    """Return what the disk says of a file, and its program if that must still be judged."""
     try:
         status = path.stat()
     except (OSError, ValueError):
@@ -90,7 +90,7 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
 
 
 def _without_file(path: Path) -> Facts:
-    """The facts of a program that is not there: it was never saved, or it is lost."""
+    """Return the facts of a program without a file: it was never saved, or the file is gone."""
     gone = Facts(path, outcome=Outcome.UNREADABLE)
     try:
         left = [journal for _, journal in left_of(path, Kind.CONTOUR, state_folder())]
@@ -113,20 +113,20 @@ def _not_saved(facts: Facts) -> Facts:
 
 
 def _judged(facts: Facts, program: Program) -> Facts:
-    # numpy and shapely are not needed by the first paint
+    # imported here, since the first paint needs neither numpy nor shapely
     from core.pipeline.derive import derive
 
     return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), outcome=gravest(derive(program)))
 
 
 def gravest(derived: Derived) -> Outcome:
-    """The gravest outcome of a program's blocks."""
+    """Return the gravest outcome of a program's blocks."""
     order = list(Outcome)
     return min((outcome_of(block) for block in derived.blocks), key=order.index, default=Outcome.EMPTY)
 
 
 def outcome_of(block: DerivedBlock) -> Outcome:
-    """The verdict on a block in one word."""
+    """Return the verdict on a block in one word."""
     if block.errors:
         gouges = any(finding.code.endswith(("GOUGE", "GOUGES", "WRONG_SIDE")) for finding in block.errors)
         return Outcome.GOUGE if gouges else Outcome.NOT_READY
@@ -137,14 +137,14 @@ def outcome_of(block: DerivedBlock) -> Outcome:
 
 
 def _tools(program: Program) -> str:
-    """The tools the blocks call, in order."""
+    """Return the numbers of the tools that the blocks call, in ascending order."""
     typed = [value for block in program.blocks for value in (block.tool, block.finish_tool)]
     called = {value.value for value in typed if isinstance(value, Number) and value.value > 0.0}
     return " ".join(f"{number:g}" for number in sorted(called))
 
 
 def day_of(changed: datetime, now: datetime) -> str:
-    """A file's time in a few cells: the hour of today, the weekday of this week, else the date."""
+    """Return a file's time in a few cells: the time if today, weekday and date within a week, else the date."""
     age = (now.date() - changed.date()).days
     if age <= 0:
         return f"{changed:%H:%M} today"
@@ -168,23 +168,23 @@ class Listed:
 
     @property
     def program(self) -> bool:
-        """Whether it is the file of a contour program."""
+        """True if it is the file of a contour program."""
         return self.copy is None and not (self.folder or self.kind)
 
 
 def programs_of(folder: Path) -> tuple[Listed, ...]:
-    """What a folder holds that can be opened, the examples, and kept copies; OSError where it cannot be read."""
-    inside = within(FOLDER, lambda: tuple(_inside(folder)))
+    """Return a folder's files that can be opened, examples and kept copies; raise OSError if it cannot be read."""
+    entries = within(FOLDER, lambda: tuple(_listed_files(folder)))
     parts = tuple(example_programs())
-    # in their own folder the examples stand once, as examples
-    programs = (each for each in inside if not each.folder and each.path not in {part.path for part in parts})
-    folders = (each for each in inside if each.folder)
+    # in the folder of the examples, list each of them only once, as an example
+    programs = (entry for entry in entries if not entry.folder and entry.path not in {part.path for part in parts})
+    folders = (entry for entry in entries if entry.folder)
     copies = within(FOLDER, lambda: tuple(_copies(folder)))
     return (*programs, *parts, *folders, *copies)
 
 
 def _copies(folder: Path) -> Iterator[Listed]:
-    """The unsaved work on programs and NC texts that was set aside here, the last first."""
+    """Yield the unsaved work on programs and NC texts that was set aside here, newest first."""
     state = state_folder()
     kept = (copy for kind in Kind for copy in kept_copies(folder, state, kind))
     for copy in sorted(set(kept), key=lambda copy: copy.time, reverse=True):
@@ -192,37 +192,37 @@ def _copies(folder: Path) -> Iterator[Listed]:
 
 
 def example_programs() -> Iterator[Listed]:
-    """The example parts."""
+    """Yield the example parts, by name."""
     for path in sorted(examples().glob("*.toml")):
         yield Listed(path, path.stem, example=True)
 
 
-def _inside(folder: Path) -> Iterator[Listed]:
-    with os.scandir(folder) as entries:
-        inside = sorted(entries, key=lambda each: each.name.lower())
-    programs = [each for each in inside if each.name.lower().endswith(".toml") and not each.is_dir()]
-    shown = [each for each in inside if not each.name.startswith(".")]
-    others = [(each, kind) for each in shown if (kind := _kind(each.name)) and not each.is_dir()]
-    folders = [each for each in shown if each.is_dir()]
-    saved = [path for path in (Path(each.path) for each in programs[:MAX_LISTED]) if is_program(path)]
+def _listed_files(folder: Path) -> Iterator[Listed]:
+    with os.scandir(folder) as scanned:
+        entries = sorted(scanned, key=lambda entry: entry.name.lower())
+    programs = [entry for entry in entries if entry.name.lower().endswith(".toml") and not entry.is_dir()]
+    visible = [entry for entry in entries if not entry.name.startswith(".")]
+    others = [(entry, kind) for entry in visible if (kind := _kind(entry.name)) and not entry.is_dir()]
+    folders = [entry for entry in visible if entry.is_dir()]
+    saved = [path for path in (Path(entry.path) for entry in programs[:MAX_LISTED]) if is_program(path)]
     for path in sorted((*saved, *never_saved(folder, state_folder())), key=lambda path: path.name.lower()):
         yield Listed(path, path.name.removesuffix(".toml"))
     # drawings before NC programs
-    for each, kind in sorted(others, key=lambda other: other[1] != DRAWING)[:MAX_LISTED]:
-        if not _is_sheet(Path(each.path)):
-            yield Listed(Path(each.path), each.name, kind=kind)
-    for each in folders[:MAX_LISTED]:
-        yield Listed(Path(each.path), f"{each.name}/", folder=True)
+    for entry, kind in sorted(others, key=lambda other: other[1] != DRAWING)[:MAX_LISTED]:
+        if not _is_sheet(Path(entry.path)):
+            yield Listed(Path(entry.path), entry.name, kind=kind)
+    for entry in folders[:MAX_LISTED]:
+        yield Listed(Path(entry.path), f"{entry.name}/", folder=True)
 
 
 def _kind(name: str) -> str:
-    """What a file is by its name, where it is no contour program."""
+    """Return the kind of a drawing or an NC program by its file name, empty for any other file."""
     path = Path(name)
     return DRAWING if is_drawing(path) else NC_PROGRAM if path.suffix.lower() in NC_SUFFIXES else ""
 
 
 def _is_sheet(path: Path) -> bool:
-    """Whether a text is the setup sheet of a program."""
+    """True if a file is a program's setup sheet."""
     try:
         return path.suffix.lower() == ".txt" and read_start(path, len(SHEET_START)) == SHEET_START
     except OSError:

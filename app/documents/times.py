@@ -1,4 +1,4 @@
-"""Points in time: in ISO format with their zone, and in words."""
+"""This module writes points in time in ISO format with their zone, and in words."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from core.units import printable
 
 
 def now() -> str:
-    """This second."""
+    """Return the current time, to the second."""
     return datetime.now().astimezone().isoformat(timespec="seconds")
 
 
 def of(nanoseconds: int) -> str:
-    """A file's time."""
+    """Return a file's time, given in nanoseconds since 1970; empty if it is out of range."""
     try:
         return datetime.fromtimestamp(nanoseconds / 1e9).astimezone().isoformat(timespec="seconds")
     except (OverflowError, OSError, ValueError):
@@ -21,7 +21,7 @@ def of(nanoseconds: int) -> str:
 
 
 def in_words(text: str, today: str) -> str:
-    """`at 14:05`, `on 3 May 2025 at 14:05`; a time that cannot be read as it stands."""
+    """Return `at 14:05` if today, else `on 3 May 2025 at 14:05`; `at` and the text if it cannot be read."""
     try:
         time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
     except ValueError:
@@ -32,7 +32,7 @@ def in_words(text: str, today: str) -> str:
 
 
 def short(text: str, today: str) -> str:
-    """`12:32 today`, `3 May 2025 12:32`; a time that cannot be read as it stands."""
+    """Return `12:32 today`, or `3 May 2025 12:32` for another day; the text itself if it cannot be read."""
     try:
         time, day = datetime.fromisoformat(text), datetime.fromisoformat(today)
     except ValueError:
@@ -43,5 +43,5 @@ def short(text: str, today: str) -> str:
 
 
 def stamp(text: str) -> str:
-    """A time as part of a file's name."""
+    """Return a time as part of a file's name, such as `2025-03-04-140509`."""
     return "".join(character for character in text[:19].replace("T", "-") if character.isdigit() or character == "-")

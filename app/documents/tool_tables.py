@@ -1,4 +1,4 @@
-"""Tool tables of LinuxCNC: read from a file, and merged into a program's own table."""
+"""This module reads LinuxCNC tool tables from files and merges them into a program's own table."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from core.program.tools import ImportedTools, decode_table, read_tool_table
 from core.units import Kind, Unit, plain, show
 
 MAX_TABLE_BYTES: Final = 1_000_000
-"""Bytes of the largest tool table."""
+"""The size of the largest tool table in bytes."""
 
 
 def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
-    """A table's file; StoreError when it cannot be read."""
+    """Return the tools in a table's file; raise StoreError if it cannot be read."""
     try:
         data, _ = read_file(path, MAX_TABLE_BYTES)
     except TooLargeError as error:
@@ -29,12 +29,12 @@ def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
 
 
 def merged(program: Program, tools: Iterable[Tool]) -> Program:
-    """The program with these tools in its table, in place of those of the same number."""
+    """Return the program with these tools in its table; they replace tools of the same number."""
     table = {tool.number: tool for tool in (*program.tools, *tools)}
     return replace(program, tools=tuple(table[number] for number in sorted(table)))
 
 
 def tool_line(tool: Tool, unit: Unit) -> str:
-    """One line of the table."""
+    """Return a tool as one line of the table."""
     size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Number) else "no diameter"
     return f"T{tool.number:<5} {size:>11} {unit}  {plain(tool.type)}"
