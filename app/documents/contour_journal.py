@@ -74,19 +74,19 @@ def records_between(old: History, new: History) -> list[Record] | None:
     """Return the edits that lead from `old` to `new`, empty if they are equal; None if `old` does not lead to `new`."""
     common = _common_steps(old.past, new.past)
     records: list[Record] = [{"undo": 1} for _ in old.past[common:]]
-    now = old
+    current = old
     for _ in old.past[common:]:
-        now = now.undo()
+        current = current.undo()
     programs = (*(step.program for step in new.past[common:]), new.program)
     for step, (before, after) in zip(new.past[common:], pairwise(programs), strict=True):
-        again = now.redo()
-        if again.program is after and again.past[-1].label == step.label:
+        redone = current.redo()
+        if redone.program is after and redone.past[-1].label == step.label:
             records.append({"redo": 1})
-            now = again
+            current = redone
         else:
             records.append({"do": step.label, "delta": delta(before, after)})
-            now = History(after, (*now.past, step))
-    return records if now == new else None
+            current = History(after, (*current.past, step))
+    return records if current == new else None
 
 
 def _common_steps(old: tuple[UndoStep, ...], new: tuple[UndoStep, ...]) -> int:

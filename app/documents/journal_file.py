@@ -20,7 +20,7 @@ from zlib import crc32
 from app.documents.files import short_name, sync_folder, write_all
 
 Record = Mapping[str, Any]
-"""One line of the journal."""
+"""The JSON object on one line of the journal."""
 
 SUFFIX: Final = ".cutcomp-journal"
 

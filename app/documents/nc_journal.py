@@ -35,14 +35,14 @@ def records_between(old: NcText, new: NcText) -> list[Record] | None:
     """Return the edits that lead from `old` to `new`; None if `old` does not lead to `new`."""
     common = _common_changes(old.past, new.past)
     records: list[Record] = [{"undo": 1} for _ in old.past[common:]]
-    now = old
+    current = old
     for _ in old.past[common:]:
-        now = now.undone()
+        current = current.undone()
     for change in new.past[common:]:
-        again = bool(now.future) and now.future[-1] is change
-        records.append({"redo": 1} if again else _edit(change))
-        now = now.redone() if again else now.done(change)
-    return records if now.past == new.past and now.future == new.future else None
+        redoes = bool(current.future) and current.future[-1] is change
+        records.append({"redo": 1} if redoes else _edit(change))
+        current = current.redone() if redoes else current.done(change)
+    return records if current.past == new.past and current.future == new.future else None
 
 
 def _common_changes(old: tuple[Change, ...], new: tuple[Change, ...]) -> int:

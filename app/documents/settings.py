@@ -50,7 +50,7 @@ class Settings:
         name = str(file.absolute())
         if not name.isprintable():
             return self
-        others = tuple(each for each in self.tools if each[0] != name)
+        others = tuple(pair for pair in self.tools if pair[0] != name)
         return replace(self, tools=((name, text), *others)[:MAX_FILES_WITH_TOOLS])
 
     def using(self, file: Path) -> Settings:
@@ -59,7 +59,7 @@ class Settings:
         name = str(here)
         if not name.isprintable():
             return self
-        others = tuple(each for each in self.recent if each != name)
+        others = tuple(path for path in self.recent if path != name)
         return replace(self, recent=(name, *others)[:MAX_RECENT_FILES], folder=str(here.parent))
 
 
