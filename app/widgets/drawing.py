@@ -1,6 +1,6 @@
-"""Drawing: a widget that shows a block's contour, paths and faults in character cells.
+"""Drawing is a widget that shows a block's contour, paths and faults, or an NC program's, in character cells.
 
-The scale bar stands in the frame, where it covers nothing of the part.  The picture is made in a worker: a key never
+The scale bar is in the frame, where it covers nothing of the part.  A worker makes the picture, so that no key
 waits for it.
 """
 
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 
 ZOOM: Final = 1.25
-"""One press enlarges by this factor."""
+"""The factor of one zoom step."""
 PAN: Final = 0.125
-"""One arrow moves the window by this part of it."""
+"""The fraction of the window by which one arrow key moves it."""
 FARTHEST: Final = 2.0
-"""The window may move so many times the whole drawing away from it."""
+"""How far the window may move from the drawing, as a multiple of the drawing's larger side."""
 LOOK_KEYS: Final[tuple[BindingType, ...]] = (
     Binding("plus,equals_sign", "screen.zoom(1)", "Zoom in", show=False),
     Binding("minus", "screen.zoom(-1)", "Zoom out", show=False),
@@ -42,14 +42,14 @@ LOOK_KEYS: Final[tuple[BindingType, ...]] = (
     Binding("down", "screen.pan(0, -1)", "Move down", show=False),
     Binding("m,M", "app.next_characters", "Characters", show=False),
 )
-"""The keys of a drawing that is looked at by itself; its screen has the actions."""
+"""The keys on a screen whose main part is the drawing; the screen has the actions."""
 
 
 class Drawable(Protocol):
-    """What can be drawn: a block of a program, or the scene of an NC program."""
+    """Anything that can be drawn: a block of a program, or the scene of an NC program."""
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
-        """The picture in columns x rows cells; None where there is nothing to be seen."""
+        """Return the picture in columns x rows cells; None if there is nothing to see."""
 
 
 LOOKS: Final = {
@@ -72,14 +72,14 @@ LOOKS: Final = {
     "uncut-area": "$c-uncut",
     "untaken": "$c-label",
 }
-"""The looks of core's drawing styles, in their order, by the roles of the theme.
+"""The looks of core's drawing styles, in their order, as color roles of the theme.
 
-No component classes: Textual would work out eighteen styles anew with each change of a drawing's own.
+They are not component classes: Textual would recompute eighteen styles at each change of a drawing's own style.
 """
 
 
 class Drawing(Widget):
-    """A picture of its `subject` with `characters` braille, block or ascii; `heading` stands in its upper frame."""
+    """A picture of `subject` in `characters` (braille, block or ascii), with `heading` in the upper frame."""
 
     subject: reactive[Drawable | None] = reactive(None, repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
@@ -87,7 +87,7 @@ class Drawing(Widget):
 
     @dataclass
     class Picked(Message):
-        """A place of the drawing was clicked: its point in millimeters."""
+        """The drawing was clicked at a point, given in millimeters."""
 
         drawing: Drawing
         at: Point
@@ -99,32 +99,32 @@ class Drawing(Widget):
         self._made: tuple[object, ...] = ()
 
     def zoomed(self, steps: int, about: Point | None = None) -> View | None:
-        """The window enlarged or shrunk about a point in millimeters, else its middle; None where nothing is drawn."""
+        """Return the view zoomed about a point (mm), by default its center; None if nothing is drawn."""
         return None if self.drawn is None else self.drawn.view.zoom(ZOOM**steps, about)
 
     def panned(self, right: int, up: int) -> View | None:
-        """The window moved by steps; None where nothing is drawn, or where that is far away from all."""
+        """Return the view moved by steps; None if nothing is drawn, or if it would be too far from the drawing."""
         if self.drawn is None:
             return None
         view = self.drawn.view.pan(PAN * right, PAN * up, *self.size)
         return view if view.touches(self.drawn.bounds, FARTHEST) else None
 
     def watch_subject(self) -> None:
-        """Another block, segment or window."""
+        """Redraw for another block, segment or view."""
         self.redraw()
 
     def watch_characters(self) -> None:
-        """Another set of characters."""
+        """Redraw in another character set."""
         self.redraw()
 
     def watch_heading(self) -> None:
-        """Another title."""
+        """Show another title."""
         self._frame()
 
     @on(events.Resize)
     @on(events.Show)
     def redraw(self) -> None:
-        """Make the picture in a worker unless it is there already, or nobody sees it: hidden drawings are not made."""
+        """Make the picture in a worker, unless it is already made or the drawing is hidden."""
         wanted = (self.subject, self.characters, self.size)
         if wanted == self._made or not self._seen:
             return
@@ -136,20 +136,20 @@ class Drawing(Widget):
 
     @property
     def _seen(self) -> bool:
-        shown = all(node.display for node in self.ancestors_with_self if isinstance(node, Widget))
-        return self.is_attached and shown and bool(self.size)
+        displayed = all(node.display for node in self.ancestors_with_self if isinstance(node, Widget))
+        return self.is_attached and displayed and bool(self.size)
 
-    # described, as every worker that takes a program: else Textual writes all of it down, before the next key
+    # a worker with a program needs a description: else Textual formats the whole program before the next key
     @work(thread=True, exclusive=True, group="drawing", description="picture")
     def _make(self, subject: Drawable, size: Size, characters: str) -> None:
-        # numpy and shapely are not needed by the first paint
+        # imported here: the first paint must not load numpy and shapely
         from core.draw.characters import Mode
 
         picture = subject.drawn(size.width, size.height, Mode(characters))
         self.app.call_from_thread(self._finished, (subject, characters, size), picture)
 
     def _finished(self, wanted: tuple[object, ...], picture: Drawn | None) -> None:
-        """A picture from the worker, unless another one is wanted by now."""
+        """Show a picture from the worker, unless another one is wanted by now."""
         if wanted == self._made and self.is_attached:
             self._show(picture)
 
@@ -165,7 +165,7 @@ class Drawing(Widget):
                 self.refresh(Region(0, y, self.size.width, 1))
 
     def _styled(self) -> list[Strip]:
-        """The picture's rows in their looks."""
+        """Return the picture's rows as styled strips."""
         if self.drawn is None:
             return []
         base, parse = self.visual_style, self.app.stylesheet.parse_style
@@ -178,7 +178,7 @@ class Drawing(Widget):
         return strips
 
     def _frame(self) -> None:
-        """The title and the scale bar: in the lower frame, or beside the title where there is no lower one."""
+        """Update the title and the scale bar; without a lower frame the bar is next to the title, if it fits."""
         bar = "" if self.drawn is None or self.has_class("-outline") else self.drawn.scale_bar
         framed = self.styles.border_bottom[0] not in ("", "none")
         together = f"{self.heading}   {bar}".strip()
@@ -187,20 +187,20 @@ class Drawing(Widget):
         self.border_subtitle = Content(bar if framed else "")
 
     def notify_style_update(self) -> None:
-        """Other colors: the same picture in them."""
+        """Recolor the picture after a style change."""
         super().notify_style_update()
         if self.drawn is not None and self.is_attached:
             self._strips = self._styled()
 
     def render_line(self, y: int) -> Strip:
-        """One row of the picture."""
+        """Return one row of the picture."""
         width, style = self.size.width, self.rich_style
         if y >= len(self._strips):
             return Strip.blank(width, style)
         return self._strips[y].adjust_cell_length(width, style)
 
     def on_click(self, event: events.Click) -> None:
-        """Tell which point was clicked."""
+        """Post the point that was clicked."""
         if self.drawn is not None and (at := event.get_content_offset(self)) is not None:
             point = self.drawn.view.at(at.x + 0.5, at.y + 0.5, *self.size)
             self.post_message(self.Picked(self, point))

@@ -1,4 +1,4 @@
-"""One field of a form: its label, its tag, and the widget that takes its value."""
+"""This module holds one form field: its label, its tag, and the widget that takes its value."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from textual.widgets import Input, Label, Select
 from app.widgets.plain import PlainLabel, PlainText
 
 MAX_TYPED: int = 200
-"""Characters a field takes; more is a key that got stuck."""
+"""The most characters that a field takes; more come from a stuck key."""
 
 
 LISTED: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
-"""Numbers that have a list: tools, look-ahead values."""
+"""Number fields that open a list with Space: tools and look-ahead."""
 
 
 class State(StrEnum):
-    """What a field's value is; the value is the style class of its row."""
+    """The state of a field; the value is the style class of its row."""
 
     TYPED = "-typed"
     CALCULATED = "-cal"
@@ -46,9 +46,9 @@ class State(StrEnum):
 class Cell:
     """A field as the form shows it.
 
-    `full` is the text with every digit that was typed: the field shows it while it has the cursor.  `choices` are the
-    texts of a field that is picked from a list, in order; `text` is one of them, or empty, and then `full` is shown.
-    A field that `folds` gives its line away while it is not visible; its choices may change.
+    `full` is the text with every digit; a number field shows it while it has the cursor.  `choices` are the texts of
+    a field that is picked from a list, in order; `text` is one of them, or empty, and then `full` is shown.
+    A field that `folds` gives up its line while it is not visible; its choices may change.
     """
 
     name: str
@@ -64,38 +64,38 @@ class Cell:
 
 
 class LineInput(Input):
-    """A line of text whose cursor does not blink: a terminal at rest gets no bytes."""
+    """An input line whose cursor does not blink, so that an idle terminal gets no bytes."""
 
     cursor_blink: Reactive[bool] = var(False, init=False)
 
 
 class NumberField(LineInput):
-    """A line of text whose value stands at the right edge, as on the control.
+    """An input line whose text is right-aligned, as on the control.
 
-    `resting` is what the program holds; the value differs from it only while something is being typed.
+    `resting` and `full` are the value that the program holds, as the form prints it and with every digit.
     """
 
     letters: str = ""
-    """Letters that are no part of a number: as the first character they are commands to the screen."""
+    """Letters that are not part of a number; as the first character they are commands to the screen."""
     virtual_size: Reactive[Size] = Reactive(Size(0, 0), repaint=False)
-    """The width of the text: its room in the form is fixed, so that a digit lays out nothing."""
+    """The width of the text; it changes no layout, since the field's width in the form is fixed."""
 
     def __init__(self, name: str, text: str = "", full: str = "", *, id: str | None = None) -> None:
-        # the style sheet makes it one line high; classes for that and for validity would style each field three times
+        # the style sheet sets the height: style classes for it and for validity would restyle each field three times
         super().__init__(text, name=name, id=id, max_length=MAX_TYPED, validate_on=())
         self.resting, self.full = text, full or text
         self._untouched = False
         self.softkey_digits = False
-        """Digits are softkeys and not typed."""
+        """True while the digits 1 to 8 are softkeys and are not typed."""
 
     @dataclass
     class Letter(Message):
-        """A letter that is a command was typed."""
+        """A command letter was typed."""
 
         letter: str
 
     def on_key(self, event: events.Key) -> None:
-        """A letter that is a command is not typed."""
+        """Post a command letter instead of typing it, unless the text is being edited."""
         self._untouched = False
         letter = (event.character or "").lower()
         if letter and letter in self.letters and not self.edited:
@@ -105,11 +105,11 @@ class NumberField(LineInput):
 
     @property
     def edited(self) -> bool:
-        """Something has been typed that the program does not hold."""
+        """True if the text differs from what the program holds."""
         return self.value.strip() not in (self.resting.strip(), self.full.strip())
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
-        """Every printable key is typed, but ? asks for help, = calculates, and Space lists what a field takes."""
+        """True if a key is typed: any printable one but ?, =, Space in a LISTED field, and a softkey digit."""
         if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED):
             return False
         if self.softkey_digits and key in tuple("12345678"):
@@ -117,14 +117,14 @@ class NumberField(LineInput):
         return super().check_consume_key(key, character)
 
     def show(self, text: str, full: str = "") -> None:
-        """Show what the program holds; a half-typed text stays."""
+        """Show the value that the program holds; text that is being edited stays."""
         edited = self.edited
         self.resting, self.full = text, full or text
         if not edited:
             self.restore()
 
     def restore(self) -> None:
-        """Forget what has been typed."""
+        """Discard what has been typed."""
         text = self.full if self.has_focus else self.resting
         if self.value != text:
             with self.prevent(Input.Changed):
@@ -133,7 +133,7 @@ class NumberField(LineInput):
             self.select_all()
 
     def on_mouse_up(self) -> None:
-        """The first click selects the value, as keys that bring the cursor do; another one goes into the text."""
+        """Select the value at the first click, as when a key brings the cursor; later clicks go into the text."""
         if self._untouched:
             self._untouched = False
             self.select_all()
@@ -152,14 +152,14 @@ class NumberField(LineInput):
                 self.value = self.resting
 
     def render_line(self, y: int) -> Strip:
-        """The text at the right edge, with a cell for the cursor while the field has it.
+        """Return the text right-aligned, with a cell for the cursor while the field has it.
 
-        Of a text that has no room there the first characters stand, and a sign that there are more.
+        Without the cursor, a text that is too long is cut, and > marks the cut.
         """
         room = self.size.width
         if not self.has_focus and len(self.value) >= room > 0:
-            shown = self.value if len(self.value) == room else f"{self.value[: room - 1]}>"
-            return Strip([Segment(shown, self.rich_style)])
+            text = self.value if len(self.value) == room else f"{self.value[: room - 1]}>"
+            return Strip([Segment(text, self.rich_style)])
         strip = super().render_line(y)
         cursor = 1 if self.has_focus else 0
         blank = max(self.size.width - max(len(self.value), 1) - cursor - (1 - cursor), 0)
@@ -169,7 +169,7 @@ class NumberField(LineInput):
 
 
 class ChoiceField(Select[str], inherit_bindings=False):
-    """A choice: Space lists, left and right step, letters spell."""
+    """A field with choices: Space opens the list, left and right step, letters select."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space", "spell_or_list", "List", show=False),
@@ -180,13 +180,13 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     @dataclass
     class Blanked(Message):
-        """The choice is to be blank again, which not every field can be."""
+        """The operator wants the choice blank again, which not every field allows."""
 
         name: str
 
     @dataclass
     class Unknown(Message):
-        """A letter was typed that no choice begins with."""
+        """A letter that no choice begins with was typed."""
 
         name: str
         letter: str
@@ -206,7 +206,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
         )
 
     def show(self, text: str, choices: Sequence[str] = (), prompt: str = "") -> None:
-        """Show the choice that the program holds, among other choices where they have changed, or the prompt."""
+        """Show the choice that the program holds; replace the choices and the prompt if new ones are given."""
         with self.prevent(Select.Changed):
             if prompt:
                 self.prompt = escape(prompt)
@@ -218,12 +218,12 @@ class ChoiceField(Select[str], inherit_bindings=False):
                 self.value = value
 
     def action_step(self, by: int) -> None:
-        """Go to the next choice, or to the one before."""
+        """Go to the next or previous choice."""
         here = self.choices.index(self.value) if self.value in self.choices else -1 if by > 0 else 0
         self.value = self.choices[(here + by) % len(self.choices)]
 
     def action_spell_or_list(self) -> None:
-        """Open the list; between two words of a choice that is being spelled the blank belongs to it."""
+        """Open the list; but a space within a choice that is being spelled continues the spelling."""
         spelled = f"{self._spelled} "
         if self._spelled and self._choice_spelled(spelled) is not None:
             self._spelled = spelled
@@ -231,15 +231,15 @@ class ChoiceField(Select[str], inherit_bindings=False):
             self.action_show_overlay()
 
     def action_blank(self) -> None:
-        """Take back what was picked."""
+        """Post that the choice is to be blank again."""
         self.post_message(self.Blanked(self.name or ""))
 
     def on_blur(self) -> None:
-        """Begin another word the next time."""
+        """Forget the letters typed so far."""
         self._spelled = ""
 
     def on_key(self, event: events.Key) -> None:
-        """Letters spell a choice: one goes to the next choice that begins with it, more go on spelling."""
+        """Select by letters: one goes to the next choice that begins with it, more of them spell it out."""
         if event.character is None or not event.character.isalnum():
             return
         event.stop()
@@ -254,26 +254,26 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     def _choice_spelled(self, spelled: str) -> str | None:
         here = self.choices.index(self.value) if self.value in self.choices else -1
-        # the first letter goes on from the choice that is held, a longer beginning may stay on it
+        # the first letter searches after the current choice; several letters may match the current one too
         first = here + 1 if len(spelled) == 1 else max(here, 0)
         order = (*self.choices[first:], *self.choices[:first])
         return next((choice for choice in order if choice.startswith(spelled)), None)
 
 
 class FieldLabel(PlainText):
-    """A field's label at the left of its room and its tag at the right; one widget, since most fields have no tag."""
+    """A field's label, left-aligned, and its tag, right-aligned; one widget, since most fields have no tag."""
 
     def __init__(self, cell: Cell) -> None:
         super().__init__(classes="label")
         self.cell = cell
 
     def show(self, cell: Cell) -> None:
-        """Show another tag."""
+        """Show the label and the tag of a cell."""
         self.cell = cell
         self.refresh()
 
     def render(self) -> Content:
-        """Label, blanks, tag."""
+        """Return the label, blanks and the tag."""
         label, tag = self.cell.label, self.cell.tag
         if not tag:
             return Content(label)
@@ -287,17 +287,17 @@ class FieldRow(Horizontal):
     def __init__(self, cell: Cell) -> None:
         super().__init__(classes=f"field {cell.state}")
         self.cell = cell
-        self._stand(cell)
+        self._set_visible(cell)
 
-    def _stand(self, cell: Cell) -> None:
-        """Show the row or hide it; one that folds takes no room then."""
+    def _set_visible(self, cell: Cell) -> None:
+        """Show or hide the row; a hidden row that folds takes no space."""
         if cell.folds:
             self.display = cell.visible
         else:
             self.visible = cell.visible
 
     def compose(self) -> ComposeResult:
-        """Label, tag, value."""
+        """Yield the label with the tag, and the widget of the value."""
         cell = self.cell
         yield FieldLabel(cell)
         if cell.state is State.READ_ONLY:
@@ -309,23 +309,23 @@ class FieldRow(Horizontal):
 
     @property
     def input(self) -> NumberField | ChoiceField | None:
-        """The widget that takes the value, None of a row that only shows one."""
+        """The widget that takes the value; None if the row is read-only or not composed yet."""
         last = self.children[-1] if self.children else None
         return last if isinstance(last, NumberField | ChoiceField) else None
 
     def show(self, cell: Cell) -> None:
-        """Show what has changed, and nothing else."""
+        """Show a cell; update only what has changed."""
         before, self.cell = self.cell, cell
         if not self.children:
-            # not composed yet: it will be with this cell
+            # not composed yet: compose will use this cell
             self.set_classes(f"field {cell.state}")
-            self._stand(cell)
+            self._set_visible(cell)
             return
         if cell.state is not before.state:
             self.remove_class(before.state)
             self.add_class(cell.state)
         if cell.visible is not before.visible:
-            self._stand(cell)
+            self._set_visible(cell)
         if cell.tag != before.tag:
             self.query_one(FieldLabel).show(cell)
         match self.input:

@@ -1,4 +1,4 @@
-"""SegmentList: the segments of a block, one a row, and what becomes of each."""
+"""SegmentList lists the segments of a block, one per row, with what becomes of each."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FATES = {"gouge": "$c-gouge", "uncut": "$c-uncut", "deleted": "$c-deleted", "typ
 
 
 class SegmentRow(NamedTuple):
-    """A row: the texts of its columns, and the word for what becomes of the segment."""
+    """The texts of a row's columns; `fate` is gouge, uncut, deleted, type (values are missing) or empty."""
 
     number: str
     type: str
@@ -42,7 +42,7 @@ class SegmentRow(NamedTuple):
 
 
 class SegmentList(DataTable[Text]):
-    """The list; its row is the segment of the form, Enter edits it, Del and Ins delete and insert."""
+    """The list; its cursor is on the segment of the form; Enter edits it, Del and Ins delete and insert."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("delete", "screen.softkey(1)", "Delete segment", show=False),
@@ -57,16 +57,16 @@ class SegmentList(DataTable[Text]):
         self._rows: list[SegmentRow] = []
 
     def on_mount(self) -> None:
-        """The columns."""
+        """Add the columns."""
         for key, label, width in COLUMNS:
             self.add_column(Text(label, justify="left" if key == "type" else "right"), width=width, key=key)
 
     def watch_characters(self) -> None:
-        """The next time all rows are made anew, with other signs."""
+        """Let the next `show` rebuild all rows, with other signs."""
         self._rows = []
 
     def show(self, session: Session) -> None:
-        """Show the segments of the block with the cursor; only cells that differ are changed."""
+        """Show the segments of the block with the cursor; update only cells that differ."""
         rows, before = segment_rows(session.derived_block, session.program.unit), self._rows
         if len(rows) != len(before):
             self.clear()
@@ -84,27 +84,27 @@ class SegmentList(DataTable[Text]):
     def _cell(self, row: SegmentRow, key: str) -> Text:
         text = str(getattr(row, key))
         if key == "fate":
-            return self._fate(text)
+            return self._outcome_cell(text)
         if key == "type":
             return Text.assemble(" ", (text, "strike dim" if row.fate == "deleted" else ""))
         return Text(text, justify="right")
 
-    def _fate(self, word: str) -> Text:
+    def _outcome_cell(self, outcome: str) -> Text:
         marks = MARKS[self.characters]
-        sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(word, "")
-        color = self.app.theme_variables.get(FATES.get(word, "")[1:], "")
-        return Text(f"  {sign} {word}".rstrip(), color.removeprefix("ansi_"))
+        sign = {"gouge": marks.gouge, "uncut": marks.warning, "deleted": marks.deleted, "type": "?"}.get(outcome, "")
+        color = self.app.theme_variables.get(FATES.get(outcome, "")[1:], "")
+        return Text(f"  {sign} {outcome}".rstrip(), color.removeprefix("ansi_"))
 
 
 def segment_rows(block: DerivedBlock, unit: Unit) -> list[SegmentRow]:
-    """START and the segments."""
+    """Return the rows of START and the segments."""
     start = block.solved.values
-    fates = _fates(block)
+    outcomes = _outcomes(block)
     first = SegmentRow("0", "START", _text(start.get("x_start"), unit), _text(start.get("y_start"), unit), "", "")
-    return [first, *(_row(block, segment, unit, fates.get(segment.number, "")) for segment in block.solved.segments)]
+    return [first, *(_row(block, segment, unit, outcomes.get(segment.number, "")) for segment in block.solved.segments)]
 
 
-def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, fate: str) -> SegmentRow:
+def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, outcome: str) -> SegmentRow:
     segment = block.block.segments[solved.number - 1]
     feed = segment.feed.value if isinstance(segment.feed, Number) else None
     match segment:
@@ -122,7 +122,7 @@ def _row(block: DerivedBlock, solved: SolvedSegment, unit: Unit, fate: str) -> S
         x,
         y,
         "" if feed is None else show(feed, Kind.FEED, unit),
-        "type" if solved.missing else fate,
+        "type" if solved.missing else outcome,
     )
 
 
@@ -130,23 +130,23 @@ def _text(value: object, unit: Unit) -> str:
     return show(value.value, Kind.LENGTH, unit) if isinstance(value, Number | Solved) else ""
 
 
-def _fates(block: DerivedBlock) -> dict[int, str]:
-    """What becomes of each segment that is not simply cut, the gravest alone."""
+def _outcomes(block: DerivedBlock) -> dict[int, str]:
+    """Return what becomes of each segment that is not simply cut; only the worst of several."""
     paths = block.paths
     if paths is None or paths.verdict is None:
         return {}
-    fates: dict[int, str] = {}
+    outcomes: dict[int, str] = {}
     for stretch in paths.verdict.uncut:
         for number in _between(stretch.first_number, stretch.last_number, len(block.solved.segments)):
-            fates[number] = "uncut"
+            outcomes[number] = "uncut"
     if paths.compensated is not None and paths.best is None:
-        fates |= {
+        outcomes |= {
             int(number): "deleted" for number in paths.compensated.deleted.segments.tolist() if number == int(number)
         }
-    return fates | {int(gouge.surface_number): "gouge" for gouge in paths.verdict.gouges}
+    return outcomes | {int(gouge.surface_number): "gouge" for gouge in paths.verdict.gouges}
 
 
 def _between(first: float, last: float, count: int) -> list[int]:
-    """The numbers of a stretch, over START where it begins beyond it."""
+    """Return the segment numbers of a stretch, which may wrap around past START."""
     low, high = int(first), int(last)
     return list(range(low, high + 1)) if low <= high else [*range(low, count + 1), *range(1, high + 1)]

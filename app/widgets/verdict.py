@@ -1,7 +1,7 @@
-"""Verdict: what the cutter does, in three lines at the same place on every screen.
+"""Verdict shows what the cutter does, in three lines at the same place on every screen.
 
-The title says the look-ahead in force and what it does; the strip has a cell for each value from 1 to 20; the chips
-GOUGE, UNCUT and DELETED always stand in this order.
+The title gives the look-ahead in force and its effect; the strip has a cell for each value from 1 to 20; the chips
+are GOUGE, UNCUT and DELETED, always in this order.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 HIGHEST: Final = 20
 """The largest look-ahead value."""
 CHIPS_WIDTH: Final = 58
-"""Cells of the chips' line on the narrowest screens."""
+"""The width in cells of the chips' line on the narrowest screens."""
 SHORTEST_CHIP: Final = 24
-"""What stands before a colon is shown alone from this length on: a field's name says too little."""
+"""The fewest characters before a colon that are shown alone: a field's name would say too little."""
 
 
 OUTCOME_ROLES: Final = {
@@ -54,7 +54,7 @@ OUTCOME_ROLES: Final = {
 
 
 class Marks(NamedTuple):
-    """The signs of one set of characters."""
+    """The signs in one character set."""
 
     gouge: str
     warning: str
@@ -70,15 +70,15 @@ MARKS: Final[Mapping[str, Marks]] = MappingProxyType(
         "ascii": Marks("!", "^", "x", "ok", "."),
     }
 )
-"""The signs by the characters of the drawing, which every font on such a terminal has."""
+"""The signs for each character set of the drawing; every font on such a terminal has them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
-    """The block whose path the verdict is about.
+    """The block whose path the verdict describes.
 
-    `working` is the part of the calculation that is done, None where all of it is; the verdict is the last one until
-    then, and also where the calculation was `stopped`.
+    `working` is the fraction of the calculation that is done, None if all of it is.  Until then, and also if the
+    calculation was `stopped`, the verdict is the previous one.
     """
 
     block: DerivedBlock
@@ -89,27 +89,27 @@ class Case:
 
     @property
     def judgment(self) -> Judgment | None:
-        """What is known of the path, None while nothing is."""
+        """The judge's verdict on the path; None while there is none."""
         return None if self.block.paths is None else self.block.paths.verdict
 
 
 class Verdict(Vertical):
-    """The verdict on a `case`, with the signs that belong to `characters`."""
+    """The verdict on a `case`, with the signs for `characters`."""
 
     case: reactive[Case | None] = reactive(None, repaint=False)
     characters: reactive[str] = reactive("braille", repaint=False)
 
     def compose(self) -> ComposeResult:
-        """The strip and the chips."""
+        """Yield the strip and the chips."""
         yield PlainText(id="strip")
         yield PlainText(id="chips")
 
     def watch_case(self) -> None:
-        """Another path."""
+        """Show the verdict on another path."""
         self._show()
 
     def watch_characters(self) -> None:
-        """Other signs."""
+        """Redraw the signs."""
         self._show()
 
     def _show(self) -> None:
@@ -125,19 +125,19 @@ class Verdict(Vertical):
 
 
 def title(case: Case) -> str:
-    """The look-ahead in force and what it does."""
+    """Return the look-ahead in force, and its effect or the progress of the calculation."""
     block = case.block
     if block.side is None:
         return "CUTTER COMP. ON: the tool center runs on the contour"
-    known = "" if case.working is None else f"  working {round(100 * case.working)} %"
-    known = "  stopped" if case.stopped else known
+    progress = "" if case.working is None else f"  working {round(100 * case.working)} %"
+    progress = "  stopped" if case.stopped else progress
     best = block.paths is not None and block.paths.best is not None
     name = "PATH BEST" if best else f"LOOK-AHEAD {block.lookahead.tag} {block.lookahead.value}"
-    return f"{name}{known or _effect(case)}"
+    return f"{name}{progress or _effect(case)}"
 
 
 def _effect(case: Case) -> str:
-    """What the path does, the gravest alone."""
+    """Return the worst of what the path does."""
     judgment = case.judgment
     if judgment is None:
         return "  calculating" if not case.block.known else ""
@@ -150,7 +150,7 @@ def _effect(case: Case) -> str:
     effect = " leaves stock uncut" if judgment.uncut else " is clean"
     if deleted := deleted_segments(case.block):
         effect = f" deletes {_segments(deleted)}"
-    return f"{effect}{_only(case.block)}"
+    return f"{effect}{_extent(case.block)}"
 
 
 def _segments(numbers: str) -> str:
@@ -159,8 +159,8 @@ def _segments(numbers: str) -> str:
     return f"segments {', '.join(numbers.split())}" if set(numbers) & set(" -") else f"segment {numbers}"
 
 
-def _only(block: DerivedBlock) -> str:
-    """Which segments the verdict is about where that is not all of the contour."""
+def _extent(block: DerivedBlock) -> str:
+    """Return which segments the verdict covers; empty if it covers the whole contour, or nothing."""
     if block.solved.whole or not block.solved.pieces:
         return ""
     last = block.solved.pieces[-1][0]
@@ -168,13 +168,13 @@ def _only(block: DerivedBlock) -> str:
 
 
 def strip(case: Case, marks: Marks) -> Content:
-    """A cell for each look-ahead value, the one in force as its number, and which is best."""
+    """Return a cell for each look-ahead value, the one in force as its number, and which value is best."""
     if case.block.side is None:
         return Content("")
     parts: list[tuple[str, str]] = [(" 1 ", "$c-label")]
     for value in range(1, HIGHEST + 1):
         row = None if case.table is None else case.table.row(value)
-        role, mark = _fate(row, marks)
+        role, mark = _value_mark(row, marks)
         here = value == case.block.lookahead.value
         parts.append((f" {value} ", f"bold reverse {role}") if here else (mark, role))
     parts.append((f" {HIGHEST}", "$c-label"))
@@ -182,8 +182,8 @@ def strip(case: Case, marks: Marks) -> Content:
     return Content.assemble(*parts)
 
 
-def _fate(row: Row | None, marks: Marks) -> tuple[str, str]:
-    """The role and the mark of a value, whose row may not be known yet."""
+def _value_mark(row: Row | None, marks: Marks) -> tuple[str, str]:
+    """Return the color role and the mark of a look-ahead value; `row` is None if it is not known yet."""
     if row is None:
         return "$c-label", marks.value
     if not row.clean:
@@ -192,7 +192,7 @@ def _fate(row: Row | None, marks: Marks) -> tuple[str, str]:
 
 
 def _advice(case: Case) -> str:
-    """Which value is best, and what it costs."""
+    """Return which look-ahead value is best and what it costs."""
     if case.table is None:
         return ""
     best = case.table.recommended
@@ -207,40 +207,40 @@ def _advice(case: Case) -> str:
 
 
 def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
-    """GOUGE, UNCUT, DELETED; in a block without segments what to type first, without a path what is in its way."""
+    """Return GOUGE, UNCUT and DELETED; without segments, what to type first; without a path, the first error."""
     if hint := first_step(case.block):
         return Content.styled(f" {hint}", "$c-label")
     judgment = case.judgment
     if case.block.side is None or judgment is None or _stopped_short(case):
-        return _in_the_way(case, marks)
+        return _first_error(case, marks)
     gouge = _gouge_chip(judgment, case.unit, marks)
     left = length(judgment.uncut_length, case.unit)
-    whole = not isfinite(judgment.uncut_length) or judgment.uncut
-    uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if whole else (f"{marks.good} UNCUT none", "$c-good")
+    has_uncut = not isfinite(judgment.uncut_length) or judgment.uncut
+    uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if has_uncut else (f"{marks.good} UNCUT none", "$c-good")
     gone = deleted_segments(case.block)
     deleted = (f"{marks.deleted} DELETED {gone}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
     warned = any(finding.severity is Severity.WARNING for finding in case.block.findings)
-    # what is uncut or deleted stands here, and the findings list says the rest
+    # the chips sum up what is uncut or deleted; the findings list has the rest
     others = ((f"{marks.warning} see {findings_key}", "$c-warn"),) if warned and not judgment.gouges else ()
     return _row((gouge, uncut, deleted, *others))
 
 
 def _stopped_short(case: Case) -> bool:
-    """Whether the path ends before a segment with an error, and does no harm up to there."""
+    """True if the path ends before a segment with an error and gouges nothing up to there."""
     block = case.block
     open_end = not block.solved.whole and not (case.judgment and case.judgment.gouges)
-    # a run that waits for more numbers is told on the prompt
+    # the prompt reports a run that waits for more numbers
     return open_end and any(finding.code not in TO_TYPE | {"NOT_YET"} for finding in block.errors)
 
 
-def _in_the_way(case: Case, marks: Marks) -> Content:
-    """The first error, as much of its sentence as has room; F10 lists it in full."""
+def _first_error(case: Case, marks: Marks) -> Content:
+    """Return as much of the first error's sentence as fits; F10 lists it in full."""
     if not case.block.known or not case.block.errors:
         return Content("")
-    first = next((one for one in case.block.errors if one.code not in TO_TYPE), case.block.errors[0])
+    first = next((error for error in case.block.errors if error.code not in TO_TYPE), case.block.errors[0])
     role = "$c-warn" if first.code in TO_TYPE else "$c-err"
     text = f"{marks.gouge} {sentence(first, case.unit)}"
-    # the prompt and F10 say what follows
+    # the prompt and F10 give the full sentence
     if len(text) > CHIPS_WIDTH and ". " in text[:CHIPS_WIDTH]:
         text = f"{text.partition('. ')[0]}."
     elif len(text) > CHIPS_WIDTH and ": " in text[SHORTEST_CHIP:CHIPS_WIDTH]:
@@ -258,12 +258,12 @@ def _gouge_chip(judgment: Judgment, unit: Unit, marks: Marks) -> tuple[str, str]
     return f"{marks.good} GOUGE none", "$c-good"
 
 
-def _row(found: Iterable[tuple[str, str]]) -> Content:
-    return Content("   ").join([Content.styled(text, f"bold {role}") for text, role in found])
+def _row(texts: Iterable[tuple[str, str]]) -> Content:
+    return Content("   ").join([Content.styled(text, f"bold {role}") for text, role in texts])
 
 
 def first_step(block: DerivedBlock) -> str:
-    """What to do in a block without segments; a text that cannot be read is an error even there."""
+    """Return what to do in a block without segments; empty if there is an error other than missing values."""
     if block.block.segments or any(finding.code not in TO_TYPE for finding in block.errors):
         return ""
     if any(finding.code == "MISSING" for finding in block.errors):
@@ -272,7 +272,7 @@ def first_step(block: DerivedBlock) -> str:
 
 
 def verdict_word(outcome: Outcome, marks: Marks) -> Content:
-    """An outcome with its sign, in its color."""
+    """Return an outcome with its sign, in its color."""
     sign = {Outcome.GOUGE: marks.gouge, Outcome.CLEAN: marks.good, Outcome.UNCUT: marks.warning}.get(outcome, "?")
     sign = marks.warning if outcome is Outcome.WARNING else sign
     return Content.styled(f"{sign} {outcome}", OUTCOME_ROLES[outcome])
