@@ -1,1 +1,1 @@
-"""Widgets: the parts that screens are composed of."""
+"""The widgets: the parts that screens are composed of."""

@@ -1,4 +1,4 @@
-"""ContourTable: the contours of a drawing, a row each; circles of one size fold into one row."""
+"""ContourTable lists the contours of a drawing, one per row; circles of one size fold into one row."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from core.importing.listing import Row, cells_of
 from core.units import Unit
 
 COLUMNS: Final = (("chain", 6), ("kind", 10), ("layer", 8), ("pieces", 6), ("length", 9), ("size", 20))
-"""Headings and widths; together 59, the desk of a terminal of 80 columns."""
+"""Headings and widths; they add up to 59, the room for the table in 80 columns."""
 
 MAX_INDENT: Final = 2
-"""Columns by which a contour within others is moved to the right at most."""
+"""The most columns by which a contour inside others is indented."""
 
 MARK: Final = "*"
 
 
 class ContourTable(DataTable[Content]):
-    """The rows as given to `fill`; a cursor on one of them."""
+    """The rows given to `fill`, with a row cursor."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("space", "screen.mark", "Mark", show=False),
@@ -38,12 +38,12 @@ class ContourTable(DataTable[Content]):
         self.rows_shown: tuple[Row, ...] = ()
 
     def on_mount(self) -> None:
-        """The columns."""
+        """Add the columns."""
         for label, width in COLUMNS:
             self.add_column(_heading(label, width), width=width, key=label)
 
     def fill(self, rows: Sequence[Row], unit: Unit, marked: Collection[int], at: int = 0) -> None:
-        """Other rows, the cursor on that of contour number `at`, else on the first."""
+        """Replace the rows; put the cursor on the row with contour number `at`, else on the first."""
         self.rows_shown = tuple(rows)
         self.clear()
         self.add_rows(_cells(row, unit, marked) for row in rows)
@@ -51,7 +51,7 @@ class ContourTable(DataTable[Content]):
         self.move_cursor(row=next(here, 0))
 
     def show_marks(self, marked: Collection[int]) -> None:
-        """The marks as they are now."""
+        """Update the marks."""
         for number, row in enumerate(self.rows_shown):
             cell = _first_cell(row, marked)
             if self.get_cell_at(Coordinate(number, 0)).plain != cell.plain:
@@ -59,7 +59,7 @@ class ContourTable(DataTable[Content]):
 
     @property
     def current(self) -> Row | None:
-        """The row with the cursor."""
+        """The row with the cursor; None if there are no rows."""
         return self.rows_shown[self.cursor_row] if 0 <= self.cursor_row < len(self.rows_shown) else None
 
 
@@ -82,7 +82,7 @@ def _cells(row: Row, unit: Unit, marked: Collection[int]) -> tuple[Content, ...]
 
 
 def _size(contour: Contour, size: str, more: str, unit: Unit) -> str:
-    """Width and height, the diameter and how many circles, or to which chain an open one has a gap."""
+    """Return the width and height, the diameter and number of circles, or an open contour's gap and to which."""
     if contour.kind is ContourKind.OPEN and contour.open_gap is not None:
         return f" gap {length(contour.open_gap, unit)} to {contour.open_gap_to or '-'}"
     if contour.circle is not None:

@@ -1,4 +1,4 @@
-"""FindingsList: the findings of a block, each with its title and its whole sentence; Enter goes to the place."""
+"""FindingsList lists the findings of a block, each with its title and full sentence; Enter goes to the place."""
 
 from __future__ import annotations
 
@@ -26,25 +26,25 @@ ROLES = {
 }
 """The color of each kind of finding."""
 MIN_WIDTH = 20
-"""Cells below which no sentence is broken."""
+"""The narrowest width in cells to which sentences are wrapped."""
 
 
 def mark(kind: Kind, marks: Marks) -> str:
-    """The sign of a kind of finding."""
+    """Return the sign of a kind of finding."""
     if kind in (Kind.GOUGE, Kind.ERROR):
         return marks.gouge
     return "?" if kind is Kind.TO_TYPE else "i" if kind in (Kind.REMEDY, Kind.NOTE) else marks.warning
 
 
 def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:
-    """The finding in hand as one line: its sign, which of how many, its title, its segments."""
+    """Return the selected finding as one line: its sign, which of how many, its title, its segments."""
     entry = entries[at]
     where = entry.where.replace("segment", "seg").replace("corner", "seg")
     return f"{mark(entry.kind, marks)} {at + 1}/{len(entries)} {entry.title.removesuffix(' thick')}  {where}".rstrip()
 
 
 class FindingsList(OptionRows):
-    """The list; the one in hand is highlighted, n and p step, round."""
+    """The list; the selected finding is highlighted; n and p step through it and wrap around."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("n,N", "screen.finding(1)", "Next finding", show=False),
@@ -60,15 +60,15 @@ class FindingsList(OptionRows):
         self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
 
     def watch_entries(self) -> None:
-        """Other findings; the one in hand stays where there still are as many before it."""
+        """Show other findings; the highlight keeps its index, or goes to the last one if there are fewer."""
         self._show()
 
     def watch_characters(self) -> None:
-        """Other signs."""
+        """Redraw the signs."""
         self._show()
 
     def on_resize(self) -> None:
-        """Sentences are broken at another width."""
+        """Wrap the sentences again at a new width."""
         if self._width != self.scrollable_content_region.width:
             self._show()
 
@@ -80,17 +80,17 @@ class FindingsList(OptionRows):
         self.highlighted = None if not now else min(at or 0, len(now) - 1)
 
     def _line(self, number: int, entry: Entry) -> Content:
-        """The title and the segment, then what the sentence says besides its title."""
+        """Return the title and the segment, then what the sentence says besides its title."""
         sign = mark(entry.kind, MARKS[self.characters])
         where = "" if entry.where in entry.title else f"  {entry.where}"
-        head = self._broken(f"{sign} {number + 1} {entry.title}{where}")
+        head = self._wrapped(f"{sign} {number + 1} {entry.title}{where}")
         more = entry.text.removeprefix(entry.title).lstrip(".,; ")
         title = Content.styled(head, f"bold {ROLES[entry.kind]}")
         if not more:
             return title
-        return Content.assemble(title, "\n", Content.styled(self._broken(f"    {more}"), "$c-label"))
+        return Content.assemble(title, "\n", Content.styled(self._wrapped(f"    {more}"), "$c-label"))
 
-    def _broken(self, text: str) -> str:
-        """A text in lines of the list's width; the further ones are indented."""
+    def _wrapped(self, text: str) -> str:
+        """Return a text wrapped to the list's width, with all lines but the first indented."""
         indent = " " * 4
         return fill(text, max(self._width, MIN_WIDTH), subsequent_indent=indent, drop_whitespace=True)

@@ -1,4 +1,4 @@
-"""OptionRows: Textual's option list for terminals of every size and with any colors."""
+"""OptionRows is Textual's option list, adapted to terminals of every size and with any colors."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ REVERSED = Style(reverse=True, underline=False)
 
 
 class OptionRows(OptionList):
-    """The list; its line with the cursor has the cursor's ink alone, or is reversed where there are no colors.
+    """The list; its cursor line has one text color, or is reversed if the terminal has few colors or none.
 
-    Textual gives options no reverse: where the style sheet means it, it says underline.  While the list has no room, a
-    page up or down is no step: Textual's own fails then.  Brackets in an option are no markup: a file may have them.
+    Textual gives options no reverse, so the style sheet says underline instead.  While the list has no room, page up
+    and down do nothing: Textual's own fail then.  Brackets in an option are not markup, since a file may have them.
     """
 
     def __init__(self, *options: Option | None, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(*options, id=id, classes=classes, compact=True, markup=False)
 
     def render_line(self, y: int) -> Strip:
-        """A line, that of the cursor in the cursor's looks."""
+        """Return a line; while the list has the focus, the cursor line has the cursor's look."""
         strip = super().render_line(y)
         cursor = self.get_component_rich_style("option-list--option-highlighted")
         if not self.has_focus:
@@ -46,18 +46,18 @@ class OptionRows(OptionList):
         )
 
     def action_page_up(self) -> None:
-        """A page up, where there is one."""
+        """Go up a page, if the list has room."""
         if self.scrollable_content_region:
             super().action_page_up()  # type: ignore[no-untyped-call]  # Textual gives it no types
 
     def action_page_down(self) -> None:
-        """A page down, where there is one."""
+        """Go down a page, if the list has room."""
         if self.scrollable_content_region:
             super().action_page_down()  # type: ignore[no-untyped-call]  # as above
 
 
 def control_rows(choices: Sequence[ControlChoice]) -> list[Option]:
-    """A row for each control: its name, then what it is in a column of its own."""
+    """Return a row for each control: its name, then what it is, in a second column."""
     width = max(len(choice.name) for choice in choices) + 2
     return [
         Option(Content.assemble(f"{choice.name:<{width}}", (choice.about, "$c-label")), id=choice.control)

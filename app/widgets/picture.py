@@ -1,4 +1,4 @@
-"""Picture: the drawings of a block: the whole part, and the loupe on the finding in hand or the segment."""
+"""Picture shows a block in two drawings: the whole part, and the loupe on the selected finding or the segment."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ if TYPE_CHECKING:
     from core.geometry.piece import Point
 
 MAX_NUMBERED: Final = 9
-"""Findings that have a number in PART: a number is one character."""
+"""The most findings with a number in PART: a number is one character."""
 
 
 class Picture(Horizontal):
-    """PART, a small outline, or the whole part where there is room, and the loupe; only what is seen is drawn."""
+    """PART, a small outline, or if there is room the whole part, and the loupe; hidden drawings are not made."""
 
     def compose(self) -> ComposeResult:
-        """Three drawings, of which the style sheet shows two."""
+        """Yield three drawings, of which the style sheet shows one or two."""
         yield Drawing(id="outline", classes="-outline")
         yield Drawing(id="whole")
         yield Drawing(id="loupe")
 
     def on_mount(self) -> None:
-        """The titles that stay."""
+        """Set the titles that never change."""
         self.query_one("#outline", Drawing).heading = "PART"
         self.query_one("#whole", Drawing).heading = "DRAWING  whole part"
 
     def show(self, session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str) -> None:
-        """Draw the block with the cursor; the loupe is on the finding in hand, or on the segment where that is None.
+        """Draw the block with the cursor; the loupe is on finding `in_hand`, or on the segment if that is None.
 
-        `entries` are the findings that have a place.
+        `entries` are the findings that have a position.
         """
         from core.pipeline.plot import Subject
 
@@ -62,7 +62,7 @@ class Picture(Horizontal):
 
 
 def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
-    """The number of each finding at its place; of several at one place the gravest is seen, which is drawn last."""
+    """Return each finding's number at its position; the worst is drawn last, so it shows if several coincide."""
     from core.draw.scene import Mark, Style, Symbol
 
     marks = [
@@ -76,7 +76,7 @@ def _numbers(entries: Sequence[Entry]) -> tuple[Mark, ...]:
 def _loupe(
     session: Session, entries: Sequence[Entry], in_hand: int | None, characters: str
 ) -> tuple[Point | None, str, Kind | None]:
-    """What the loupe is on, its title, and the kind of the finding."""
+    """Return the loupe's center (None for the whole part), its title, and the kind of the finding."""
     if in_hand is not None and in_hand < len(entries):
         entry = entries[in_hand]
         return entry.at, heading(entries, in_hand, MARKS[characters]), entry.kind
@@ -84,7 +84,7 @@ def _loupe(
     solved = session.derived_block.solved.segments
     solution = solution_at(session.derived_block.solved, number)
     if solution is not None:
-        # all solutions are to be seen
+        # show the whole part, so that all solutions are visible
         return None, f"SEGMENT {number} {form_of(session.block.segments[number - 1])}   SOLUTION {solution.label}", None
     if number and number <= len(solved):
         piece, segment = solved[number - 1].piece, session.block.segments[number - 1]

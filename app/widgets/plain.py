@@ -1,4 +1,4 @@
-"""Texts as they are: what was typed, and what a file holds, may have brackets, which Textual takes for markup."""
+"""This module shows text literally: typed text and files may have brackets, which Textual takes for markup."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from textual.widgets import Label, Static
 
 
 class PlainText(Static):
-    """Lines as wide as their room."""
+    """Lines of text as wide as their container."""
 
     def __init__(self, content: VisualType = "", *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(content, id=id, classes=classes, markup=False)
 
 
 class PlainLabel(Label):
-    """A line as wide as its text."""
+    """A line of text as wide as the text."""
 
     def __init__(self, content: VisualType = "", *, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(content, id=id, classes=classes, markup=False)

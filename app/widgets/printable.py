@@ -1,4 +1,4 @@
-"""What a file holds is shown, and never a command to the terminal: characters that cannot be printed are left out."""
+"""PrintableFilter drops unprintable characters, so that no text from a file can be a command to the terminal."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from textual.filter import LineFilter
 
 
 class PrintableFilter(LineFilter):
-    """Leaves out what a terminal would take for a command; such characters have no width in the line anyway."""
+    """Drops characters that a terminal could take for a command; the line keeps its width in cells."""
 
     def apply(self, segments: list[Segment], _background: Color) -> list[Segment]:
-        """Only characters that can be printed; the same list where it has no others."""
+        """Return the segments with printable characters only; the same list if they have no others."""
         if all(segment.text.isprintable() for segment in segments):
             return segments
         return [Segment(_printable(segment), segment.style, segment.control) for segment in segments]
 
 
 def _printable(segment: Segment) -> str:
-    """The text of as many cells."""
+    """Return the printable text, filled with ? to the same number of cells."""
     text = "".join(character for character in segment.text if character.isprintable())
     return text.ljust(len(text) + segment.cell_length - Segment(text).cell_length, "?")
 

@@ -1,4 +1,4 @@
-"""The prompt: what the field with the cursor takes, or why something was refused."""
+"""Prompt says what the field with the cursor takes, or why something was refused."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class Prompt(PlainText):
         self.sentence = Sentence("")
 
     def show(self, sentence: Sentence) -> None:
-        """Show a sentence in its tone; nothing happens where it stands already."""
+        """Show a sentence in its tone; do nothing if it is shown already."""
         if sentence == self.sentence:
             return
         if sentence.tone is not self.sentence.tone:

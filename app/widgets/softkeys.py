@@ -1,4 +1,4 @@
-"""The softkeys at the right edge: what F1 to F8 do on a screen, and whether they act just now."""
+"""Softkeys shows at the right edge what F1 to F8 do on a screen, and which of them act now."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from textual.content import Content
 from app.widgets.plain import PlainText
 
 LONGEST_LINE = 14
-"""Characters of a label that stand on one line; a longer one is broken after its first word."""
+"""The most characters of a label on one line; a longer label breaks after its first word."""
 
 
 LEGEND = (
@@ -29,14 +29,14 @@ LEGEND = (
     (" S", "$c-begin", "START"),
     (" o", "$c-begin", "plunge"),
 )
-"""The signs of the drawing, their colors and their meanings."""
+"""The signs of the drawing with their colors and meanings."""
 
 
 @dataclass(frozen=True, slots=True)
 class Softkey:
     """A softkey: its label, the action it runs, and its short name for narrow terminals.
 
-    `acts` is asked with the screen: where it says no the key is dim, and pressing it says `idle`.
+    `acts` is called with the screen; if it returns False, the key is dim, and pressing it says `idle`.
     """
 
     label: str
@@ -47,7 +47,7 @@ class Softkey:
 
 
 class SoftkeyLabel(PlainText):
-    """One softkey as it is shown; a click presses it."""
+    """The label of one softkey; a click presses the key."""
 
     def __init__(self, number: int, key: Softkey | None) -> None:
         super().__init__(id=f"f{number}")
@@ -55,7 +55,7 @@ class SoftkeyLabel(PlainText):
         self._state: tuple[Softkey | None, bool, bool] | None = None
 
     def show(self, key: Softkey | None, *, acts: bool, short: bool) -> None:
-        """Show the key bright or dim, and its short name; nothing happens where it is shown so already."""
+        """Show the key bright or dim, with its short name if `short`; do nothing if it is shown so already."""
         if self._state == (key, acts, short):
             return
         self.key, self._state = key, (key, acts, short)
@@ -85,7 +85,7 @@ def _lines(label: str) -> list[str]:
 
 
 class Softkeys(Vertical):
-    """F1 to F8, the keys that are the same everywhere, and the legend where there is room."""
+    """F1 to F8, more keys of the screen, and the legend if there is room."""
 
     def __init__(
         self,
@@ -98,7 +98,7 @@ class Softkeys(Vertical):
         self._labels = [SoftkeyLabel(number, key) for number, key in enumerate(self.keys, 1)]
 
     def compose(self) -> ComposeResult:
-        """Eight labels, then the rest."""
+        """Yield the eight labels, the other keys and the legend."""
         yield from self._labels
         more = [Text.assemble((f"{key:>3} ", "reverse"), " ", label) for key, label in self.more]
         yield PlainText(Text("\n").join(more), id="more")
@@ -106,11 +106,11 @@ class Softkeys(Vertical):
         yield PlainText(Content("\n").join(legend), id="legend")
 
     def on_mount(self) -> None:
-        """Show the keys as they are."""
+        """Show which keys act at first."""
         self.refresh_keys()
 
     def refresh_keys(self) -> None:
-        """Show which of them act now."""
+        """Show which keys act now."""
         short = self.screen.has_class("-narrow")
         for label, key in zip(self._labels, self.keys, strict=True):
             label.show(key, acts=key is not None and self.acts(key), short=short)

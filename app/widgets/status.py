@@ -1,4 +1,4 @@
-"""The status line: units, free room on the disk or how far long work is, what is saved and undone, the clock."""
+"""Status is the line with units and free disk space or progress, what is saved, undo and redo, and the clock."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from core.units import Unit
 
 MINUTE = 60.0
 LOW_ON_DISK = 50_000_000
-"""Bytes below which the free room is shown as a warning."""
+"""Bytes of free disk space below which it is shown as a warning."""
 
 UNITS: Final = {Unit.IN: "I N C H", Unit.MM: "M M"}
-"""The unit as it stands where a program begins and where it is posted."""
+"""The unit, spaced out, for a new program and for the screen that posts it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What the status line shows of the machine; tests hand in a fixed clock and a fixed disk."""
+    """What the status line shows of the machine; tests pass a fixed clock and a fixed disk."""
 
     clock: Callable[[], str] = lambda: strftime("%H:%M")
     free: Callable[[], int] = lambda: within(0.2, lambda: disk_usage(Path.cwd()).free)
 
 
 class Status(Horizontal):
-    """One line; the clock and the free room are read once a minute."""
+    """One line; it reads the clock and the free disk space once a minute."""
 
     def __init__(self, surroundings: Surroundings) -> None:
         super().__init__(id="status")
@@ -45,18 +45,18 @@ class Status(Horizontal):
         self._unit = self._work = ""
 
     def compose(self) -> ComposeResult:
-        """Three labels."""
+        """Yield three labels."""
         yield PlainLabel("", id="units")
         yield PlainLabel("", id="undo")
         yield PlainLabel("", id="clock")
 
     def on_mount(self) -> None:
-        """Read the clock from now on."""
+        """Read the clock and the disk now, and then once a minute."""
         self.set_interval(MINUTE, self.read_machine)
         self.read_machine()
 
     def read_machine(self) -> None:
-        """The time of day and the free room."""
+        """Show the time of day and the free disk space, or the progress of long work."""
         free: int | None = None
         with suppress(OSError):
             # the current folder may be gone, or on a network that does not answer
@@ -67,16 +67,16 @@ class Status(Horizontal):
         self.query_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
     def show_program(self, session: Session) -> None:
-        """The state of the contour program; the unit stands out until it has a segment."""
+        """Show the state of the contour program; the unit stands out until there is a segment."""
         undo, redo = session.history.undo_count, session.history.redo_count
         new = not any(block.segments for block in session.program.blocks)
         unit = f" {UNITS[session.program.unit]} " if new else str(session.program.unit)
-        # a file that is yet to be made has nothing saved in it
+        # a file that does not exist yet has nothing saved in it
         saved = session.file is not None and not new
         self.show(unit, undo, redo, unsaved=session.unsaved, saved=saved, new=new)
 
     def show(self, unit: str, undo: int, redo: int, *, unsaved: bool, saved: bool, new: bool = False) -> None:
-        """The unit, whether everything is in the file, and how much can be undone and redone."""
+        """Show the unit, whether everything is in the file, and how many edits can be undone and redone."""
         texts = ["not saved" if unsaved else "saved" if saved else ""]
         texts += [f"undo {undo}"] if undo else []
         texts += [f"redo {redo}"] if redo else []
@@ -87,7 +87,7 @@ class Status(Horizontal):
             self.read_machine()
 
     def show_work(self, text: str) -> None:
-        """How far long work is, in place of the free room; empty for none."""
+        """Show the progress of long work in place of the units and the free disk space; empty for none."""
         if text != self._work:
             self._work = text
             self.read_machine()
@@ -99,5 +99,5 @@ class Status(Horizontal):
 
 
 def size_text(size: int) -> str:
-    """Bytes as whole gigabytes or megabytes."""
+    """Return bytes as whole gigabytes or megabytes."""
     return f"{size // 10**9} GB" if size >= 10**9 else f"{size // 10**6} MB"
