@@ -1,1 +1,1 @@
-"""Terminal: everything that is about bytes, keys and characters."""
+"""The terminal's side: bytes, keys and character sets."""

@@ -1,4 +1,4 @@
-"""Textual's driver of a page in a browser, with keys in their order and with an end to what waits."""
+"""BrowserDriver is Textual's driver for a browser page, with keys in order and a limit on waiting messages."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from textual.message import Message
 from app.terminal.key_order import KeyOrder
 
 LARGEST_QUEUE: Final = 1000
-"""Messages from the page that may wait; what comes after them waits in the pipe, and then in the page."""
+"""The most messages from the page that wait here; further ones wait in the pipe, and then in the page."""
 TURN: Final = 0.01
-"""Seconds between two looks whether there is room again."""
+"""Seconds between two checks for room."""
 
 
 class BrowserDriver(WebDriver):
@@ -27,13 +27,13 @@ class BrowserDriver(WebDriver):
         super().__init__(app, debug=debug, mouse=mouse, size=size)
         self.keys = KeyOrder(app)
         self._sent = 0
-        """Messages handed over by the thread that reads; only that thread counts here."""
+        """Messages passed on by the reader thread; only that thread counts here."""
         self._taken = 0
         """Messages taken in the event loop; only the loop counts here."""
         self._write = partial(self._write_all)
 
     def send_message(self, message: Message) -> None:
-        """What comes from the page, to the App in its turn; called in the thread that reads, and waits for room."""
+        """Pass a message from the page to the App in its turn; runs in the reader thread and waits for room."""
         while self._sent - self._taken + len(self.keys.waiting) >= LARGEST_QUEUE:
             if self.exit_event.wait(TURN):
                 return
@@ -45,7 +45,7 @@ class BrowserDriver(WebDriver):
         self.keys.take(message)
 
     def _write_all(self, data: bytes) -> int:
-        """All of it; nothing once the page is gone: the server ends the program then."""
+        """Write all data; ignore that the page is gone, since the server then ends the program."""
         rest = memoryview(data)
         try:
             while rest:

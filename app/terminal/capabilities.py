@@ -1,4 +1,4 @@
-"""What a terminal can do by its name: colors as the system's table of terminals has it, characters beyond ASCII."""
+"""This module finds a terminal's abilities by its name: colors, by the system's table, and non-ASCII characters."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from typing import Final
 COLORED: Final = re.compile(
     r"(?:xterm|screen|tmux|linux|putty|rxvt|vte|konsole|gnome|alacritty|foot|kitty)\b|.*colou?r"
 )
-"""Names that need no look into the table, which costs the start some milliseconds."""
+"""Names of terminals with colors; they save the start some milliseconds for a look into the table."""
 BARE: Final = re.compile(r"vt[1-5]\d\d\b.*|.*-(?:m|mono)\b.*")
-"""Names of terminals without colors, where the system has no table."""
+"""Names of terminals without colors, for use if the table does not know them."""
 OLD: Final = re.compile(r"vt[1-5]\d\d\b")
-"""Names of terminals that were made before there was UTF-8, and of programs that are no more than they."""
+"""Names of terminals older than UTF-8, and of programs that emulate only those."""
 
 
 def colors(name: str) -> int | None:
-    """How many colors the system's table says that a terminal has; None where it does not know the terminal.
+    """Return a terminal's number of colors by the system's table; None if the table does not know it.
 
-    The library looks up one name in a process; another one is not asked for.
+    The library looks up only one name per process; no second one is needed.
     """
     try:
         import curses
@@ -34,7 +34,7 @@ def colors(name: str) -> int | None:
 
 
 def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None] = colors) -> bool:
-    """Whether a terminal has no colors; COLORTERM or a system of colors that is asked for say more than its name."""
+    """True if a terminal has no colors; COLORTERM or a requested color system outweighs its name."""
     asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower() != "auto"
     name = environment.get("TERM", "")
     bare = BARE.fullmatch(name) is not None
@@ -45,5 +45,5 @@ def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None
 
 
 def ascii_only(environment: Mapping[str, str]) -> bool:
-    """Whether a terminal has no characters of UTF-8 whatever the locale says."""
+    """True if a terminal cannot show UTF-8, whatever the locale says."""
     return OLD.match(environment.get("TERM", "")) is not None

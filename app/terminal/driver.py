@@ -1,6 +1,6 @@
-"""The terminal's side of Textual: which terminals the screens can have, and any byte that comes from them.
+"""TerminalDriver connects Textual to the terminal; this module also decides which terminals can show the screens.
 
-Textual's own driver dies of the first byte that is not UTF-8, and reads for ever from a link that has dropped.
+Textual's own driver fails at the first byte that is not UTF-8, and reads forever from a link that has dropped.
 """
 
 from __future__ import annotations
@@ -31,23 +31,23 @@ if TYPE_CHECKING:
     from textual.app import App
 
 MODES: Final = ("braille", "block", "ascii")
-"""What drawings can be made of."""
+"""The character sets of drawings."""
 PATIENCE: Final = 0.1
-"""Seconds between two looks whether the program ends."""
+"""Seconds between two checks for the end of the program."""
 LARGEST_READ: Final = 4096
 UNFIT: Final = ("dumb", "unknown", "")
-"""Values of TERM of what cannot place a cursor."""
+"""Values of TERM for terminals that cannot position the cursor."""
 ERASING: Final = ("xterm", "putty", "linux", "rxvt", "alacritty", "kitty", "foot", "wezterm", "konsole", "vte", "gnome")
-"""How TERM begins where erased cells take the color in force; others erase in their own."""
+"""How TERM begins if erased cells take the color in force; other terminals use their own background."""
 PLAIN: Final = ("linux", "vt1", "vt2")
-"""How TERM begins where a control sequence with a $ in it may be shown."""
+"""How TERM begins if the terminal may show a control sequence with a $ in it."""
 
 
 class TerminalDriver(LinuxDriver):
-    """A driver that replaces what it cannot read, and takes the end of its input for a hangup.
+    """A driver that replaces bytes that it cannot decode, and treats the end of its input as a hangup.
 
-    It sends what differs from what the terminal shows, and all of it when that may have been written over.  Keys reach
-    the App one at a time.
+    It sends only what differs from what the terminal shows, or everything if that may have been overwritten.  Keys
+    reach the App one at a time.
     """
 
     def __init__(
@@ -59,16 +59,16 @@ class TerminalDriver(LinuxDriver):
         self.keys = KeyOrder(app)
 
     def write(self, data: str) -> None:
-        """A picture on its way to the terminal, in as few bytes as show it."""
+        """Send a picture to the terminal in as few bytes as show it."""
         if sent := self.shown.write(data):
             super().write(sent)
 
     def send_message(self, message: Message) -> None:
-        """What comes from the terminal, to the App in its turn; called in the thread that reads."""
+        """Pass a message from the terminal to the App in its turn; the reader thread calls this."""
         self._loop.call_soon_threadsafe(self.keys.take, message)
 
     def anew(self) -> None:
-        """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""
+        """Send everything again, whatever the terminal shows; safe in a signal handler."""
         self.shown.forget()
         self.send_message(events.Callback(self._repaint))
 
@@ -76,7 +76,7 @@ class TerminalDriver(LinuxDriver):
         self._app.refresh()
 
     def start_application_mode(self) -> None:
-        """Begin, or go on; a resize to the same size is one too, where others have lent the terminal."""
+        """Start or resume; a resize signal at the same size redraws too: something else may have used the terminal."""
         super().start_application_mode()  # type: ignore[no-untyped-call]  # Textual's own
         resized = signal.getsignal(signal.SIGWINCH)
 
@@ -88,26 +88,26 @@ class TerminalDriver(LinuxDriver):
         signal.signal(signal.SIGWINCH, changed)
 
     def stop_application_mode(self) -> None:
-        """Give the terminal back, for a while or for good; at the end Ctrl+Z must not stop what still saves."""
+        """Give the terminal back, for a while or for good; at the end, ignore Ctrl+Z, which could stop a save."""
         if not self.suspended:
             signal.signal(signal.SIGTSTP, signal.SIG_IGN)
         super().stop_application_mode()
 
     def _sigtstp_application(self, *_: object) -> None:
-        """Stop between two tasks: a signal that comes in the middle of a write would wait for ever for its end."""
+        """Stop between two tasks: a handler in the middle of a write would wait forever for the write's end."""
         self._loop.call_soon_threadsafe(super()._sigtstp_application)
 
     def _sigcont_application(self, *_: object) -> None:
-        """Go on between two tasks too."""
+        """Resume between two tasks, too."""
         self._loop.call_soon_threadsafe(super()._sigcont_application)
 
     def suspend_application_mode(self) -> None:
-        """The terminal is given back for a while."""
+        """Give the terminal back for a while."""
         self.suspended = True
         super().suspend_application_mode()
 
     def resume_application_mode(self) -> None:
-        """Go on, also behind a stop that nobody could prepare for; the terminal shows what others left on it."""
+        """Resume, also after a stop without warning; redraw, since the terminal shows what others left on it."""
         if not self.suspended:
             self.suspend_application_mode()
         self.suspended = False
@@ -115,12 +115,12 @@ class TerminalDriver(LinuxDriver):
         self.anew()
 
     def _request_terminal_sync_mode_support(self) -> None:
-        """Not asked of terminals that would take the end of the question for a letter to show."""
+        """Send the query, except to terminals that may show the end of it as a letter."""
         if not os.environ.get("TERM", "").startswith(PLAIN):
             super()._request_terminal_sync_mode_support()
 
     def _query_in_band_window_resize(self) -> None:
-        """Never asked: the answer would change nothing here, the signal tells the size."""
+        """Send no query: its answer would change nothing here, since a signal reports a new size."""
 
     def run_input_thread(self) -> None:
         """Read keys until the program ends or the link drops."""
@@ -128,7 +128,7 @@ class TerminalDriver(LinuxDriver):
         decode = getincrementaldecoder(typed_in())(errors="replace").decode
         while not self.exit_event.is_set():
             patience = PATIENCE if joined.due is None else min(PATIENCE, max(joined.due - monotonic(), 0.0))
-            # what has come by the time it is looked for belongs together, however late this thread had its turn
+            # bytes that are there at the time of a check belong together, however late this thread had its turn
             if select.select([self.fileno], [], [], patience)[0]:
                 data = read(self.fileno)
                 if not data:
@@ -152,41 +152,41 @@ def redraw(app: App[Any]) -> None:
 
 
 def has_mouse(app: App[Any]) -> bool:
-    """Whether clicks reach the program."""
+    """True if clicks reach the program."""
     return isinstance(app._driver, TerminalDriver) and app._driver._mouse
 
 
 def take_mouse(app: App[Any], wanted: bool) -> None:
-    """Take the mouse from the terminal, which needs it to mark and copy text, or give it back."""
+    """Take the mouse from the terminal, which uses it to select and copy text, or give it back."""
     driver = app._driver
     if isinstance(driver, TerminalDriver):
-        # Textual switches it only where it is in use
+        # Textual changes the mouse mode only while `_mouse` is True
         driver._mouse = True
         driver._enable_mouse_support() if wanted else driver._disable_mouse_support()
         driver._mouse = wanted
 
 
 def messages(parser: XTermParser, key: str) -> Iterator[Message]:
-    """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
+    """Yield what Textual's parser makes of a whole key; an unknown key sequence gives nothing, never text."""
     if key in TOLD:
         yield events.Key(key, None)
         return
     yield from parser.feed(key)
     if parser._timeout_time is not None:
-        # it waits for more, and there is no more
+        # the parser waits for more, but nothing follows
         parser._timeout_time = 0.0
         rest = list(parser.tick())
         yield from () if key.startswith(("\x1b[", "\x1bO")) else rest
 
 
 def typed_in() -> str:
-    """The set of characters that keys arrive in: that of the screen, and UTF-8 where nobody has said."""
+    """Return the character set in which keys arrive: that of the screen, or UTF-8 if that is ASCII."""
     screen = ASCII if sys.__stderr__ is None else lookup(sys.__stderr__.encoding).name
     return UTF_8 if screen == ASCII else screen
 
 
 def read(handle: int) -> bytes:
-    """What was typed, nothing at the end of the input or when the link has dropped."""
+    """Return what was typed; empty at the end of the input or if the link has dropped."""
     try:
         return os.read(handle, LARGEST_READ)
     except OSError:
@@ -194,19 +194,19 @@ def read(handle: int) -> bytes:
 
 
 def few_colors(environment: Mapping[str, str]) -> bool:
-    """Whether the terminal's own sixteen colors are used, or none; its name and COLORTERM are all there is to go by.
+    """True if only the terminal's own sixteen colors are used, or none; by default TERM and COLORTERM decide.
 
-    Where no colors are wanted, its own ink and paper stay, and bold, underline and reverse video say the rest.
+    Without colors, the terminal's own text color and background stay; bold, underline and reverse video do the rest.
     """
     asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
     if "NO_COLOR" in environment or asked != "auto":
         return "NO_COLOR" in environment or asked == "standard"
-    many = environment.get("COLORTERM", "") in ("truecolor", "24bit")
-    return not many and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
+    true_color = environment.get("COLORTERM", "") in ("truecolor", "24bit")
+    return not true_color and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
 
 
 def refusal(environment: Mapping[str, str]) -> str:
-    """Why there can be no screens here, empty where there can."""
+    """Return why the screens cannot run here; empty if they can."""
     if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):
         return (
             "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
@@ -221,10 +221,10 @@ def refusal(environment: Mapping[str, str]) -> str:
 
 
 def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
-    """The set of characters to write, and with what the drawing can be drawn, that to begin with first.
+    """Return the character set to write, and the MODES that drawings can use, the one to begin with first.
 
-    `wanted` is what the operator asks for and knows better.  The fonts of the Linux console have no braille, a VT100
-    has none of UTF-8 at all.
+    `wanted` is the operator's choice, which overrides the environment.  The fonts of the Linux console have no
+    braille; a VT100 has no UTF-8 at all.
     """
     name = UTF_8 if wanted in MODES[:-1] else charset(environment)
     if wanted not in MODES[:-1] and name == UTF_8 and ascii_only(environment):

@@ -1,7 +1,7 @@
-"""The same picture in fewer bytes, for lines that are slow.
+"""This module sends the same picture in fewer bytes, for slow lines.
 
-Textual sends every piece of text with all of its colors before it and a reset behind it.  Here a color is sent when
-it changes, and blanks are sent in whatever ink there is: no one sees the ink of a blank.
+Textual sends every piece of text with all of its colors before it and a reset after it.  Here a color is sent only
+when it changes, and blanks are sent in any text color, which does not show on them.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ TOKEN: Final = re.compile(
     r"|(\x1b\[[0-?]*[ -/]*[@-~]|\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)|[\x00-\x1f\x7f])"
     r"|([^\x00-\x1f\x7f]+)"
 )
-"""A style; a place; another control sequence; text."""
+"""A style; a cursor position; another control sequence; text."""
 
 
 class Style(NamedTuple):
-    """What a control sequence switches on after a reset: attributes, ink, paper."""
+    """What a control sequence turns on after a reset: attributes, text color (ink), background (paper)."""
 
     attributes: frozenset[str] = frozenset()
     ink: str = "39"
@@ -30,12 +30,12 @@ class Style(NamedTuple):
 
 PLAIN: Final = Style()
 SHOWN_ON_BLANKS: Final = frozenset({"4", "7", "9", "21", "53"})
-"""Attributes that a blank shows: underlines, reverse, strike through, overline."""
+"""Attributes that show on a blank: underlines, reverse, strikethrough, overline."""
 
 
 @lru_cache(256)
 def read(parameters: str) -> Style:
-    """The style of a sequence's parameters, as they act after a reset."""
+    """Return the style that a sequence's parameters give after a reset."""
     attributes, ink, paper = set(), PLAIN.ink, PLAIN.paper
     rest = parameters.split(";")
     while rest:
@@ -55,29 +55,29 @@ def read(parameters: str) -> Style:
 
 @lru_cache(512)
 def change(now: Style, then: Style) -> str:
-    """What makes one style of another."""
+    """Return the shortest sequence that changes one style into another."""
     if now == then:
         return ""
     if then == PLAIN:
         return "\x1b[0m"
-    ways = ["0", *_added(PLAIN, then)], _added(now, then)
-    return min((f"\x1b[{';'.join(way)}m" for way in ways[: 1 if now.attributes - then.attributes else 2]), key=len)
+    lists = ["0", *_added(PLAIN, then)], _added(now, then)
+    return min((f"\x1b[{';'.join(codes)}m" for codes in lists[: 1 if now.attributes - then.attributes else 2]), key=len)
 
 
 def _added(base: Style, then: Style) -> list[str]:
-    """The parameters that make one style of another which has all of its attributes."""
+    """Return the parameters that change `base` into a style with all of its attributes."""
     colors = [new for old, new in ((base.ink, then.ink), (base.paper, then.paper)) if old != new]
     return [*sorted(then.attributes - base.attributes), *colors]
 
 
 def alike_on_blanks(now: Style, then: Style) -> bool:
-    """Whether blanks look the same in both."""
-    shown = (now.attributes | then.attributes) & SHOWN_ON_BLANKS
-    return not shown and now.paper == then.paper
+    """True if blanks look the same in both styles."""
+    visible = (now.attributes | then.attributes) & SHOWN_ON_BLANKS
+    return not visible and now.paper == then.paper
 
 
 def slim(data: str) -> str:
-    """The text for the terminal with the same effect; it begins and ends in plain style."""
+    """Return a shorter text with the same effect on the terminal; it begins and ends in plain style."""
     pen = Pen()
     wanted = PLAIN
     for style, place, other, text in TOKEN.findall(data):
@@ -96,22 +96,22 @@ def slim(data: str) -> str:
 
 @dataclass(slots=True)
 class Pen:
-    """What goes to the terminal, and the style it writes in just now."""
+    """What goes to the terminal, and the style in force."""
 
     now: Style = PLAIN
     out: list[str] = field(default_factory=list)
 
     def has(self, text: str, wanted: Style) -> bool:
-        """Whether this text may be written without another style."""
+        """True if this text can be written without a change of style."""
         return self.now == wanted or (text.isspace() and alike_on_blanks(self.now, wanted))
 
     def write(self, text: str, wanted: Style) -> None:
-        """Text in a style."""
+        """Write text in a style."""
         if not self.has(text, wanted):
             self.turn(wanted)
         self.out.append(text)
 
     def turn(self, wanted: Style) -> None:
-        """From now on in another style."""
+        """Change to another style."""
         self.out.append(change(self.now, wanted))
         self.now = wanted

@@ -1,7 +1,7 @@
-"""Keys one after the other: the next one is handed on when all that the last one has set going is done.
+"""KeyOrder hands on one key at a time: the next one goes when everything that the last one started is done.
 
-Textual hands a key to the widget that has the cursor when the key is read.  Of keys that come together, pasted or held
-back by a slow link, all would go to that one widget, though the first of them moves the cursor on: a number would be
+Textual hands a key to the widget that has the cursor when the key is read.  If keys come together, pasted or held
+back by a slow link, all would go to that one widget, although the first of them moves the cursor: a number would be
 typed into the wrong field.
 """
 
@@ -17,31 +17,31 @@ from textual.message import Message
 from textual.message_pump import MessagePump
 
 LOOK: Final = 0.1
-"""Seconds between two looks whether a key is still making its way."""
+"""Seconds between two checks on the progress of a key."""
 MAX_LOOKS: Final = 10
-"""So many looks in a row that see it stand still give it up: a widget that was removed answers nothing.  They are
-counted one after the other, so that a program that was busy all the time is not taken for one that stands still."""
+"""Checks in a row without progress after which a key is given up: a removed widget never answers.  One check schedules
+the next, so that a program that was busy all the time does not count as one without progress."""
 FEWEST_ROUNDS: Final = 2
-"""One behind the key, one behind the message of a binding that it has run."""
+"""One round after the key, one after the message of a binding that it has run."""
 
 
 class KeyOrder:
     """Hands messages from the terminal to the App, keys and pasted text one at a time.
 
-    What a key sets going are messages: from the App to the widget with the cursor, from there through its ancestors to
-    the screen and the App, which runs the bindings, and those send messages the same way.  A callback that goes round
-    behind them comes back when all of them have been handled; it goes on until nothing waits anywhere on its way.
+    A key causes messages: from the App to the widget with the cursor, from there through its ancestors to the screen
+    and the App, which runs the bindings, and those send messages the same way.  A callback that follows them through
+    the same queues comes back when all of them have been handled; it repeats this until nothing waits in any queue.
     """
 
     def __init__(self, app: App[Any]) -> None:
         self.app = app
         self.waiting: deque[Message] = deque()
         self.on_its_way: _Walk | None = None
-        """What goes round behind the key that was handed on last."""
+        """The walk that follows the key handed on last; None if there is none."""
         self._patience: TimerHandle | None = None
 
     def take(self, message: Message) -> None:
-        """A message from the terminal."""
+        """Take a message from the terminal; keys and pasted text wait for their turn."""
         if not isinstance(message, events.Key | events.Paste):
             self.app.post_message(message)
             return
@@ -50,20 +50,20 @@ class KeyOrder:
             self.send_next()
 
     def send_next(self) -> None:
-        """Hand the next key on, if one waits."""
+        """Hand on the next key, if one is waiting."""
         if self._patience is not None:
             self._patience.cancel()
         if not self.waiting:
             self.on_its_way = None
             return
-        # made before the key is sent: that goes to the widget that has the cursor now
+        # made before the key is sent: the key goes to the widget that has the cursor now
         self.on_its_way = walk = _Walk(self)
         self.app.post_message(self.waiting.popleft())
         self._look(walk, -1, 0)
         walk.go()
 
     def _look(self, walk: _Walk, steps: int, still: int) -> None:
-        """Give a walk up that has stood still for too long; `steps` are those of the last look."""
+        """Give up a walk without progress for too long; `steps` is its count at the last check."""
         still = still + 1 if walk.steps == steps else 0
         if still == MAX_LOOKS:
             self.send_next()
@@ -71,26 +71,26 @@ class KeyOrder:
             self._patience = get_running_loop().call_later(LOOK, self._look, walk, walk.steps, still)
 
     def way(self) -> list[MessagePump]:
-        """From the widget with the cursor up to the App."""
+        """Return the path from the widget with the cursor up to the App."""
         if not self.app.screen_stack:
             return [self.app]
         return [*(self.app.focused or self.app.screen).ancestors_with_self]
 
 
 class _Walk:
-    """The callback that goes round behind one key."""
+    """The callback that follows one key from queue to queue."""
 
     def __init__(self, order: KeyOrder) -> None:
         self.order = order
         self.steps = 0
         self._rounds = FEWEST_ROUNDS
         self._taken = False
-        """Whether somebody on the way has taken the callback in this round."""
+        """True if any queue has taken the callback in this round."""
         way = order.way()
         self._screen, self._rest = way[-2:], [order.app, *way]
 
     def go(self) -> None:
-        """On to the next on the way, behind what waits there; one that is closed is passed over."""
+        """Go to the end of the next queue on the path; skip closed ones."""
         if self.order.on_its_way is not self:
             return
         self.steps += 1
@@ -98,13 +98,13 @@ class _Walk:
             if self._rest.pop(0).post_message(events.Callback(self.go)):
                 self._taken = True
                 return
-        # where nobody takes anything, not even the App, the program is leaving
+        # if no queue takes the callback, not even the App's, the program is ending
         if self._taken:
             self._taken = False
             self._next_round()
 
     def _next_round(self) -> None:
-        """Once more while there is something to wait for; else look a last time when all that was begun has run."""
+        """Go around again while messages wait; else check once more after the callbacks already scheduled."""
         self._rounds -= 1
         if self._rounds > 0 or any(pump.message_queue_size for pump in self.order.way()):
             self._rest = self.order.way()
@@ -113,7 +113,7 @@ class _Walk:
             get_running_loop().call_soon(self._end)
 
     def _end(self) -> None:
-        """The next key; on another screen, which a worker too may have brought, go round as often again."""
+        """Send the next key; if another screen is in front, also by a worker, go around as often again."""
         if self.order.on_its_way is not self:
             return
         way = self.order.way()

@@ -1,6 +1,6 @@
-"""Key sequences that Textual does not know: Esc and a digit for a softkey, and PuTTY's VT100+ and SCO function keys.
+"""This module adds key sequences to Textual: Esc and a digit for a softkey, PuTTY's VT100+ and SCO function keys.
 
-Textual has no public way to add a sequence, so this one module writes into its table; a test types every sequence
+Textual has no public way to add a sequence, so only this module writes into its table; a test types every sequence
 into a pseudo-terminal.
 """
 
@@ -17,12 +17,12 @@ VT100_PLUS: Final = "PQRSTUVW"
 """PuTTY in VT100+ mode sends ESC O and these letters for F1 to F8; Textual knows the first four."""
 
 SCO: Final = {"N": Keys.F2, "P": Keys.F4, "Q": Keys.F5, "R": Keys.F6, "S": Keys.F7, "T": Keys.F8, "G": Keys.PageDown}
-"""PuTTY in SCO mode sends ESC [ and these letters.  Its F1 begins like a click of the mouse and its F3 is what other
-terminals send when their window is left: these two stay Esc and the digit."""
+"""PuTTY in SCO mode sends ESC [ and these letters.  Its F1 begins like a mouse click, and its F3 is what other
+terminals send when their window loses the focus: for these two the operator types Esc and the digit."""
 
 
 class AtOnce(StrEnum):
-    """Esc and a digit in one packet, by the name that terminals with a newer protocol have Alt and the digit under."""
+    """Esc and a digit in one packet, named as Textual names Alt and the digit from terminals with a newer protocol."""
 
     ALT_1 = "alt+1"
     ALT_2 = "alt+2"
@@ -35,7 +35,7 @@ class AtOnce(StrEnum):
 
 
 def teach() -> None:
-    """Add the sequences."""
+    """Add the sequences to Textual's table."""
     table = cast("dict[str, tuple[StrEnum | Keys, ...]]", ANSI_SEQUENCES_KEYS)
     for number, both in enumerate(AtOnce, 1):
         table[f"\x1b{number}"] = (both,)
@@ -43,5 +43,5 @@ def teach() -> None:
         table[f"\x1bO{letter}"] = (key,)
     for letter, key in SCO.items():
         table[f"\x1b[{letter}"] = (key,)
-    # as the system hands Enter on that was pressed before the screens had the terminal
+    # this is how Enter arrives if it was pressed before the screens had the terminal
     table["\n"] = (Keys.Enter,)

@@ -1,8 +1,8 @@
-"""The end that nobody asked for: signals, a dropped link, a terminal that takes nothing any more.
+"""This module ends the program on a signal, also if the link has dropped or the terminal takes no more output.
 
-What was accepted is on the disk already.  A handler asks the event loop to end and starts a thread that ends the
-process in any case: a loop that waits for a terminal which takes nothing runs no timer, no callback and no handler
-of its own, threads go on.
+All accepted work is on the disk already.  A handler asks the event loop to end and starts a thread that ends the
+process in any case: a loop that waits for a stalled terminal runs no timer, no callback and no handler of its own,
+but threads go on.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from typing import Any, Final
 
 SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT)
 GRACE: Final = 2.0
-"""Seconds the program has to end by itself."""
+"""Seconds that the program has to end by itself."""
 LEAVING: Final = (
     b"\x1b[?2026l\x1b[0m\x1b[?2004l\x1b[?7h\x1b[?1004l\x1b[?1000l\x1b[?1003l\x1b[?1015l\x1b[?1006l\x1b[?1049l\x1b[?25h"
 )
-"""Everything that was switched on in the terminal, off again; the screen from before comes back."""
+"""Turns off everything that was turned on in the terminal, and brings back the previous screen."""
 
 
 @dataclass(slots=True)
 class Safety:
     """Ends the program; `stop` is called in the event loop with the exit status, `status` is None until then.
 
-    `last` is done in the very end, whoever ends the program.
+    `last` is called at the very end, from the main thread or from the watchdog.
     """
 
     stop: Callable[[int], None]
@@ -41,9 +41,9 @@ class Safety:
     modes: list[Any] | None = field(default_factory=lambda: terminal_modes())
 
     def arm(self) -> None:
-        """From now on signals end the program in order."""
+        """Make the SIGNALS end the program in order from now on."""
         for number in SIGNALS:
-            # not the method itself: whoever asks for the handler has it spelled out, with all that hangs on it
+            # not the bound method: asking for the handler formats its repr, with everything that this object holds
             signal.signal(number, lambda number, _: self._signalled(number))
 
     def _signalled(self, number: int) -> None:
@@ -61,7 +61,7 @@ class Safety:
         self.leave()
 
     def leave(self) -> None:
-        """End now, without waiting for threads or for a terminal that takes nothing."""
+        """End now, without waiting for threads or for a stalled terminal."""
         try:
             self.last()
         finally:
@@ -69,7 +69,7 @@ class Safety:
 
 
 def terminal_modes() -> list[Any] | None:
-    """How the terminal is set, None where there is none."""
+    """Return the terminal's settings; None if there is no terminal."""
     try:
         return termios.tcgetattr(sys.__stdin__.fileno()) if sys.__stdin__ is not None else None
     except (termios.error, OSError, ValueError):
@@ -77,13 +77,13 @@ def terminal_modes() -> list[Any] | None:
 
 
 def restore(modes: list[Any] | None) -> None:
-    """Put the terminal back as it was, as far as it still takes anything; never waits for it."""
+    """Restore the terminal's settings and screen, as far as it still takes output; never wait for it."""
     if modes is None or sys.__stdin__ is None:
         return
     with suppress(termios.error, OSError):
         number = sys.__stdin__.fileno()
         termios.tcsetattr(number, termios.TCSANOW, modes)
-        # what is queued for a terminal that takes nothing would stand before the sequence
+        # drop queued output: on a stalled terminal it would come before the sequence
         termios.tcflush(number, termios.TCOFLUSH)
         handle = os.open(os.ttyname(number), os.O_WRONLY | os.O_NOCTTY | os.O_NONBLOCK)
         try:

@@ -1,8 +1,8 @@
-"""Keys put together again that a link has split: the bytes of a key can arrive in pieces, and apart.
+"""This module rejoins keys that a link has split: the bytes of a key may arrive in pieces, with pauses.
 
-An arrow or a function key is sent as Esc and more characters.  Where the rest comes late, Esc would act by itself and
-the rest be typed: `[D`, the rest of an arrow to the left, is a letter that answers questions.  So Esc waits for a rest
-as long as ESCDELAY says; and a rest that comes even later is no key and no text, but is told.
+An arrow or a function key is sent as Esc and more characters.  If the rest came late, Esc would act by itself and the
+rest would be typed: `[D`, the rest of a left arrow, has a letter that answers questions.  So Esc waits for a rest
+as long as ESCDELAY says; a rest that comes even later is neither a key nor text, but is reported.
 """
 
 from __future__ import annotations
@@ -14,51 +14,51 @@ from typing import Final
 
 ESC: Final = "\x1b"
 TORN: Final = "torn"
-"""In place of characters: the rest of a key whose Esc has been taken for the key Esc."""
+"""Yielded in place of characters for a key whose pieces came too far apart."""
 UNENDED: Final = "unended"
-"""In place of characters: pasted text whose end did not come."""
+"""Yielded in place of characters for pasted text whose end did not come."""
 TOLD: Final = {
     TORN: "The link split a key in two: the first part was taken for Esc. Look, and press it again.",
     UNENDED: "Pasted text came without its end: nothing of it was taken. Look, and type it or paste it again.",
 }
-"""What is said of them."""
+"""What the operator reads about them."""
 DELAY: Final = 0.3
-"""Seconds Esc waits for the rest of a key, unless the environment's ESCDELAY says how many milliseconds."""
+"""Seconds that Esc waits for the rest of a key, unless ESCDELAY in the environment gives milliseconds."""
 TOGETHER: Final = 0.1
 """Seconds within which Esc and a character are one key, as a terminal sends it; fingers take longer."""
 REST: Final = 1.0
-"""Seconds a key that has certainly begun waits for its rest."""
+"""Seconds that a key which has certainly begun waits for its rest."""
 PASTING: Final = 2.0
-"""Seconds after the last byte of pasted text in which its end has to come."""
+"""Seconds after the last byte of pasted text within which its end must come."""
 MOST: Final = 20_000
-"""Characters of pasted text that are held; no field and no line takes as many."""
+"""The most characters of pasted text that are kept; no field and no line takes as many."""
 LATE: Final = 2.0
-"""Seconds behind Esc, or behind a key told torn, in which the rest of a key is recognized."""
+"""Seconds after Esc has acted, or a begun key has timed out, in which the rest of a key is recognized."""
 LONGEST: Final = 32
-"""Characters of the longest key."""
+"""The most characters of a key."""
 WHOLE: Final = re.compile(r"\x1b\[\[?[0-?]*[ -/]*[A-Za-z~^@]")
-"""A key or a report as ECMA-48 has them, but for brackets at the end: those are typed in formulas of NC programs.
-With a second bracket, the Linux console's first function keys."""
+"""A key or a report by ECMA-48, except those that end in a bracket, which is typed in formulas of NC programs.
+Those with a second bracket are the first function keys of the Linux console."""
 BEGUN: Final = re.compile(r"\x1b(?:O|\[\[?[0-?]*[ -/]*)")
 CLICK: Final = "\x1b[M"
-"""A click of the mouse, asked for by another program: three characters follow it."""
+"""A mouse click in the form that another program has asked for: three characters follow it."""
 PASTE: Final = "\x1b[200~"
 PASTED: Final = "\x1b[201~"
 
 
 def delay(environment: Mapping[str, str]) -> float:
-    """Seconds that Esc waits."""
+    """Return the seconds that Esc waits."""
     asked = environment.get("ESCDELAY", "")
     return max(int(asked), 1) / 1000 if asked.isascii() and asked.isdigit() else DELAY
 
 
 @dataclass(slots=True)
 class Joined:
-    """What has arrived and is no whole key yet; times are seconds of any clock that never goes back.
+    """Characters that have arrived and make no whole key yet; times are seconds of any clock that never goes back.
 
-    `known` are keys of more than one character that are whole as they stand.  `held` begins with Esc, or, behind a
-    key that was cut, with what the rest of it begins with; `paste` is what was pasted so far.
-    `cut` is the beginning of a key whose rest did not come in time, and `escaped` when that was found.
+    `known` holds keys of several characters that are complete as they are.  `held` begins with Esc or, after a key
+    that was cut, with the beginning of its rest; `paste` is the pasted text so far.
+    `cut` is the beginning of a key whose rest did not come in time, and `escaped` the time when it was given up.
     """
 
     known: Container[str]
@@ -73,7 +73,7 @@ class Joined:
 
     @property
     def due(self) -> float | None:
-        """When `tick` is to be called if nothing arrives; None where nothing is held."""
+        """The time at which to call `tick` if nothing arrives; None if nothing is held."""
         if self.paste is not None:
             return self.last + PASTING
         if not self.held:
@@ -83,7 +83,7 @@ class Joined:
         return self.last + (TOGETHER if self.held == "O" else REST)
 
     def feed(self, text: str, now: float) -> Iterator[str]:
-        """Whole keys, single characters, whole pastes and `TORN`, out of what has arrived."""
+        """Yield whole keys, single characters, whole pastes and `TORN` from what has arrived."""
         self.last = now if text else self.last
         while text:
             if self.paste is None:
@@ -91,16 +91,16 @@ class Joined:
                 text = text[1:]
                 continue
             body, end, text = (self.paste + text).partition(PASTED)
-            # the last characters may be the beginning of the end
+            # the last characters may begin the end marker
             short = body if len(body) <= MOST else body[:MOST] + body[-len(PASTED) :]
             self.paste = None if end else short
             if end:
                 yield f"{PASTE}{short}{PASTED}"
-        # a click's characters come with it
+        # the characters of a click come in the same piece of text
         self.clicked = 0
 
     def tick(self, now: float) -> Iterator[str]:
-        """What is held, if its time is over."""
+        """Yield what is held, if its time is up."""
         if self.due is None or now < self.due:
             return
         if self.paste is not None:
@@ -120,23 +120,23 @@ class Joined:
             yield from (self._torn(),) if held.startswith(f"{ESC}[") else self._as_typed()
             self.held, self.begun = ESC, now
         elif held == ESC and character not in "[O":
-            yield from self._behind_escape(character, now)
-        elif held or (now - self.escaped < LATE and self._goes_on(character)):
+            yield from self._after_escape(character, now)
+        elif held or (now - self.escaped < LATE and self._continues_cut_key(character)):
             self.held += character
             yield from self._grown(character, now)
         else:
             self.escaped = -LATE
             yield character
 
-    def _goes_on(self, character: str) -> bool:
-        """Whether this may be the rest of a key that was cut, or its beginning."""
+    def _continues_cut_key(self, character: str) -> bool:
+        """True if this may be the rest of a key that was cut, or the beginning of that rest."""
         if self.cut == ESC:
             return character in "[O"
         key = self.cut + character
         return key in self.known or (WHOLE.fullmatch(key) or BEGUN.fullmatch(key)) is not None
 
-    def _behind_escape(self, character: str, now: float) -> Iterator[str]:
-        """Alt and a character in one packet, or two keys one after the other."""
+    def _after_escape(self, character: str, now: float) -> Iterator[str]:
+        """Yield Alt and a character, if both came in one packet, or else two keys."""
         self.held = ""
         if now - self.begun <= TOGETHER:
             yield ESC + character
@@ -144,7 +144,7 @@ class Joined:
             yield from (ESC, character)
 
     def _grown(self, character: str, now: float) -> Iterator[str]:
-        """What is held with one character more: a key, still the beginning of one, or no key."""
+        """Handle the held characters after one more: a key, still the beginning of one, or no key."""
         late = self.held[0] != ESC
         key = self.cut + self.held if late else self.held
         if key in self.known or WHOLE.fullmatch(key):
@@ -167,11 +167,11 @@ class Joined:
             yield key
 
     def _torn(self) -> str:
-        """A key whose pieces came too far apart: neither Esc nor text."""
+        """Drop a key whose pieces came too far apart: it is neither Esc nor text."""
         self.held, self.escaped = "", -LATE
         return TORN
 
     def _as_typed(self) -> Iterator[str]:
-        """What is held, key by key: it was no part of a longer one."""
+        """Yield what is held key by key: it is not part of a longer key."""
         held, self.held, self.escaped = self.held, "", -LATE
         yield from held
