@@ -1,1 +1,1 @@
-"""The command line: arguments, and a module for each group of commands."""
+"""The command line: its arguments, and a module for each group of commands."""

@@ -1,4 +1,4 @@
-"""`cutcomp check`: what controls do with an NC program, for one file or an archive of them."""
+"""`cutcomp check` reports what controls do with an NC program, for one file or an archive of them."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ from core.pipeline.checking import Answer, Asked, answer, answer_all, counted, l
 from core.units import Unit
 
 JSON_VERSION: Final = 1
-"""Counts up where a field of the JSON changes its meaning or goes; new fields leave it."""
+"""Increases when a field of the JSON changes its meaning or is removed, but not for new fields."""
 
 FILES_AT_ONCE: Final = 4
-"""Files that a process is given at a time, at most: more would keep the first answers back."""
+"""The most files given to a process at a time: more would delay the first answers."""
 
 MOST_NAMES: Final = 10
-"""Suffixes of files left out that are named."""
+"""The most suffixes (or names without one) listed for the files that are left out."""
 
 
 @reported
 def check(arguments: list[str]) -> int:
-    """Runs the command; returns 0 for clean, 1 for errors found, 2 for what cannot be used."""
+    """Run the command; return 0 for clean, 1 for errors found, 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
     asked = _asked(options)
     paths = list(_programs(options.files))
@@ -60,7 +60,7 @@ def _parser() -> argparse.ArgumentParser:
         "cutcomp check",
         description="What a control does with an NC program: its moves, its alarms, what it gouges.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="controls:\n" + "\n".join(f"  {one.name:<24} {one.title}: {one.about}" for one in choices()),
+        epilog="controls:\n" + "\n".join(f"  {choice.name:<24} {choice.title}: {choice.about}" for choice in choices()),
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a program, or a folder of them")
     parser.add_argument("--control", required=True, metavar="NAME[:VARIANT]|all", help="the control, or all of them")
@@ -79,30 +79,30 @@ def _asked(options: argparse.Namespace) -> Asked:
 
 
 def _programs(files: list[Path]) -> Iterator[Path]:
-    """The files asked for, folders searched for programs."""
+    """Yield the given files, and the programs in given folders; a folder without programs is yielded itself."""
     for path in files:
         if not path.is_dir():
             yield path
             continue
-        every = [one for one in path.rglob("*") if one.is_file()]
-        found = sorted(one for one in every if _is_program(one))
-        if found and len(found) < len(every):
-            others = {one.suffix.lower() or one.name for one in every if not _is_program(one)}
+        all_files = [file for file in path.rglob("*") if file.is_file()]
+        programs = sorted(file for file in all_files if _is_program(file))
+        if programs and len(programs) < len(all_files):
+            others = {file.suffix.lower() or file.name for file in all_files if not _is_program(file)}
             names = " ".join(map(printable_path, sorted(others)[:MOST_NAMES]))
-            count = counted(len(every) - len(found), "file")
+            count = counted(len(all_files) - len(programs), "file")
             text = f"{printable_path(path)}: {count} left out that are no programs by their names: {names}"
             say(text)
-        yield from found or [path]
+        yield from programs or [path]
 
 
 def _is_program(path: Path) -> bool:
-    """Whether a file is a program by its name; Fanuc controls write `O1234` without a suffix."""
+    """True if a file is a program by its name; Fanuc controls write `O1234` without a suffix."""
     return path.suffix.lower() in NC_SUFFIXES or re.fullmatch(r"[O:]\d{1,8}", path.name.upper()) is not None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Checked:
-    """A file's answers, or the sentence that says why it could not be read."""
+    """A file's answers, or the sentence that says why it could not be used."""
 
     path: Path
     answers: tuple[Answer, ...] = ()
@@ -110,34 +110,34 @@ class _Checked:
     text: bytes = b""
 
 
-def _one(path: Path, asked: Asked) -> _Checked:
+def _check_file(path: Path, asked: Asked) -> _Checked:
     try:
         if path.is_dir():
             raise Unusable(f"{printable_path(path)} is a folder without programs ({' '.join(sorted(NC_SUFFIXES))}).")
         text = bytes_of(path)
-    except Unusable as trouble:
-        return _Checked(path, unusable=str(trouble))
+    except Unusable as error:
+        return _Checked(path, unusable=str(error))
     asked = replace(asked, library=FolderLibrary(path.parent))
-    found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
-    return _Checked(path, found, text=text if any(one.missing for one in found) else b"")
+    answers = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
+    return _Checked(path, answers, text=text if any(result.missing for result in answers) else b"")
 
 
 def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
-    """Every file's answers in order; several files in several processes."""
+    """Yield every file's answers in order; several files are checked in several processes."""
     workers = min(len(paths), os.cpu_count() or 1)
     if workers < 2:
-        yield from (_one(path, asked) for path in paths)
+        yield from (_check_file(path, asked) for path in paths)
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         with _uninterrupted():
             at_once = max(1, min(FILES_AT_ONCE, len(paths) // (8 * workers)))
-            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=at_once)
+            answers = pool.map(_check_file, paths, [asked] * len(paths), chunksize=at_once)
         try:
             yield from answers
         except BrokenProcessPool:
             raise Unusable("A process that checked files was ended from outside; the rest is not checked.") from None
         except BaseException:
-            # nobody waits for what is being worked out, nor for the pool's own thread to say that it is canceled
+            # drop the work in progress, and silence the pool's own thread, which would report that it is canceled
             threading.excepthook = lambda _: None
             _end(pool)
             raise
@@ -146,21 +146,21 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
 def _end(pool: ProcessPoolExecutor) -> None:
     """End a pool's processes in the middle of their work.
 
-    One that is ended while it sends a long answer leaves half of it in the pipe; the pool's thread would wait for the
-    other half for ever if this process held that end of the pipe open.
+    A process that is killed while it sends a long answer leaves half of it in the pipe; the pool's thread would wait
+    forever for the other half if this process held that end of the pipe open.
     """
     for process in active_children():
         process.kill()
-    # the library has no name of its own for it
+    # the library has no public name for it
     pool._result_queue._writer.close()  # type: ignore[attr-defined]
 
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """Processes that begin here do not hear Ctrl+C: it is for the one that started them."""
+    """Make processes that start here ignore Ctrl+C, which is for the process that starts them."""
     try:
         before = signal(SIGINT, SIG_IGN)
-    except ValueError:  # not in the main thread, which alone hears it
+    except ValueError:  # not in the main thread, which alone receives signals
         yield
         return
     try:
@@ -169,42 +169,42 @@ def _uninterrupted() -> Iterator[None]:
         signal(SIGINT, before)
 
 
-def _told(checked: _Checked) -> int:
-    """A file's status; what could not be read is said on standard error."""
+def _status_of(checked: _Checked) -> int:
+    """Return a file's status; say on standard error why it could not be used."""
     if checked.unusable:
         say(checked.unusable)
         return UNUSABLE
-    return FINDINGS if any(one.errors for one in checked.answers) else CLEAN
+    return FINDINGS if any(result.errors for result in checked.answers) else CLEAN
 
 
 def _contours(paths: list[Path], asked: Asked) -> int:
-    """Two programs by their contours: 0 if they describe the same, 1 if not."""
+    """Compare two programs by their contours; return 0 if they describe the same, 1 if not."""
     if len(paths) != 2:
         raise Unusable("--contour compares two files.")
     first, second = (bytes_of(path) for path in paths)
-    same, told = same_contours(first, second, asked)
-    print(*told, sep="\n")
+    same, report = same_contours(first, second, asked)
+    print(*report, sep="\n")
     return CLEAN if same else FINDINGS
 
 
 def _as_json(answers: Iterator[_Checked]) -> int:
-    """One shape for any number of files and controls; `check-json.md` describes it."""
+    """Print JSON of result shape for any number of files and controls; `check-json.md` describes it."""
     status, results = CLEAN, list[dict[str, object]]()
     for checked in answers:
-        status = max(status, _told(checked))
+        status = max(status, _status_of(checked))
         if checked.unusable:
             results.append(unreadable(str(checked.path), checked.unusable))
-        results += [{"file": str(checked.path), **one.json()} for one in checked.answers]
+        results += [{"file": str(checked.path), **result.json()} for result in checked.answers]
     json.dump({"version": JSON_VERSION, "results": results}, sys.stdout)
     print()
     return status
 
 
 def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
-    """Everything about one program, or the table of all controls."""
+    """Print everything about one program, or the table of all controls."""
     status = CLEAN
     for checked in answers:
-        status = max(status, _told(checked))
+        status = max(status, _status_of(checked))
         if asked.control == "all" and checked.answers:
             _print_table(checked.answers)
         elif checked.answers:
@@ -214,38 +214,38 @@ def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
 
 
 def _print_table(answers: tuple[Answer, ...]) -> None:
-    width = max(len(one.name) for one in answers)
-    outcome = max(len(one.outcome_and_warnings) for one in answers)
-    for one in answers:
-        print(f"{one.name:<{width}}  {one.outcome_and_warnings:<{outcome}}  {one.parts}".rstrip())
+    width = max(len(result.name) for result in answers)
+    outcome = max(len(result.outcome_and_warnings) for result in answers)
+    for result in answers:
+        print(f"{result.name:<{width}}  {result.outcome_and_warnings:<{outcome}}  {result.parts}".rstrip())
     for reason in reasons(answers):
         print(reason)
 
 
 def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:
-    """How the tools are given for whose diameter a control stops, and what the program's comments say of them."""
-    missing = sorted({one.missing for one in answers if one.missing is not None}, key=str)
+    """Print how to give the tool diameters that controls miss, and what the program's comments say of them."""
+    missing = sorted({result.missing for result in answers if result.missing is not None}, key=str)
     if missing:
-        told = " and ".join(map(str, missing))
+        names = " and ".join(map(str, missing))
         size = "10mm" if answers[0].unit is Unit.MM else "0.5in"
         sizes = " ".join(f"--tool {quote(str(tool))}={size}" for tool in missing)
         table = ", or --tools TABLE" if all(isinstance(tool, int) for tool in missing) else ""
-        print(f"No diameter of tool {told} is known: add {sizes} with the real diameter{table}.")
+        print(f"No diameter of tool {names} is known: add {sizes} with the real diameter{table}.")
     for tool in missing:
-        if (said := commented_size(program, tool)) is not None:
-            print(f"The comment in line {said.line} says diameter {said.diameter} for tool {tool}.")
+        if (comment := commented_size(program, tool)) is not None:
+            print(f"The comment in line {comment.line} says diameter {comment.diameter} for tool {tool}.")
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:
-    """One line for each file and control, and the sum of them."""
+    """Print result line for each file and control, and then the totals."""
     status, counts, warned = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}, 0
     for checked in answers:
-        found = _told(checked)
-        status = max(status, found)
-        counts[found] += 1
-        for one in checked.answers:
-            print(f"{printable_path(checked.path)}: {one.name}: {one.outcome_and_warnings}", flush=True)
-        warned += found == CLEAN and any(one.warnings for one in checked.answers)
+        file_status = _status_of(checked)
+        status = max(status, file_status)
+        counts[file_status] += 1
+        for result in checked.answers:
+            print(f"{printable_path(checked.path)}: {result.name}: {result.outcome_and_warnings}", flush=True)
+        warned += file_status == CLEAN and any(result.warnings for result in checked.answers)
     print(f"{sum(counts.values())} files: {counts[CLEAN] - warned} clean, {warned} with warnings, ", end="")
     print(f"{counts[FINDINGS]} with errors, {counts[UNUSABLE]} not readable.")
     return status

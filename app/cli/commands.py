@@ -1,4 +1,4 @@
-"""The commands that need no screen; each takes parsed arguments and returns the exit status."""
+"""This module holds commands without a screen; each takes parsed arguments and returns the exit status."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from core.pipeline.derived import Derived, DerivedBlock
 
 DASH: Final = "-"
-"""In place of a file: standard input, or standard output."""
+"""Means standard input or standard output in place of a file."""
 STDIN: Final = "standard input"
 OTHER_PICTURES: Final = frozenset(
     (".bmp", ".dwg", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
 )
-"""Endings of pictures that a drawing is not written as: who opens the file would be told that it is broken."""
+"""Suffixes of picture formats that plot does not write: a viewer would call such a file broken."""
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
@@ -49,7 +49,7 @@ def _program(path: Path) -> Program:
 
 
 def _name(path: Path) -> str:
-    """What a program is called in what is made of it."""
+    """Return the name of the program for its output."""
     return STDIN if str(path) == DASH else path.stem
 
 
@@ -68,18 +68,18 @@ def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
 
 
 def _status(derived: Derived, number: int | None) -> int:
-    return FINDINGS if any(found.errors for found in _chosen(derived, number)) else CLEAN
+    return FINDINGS if any(block.errors for block in _chosen(derived, number)) else CLEAN
 
 
 def _report(derived: Derived, number: int | None) -> None:
-    for found in _chosen(derived, number):
-        for finding in found.findings:
+    for block in _chosen(derived, number):
+        for finding in block.findings:
             where = f", {segment_name(finding.segment)}" if finding.segment else ""
-            say(f"block {found.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
+            say(f"block {block.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
 
 
 def path(options: argparse.Namespace) -> int:
-    """`cutcomp path`: the center path of every block."""
+    """Run `cutcomp path`, which prints the center path of every block."""
     from core.pipeline.command_output import path_document, path_listing
 
     derived = _derived(options.file, options.block, options.lookahead)
@@ -92,35 +92,35 @@ def path(options: argparse.Namespace) -> int:
 
 
 def lookahead(options: argparse.Namespace) -> int:
-    """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
+    """Run `cutcomp lookahead`, which prints the result of every value, and what the contour needs."""
     from core.pipeline.command_output import table_document, table_listing
     from core.pipeline.derive import look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
     chosen = _chosen(derived, options.block)
-    tables = [(found, _advised(found, look_ahead_table(found, derived.program), derived.program)) for found in chosen]
+    tables = [(block, _annotated(block, look_ahead_table(block, derived.program), derived.program)) for block in chosen]
     if options.json:
-        blocks = [table_document(found, table, unit) for found, table in tables]
+        blocks = [table_document(block, table, unit) for block, table in tables]
         text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
     else:
-        text = "\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables)
+        text = "\n\n".join("\n".join(table_listing(block, table, unit)) for block, table in tables)
     _deliver(f"{text}\n", None)
     if not options.json:
         _report(derived, options.block)
     return _status(derived, options.block)
 
 
-def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
-    """The table with what the contour needs as its notes."""
+def _annotated(block: DerivedBlock, table: Table | None, program: Program) -> Table | None:
+    """Return the table with what the contour needs as its notes."""
     from core.pipeline.derive import advice_for_block
 
-    told = None if table is None else advice_for_block(found, program, table)
-    return table if table is None or told is None else replace(table, notes=told.sentences)
+    advice = None if table is None else advice_for_block(block, program, table)
+    return table if table is None or advice is None else replace(table, notes=advice.sentences)
 
 
 def post(options: argparse.Namespace) -> int:
-    """`cutcomp post`: NC text, or the reasons why there is none."""
+    """Run `cutcomp post`, which writes the NC text or says why there is none."""
     from app.session.posting import refusals
     from core.output.nc import Posted
     from core.pipeline.post import post_center_path, post_control_program
@@ -136,7 +136,7 @@ def post(options: argparse.Namespace) -> int:
         say(f"{question.severity}: {sentence(question, derived.program.unit)}")
     if not isinstance(result, Posted):
         reasons, remedies = refusals(derived, result)
-        say(f"nothing was posted. {' '.join((*reasons, *remedies))}{_words(result, options)}")
+        say(f"nothing was posted. {' '.join((*reasons, *remedies))}{_override_hint(result, options)}")
         return FINDINGS
     if options.override is not None and not result.overridden:
         say("--override was not needed: nothing stood against posting.")
@@ -146,18 +146,18 @@ def post(options: argparse.Namespace) -> int:
     return _status(derived, None)
 
 
-def _words(result: Refusal, options: argparse.Namespace) -> str:
-    """The words that would have it posted all the same, where words can."""
+def _override_hint(result: Refusal, options: argparse.Namespace) -> str:
+    """Return the words that override the refusal; empty if it cannot be overridden."""
     from core.output.objections import OVERRIDABLE, OVERRIDE
 
-    if options.control is not None or not all(one.code in OVERRIDABLE for one in result.findings):
+    if options.control is not None or not all(finding.code in OVERRIDABLE for finding in result.findings):
         return ""
     wrong = "" if options.override is None else f" {options.override!r} are not the words."
     return f"{wrong} To post in spite of it: --override '{OVERRIDE}'"
 
 
 def _control(options: argparse.Namespace) -> str | None:
-    """The full name of the control that is asked for, None for the path of the tool's center."""
+    """Return the full name of the requested control; None for the path of the tool's center."""
     if options.control is None:
         return None
     if options.override is not None:
@@ -168,7 +168,7 @@ def _control(options: argparse.Namespace) -> str | None:
 
 
 def plot(options: argparse.Namespace) -> int:
-    """`cutcomp plot`: the program as an SVG or a DXF drawing."""
+    """Run `cutcomp plot`, which writes the program as an SVG or DXF drawing."""
     from core.pipeline.plot import dxf_of, svg_of
 
     if options.output is not None and options.output.suffix.lower() in OTHER_PICTURES:

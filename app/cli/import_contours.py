@@ -1,4 +1,4 @@
-"""`cutcomp import`: contours of a drawing, or of an NC program, as a program of MILL CONTOUR blocks."""
+"""`cutcomp import` turns contours of a drawing or an NC program into a program of MILL CONTOUR blocks."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from core.units import Unit, to_mm
 
 
 def import_contours(arguments: list[str]) -> int:
-    """Runs the command; returns 0, or 2 for what cannot be used."""
+    """Run the command; return 0, or 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
     try:
         _refuse_unused(options)
@@ -53,7 +53,7 @@ def import_contours(arguments: list[str]) -> int:
 
 
 def _refuse_unused(options: argparse.Namespace) -> None:
-    """Raises Unusable for an option that would do nothing here."""
+    """Raise Unusable for an option that would do nothing here."""
     if options.control is None:
         nc_only = [name for name in ("side", "diameter", "tools", "tool") if _given(getattr(options, name))]
         if nc_only:
@@ -72,7 +72,7 @@ def _refuse_unused(options: argparse.Namespace) -> None:
 
 
 def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
-    """The option that would have the drawing taken, where one would."""
+    """Return the option that would get the drawing accepted; empty if none would."""
     if error.code == "NOT_FLAT":
         return " Name the layers to take with --layer."
     if error.code == "NOT_DXF":
@@ -81,7 +81,7 @@ def _remedy(error: DrawingError, options: argparse.Namespace) -> str:
 
 
 def _length(text: str) -> float:
-    """A length of an option, in the unit of the drawing or the program."""
+    """Return the length that an option gives, in the unit of the drawing or the program."""
     try:
         length = float(text)
     except ValueError:
@@ -143,7 +143,7 @@ def _print_list(listed: ContourList) -> None:
 
 
 def _numbers(chain: str | None, count: int, what: str, show: Callable[[], None]) -> set[int]:
-    """The numbers that --chain names; where it is needed and not typed, they are shown and asked for."""
+    """Return the numbers that --chain names; if it is missing but needed, show the list and raise Unusable."""
     if chain is None and count > 1:
         show()
         raise Unusable(f"The {what} has {count} chains: add --chain N, --chain 1,2 or --chain all.")
@@ -157,7 +157,7 @@ def _numbers(chain: str | None, count: int, what: str, show: Callable[[], None])
 
 
 def _changed(contour: Contour, options: argparse.Namespace, unit: Unit) -> Contour:
-    """The contour as --fit, --start and --reverse want it."""
+    """Return the contour changed as --fit, --start and --reverse say."""
     if options.fit:
         contour = fitted_contour(contour, to_mm(options.fit, unit))
     if options.start is not None:
@@ -178,20 +178,20 @@ def _point(text: str, unit: Unit) -> tuple[float, float]:
 
 def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Contour, ...]) -> None:
     unit = listed.unit
-    program, made = with_contours(empty_program(unit), contours)
+    program, imported = with_contours(empty_program(unit), contours)
     _write_program(options, program, comment(options.file.name, contours))
     for sentence in sentences(listed, unit):
         say(sentence)
-    for block, contour in zip(made, contours, strict=True):
-        way = f", {contour.turn.name}" if contour.closed else ""
+    for block, contour in zip(imported, contours, strict=True):
+        turn = f", {contour.turn.name}" if contour.closed else ""
         segments = counted(len(block.block.segments), "segment")
-        say(f"chain {contour.number}: {segments} from {place(contour.start, unit)}{way}.")
+        say(f"chain {contour.number}: {segments} from {place(contour.start, unit)}{turn}.")
         for note in block.notes:
             say(note)
 
 
 def _write_program(options: argparse.Namespace, program: Program, remark: str) -> None:
-    """The program's file with where it comes from, behind the line that says how it ends."""
+    """Write the program, with a comment on its source after the first line."""
     first, _, rest = dumps(program).partition("\n")
     text = f"{first}\n{remark}\n{rest}"
     if options.output is None:
@@ -203,7 +203,7 @@ def _write_program(options: argparse.Namespace, program: Program, remark: str) -
 
 
 def import_nc(options: argparse.Namespace) -> None:
-    """`cutcomp import FILE.nc --control NAME`: the contours of an NC program."""
+    """Run `cutcomp import FILE.nc --control NAME`, which imports the contours of an NC program."""
     units = {"in": Unit.IN, "mm": Unit.MM}
     if options.units and options.units not in units:
         raise Unusable("--units: an NC program is in inches or in millimeters.")
@@ -220,21 +220,21 @@ def import_nc(options: argparse.Namespace) -> None:
     wanted = _numbers(options.chain, len(read.contours), "program", lambda: print(rows))
     contours = tuple(contour for number, contour in enumerate(read.contours, 1) if number in wanted)
     chosen = replace(read, contours=contours)
-    program, made = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
+    program, imported = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
     _write_program(options, program, comment(options.file.name, ()))
-    for number, block in enumerate(made, 1):
+    for number, block in enumerate(imported, 1):
         say(f"chain {number}: {len(block.block.segments)} segments.")
         for note in (*chosen.notes, *block.notes):
             say(note)
 
 
 def _given(value: object) -> bool:
-    """Whether an option was typed; 0 is a value."""
+    """True if an option was typed; 0 is a value."""
     return value is not None and value is not False and value != []
 
 
 def _center(options: argparse.Namespace) -> CenterPathTool | None:
-    """What --side and --diameter say of a program of the tool's center."""
+    """Return the tool that --side and --diameter give for a center path; None without --side."""
     if options.side is None:
         return None
     if options.side != "on" and not options.diameter:
@@ -244,7 +244,7 @@ def _center(options: argparse.Namespace) -> CenterPathTool | None:
 
 
 def _nc_row(number: int, contour: NcContour, unit: Unit) -> str:
-    """A contour of an NC program as a line of the list."""
+    """Return a contour of an NC program as a line of the list."""
     first, last = contour.cuts[0].line, contour.cuts[-1].line
     kind = "closed" if contour.closed else "open"
     tool = "" if contour.tool is None else f"  tool {contour.tool}"

@@ -1,4 +1,4 @@
-"""The server of `cutcomp serve`: the screens in a browser.  The packages it stands on come with the extra `web`."""
+"""This module is the server of `cutcomp serve`; the packages that it needs come with the extra `web`."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ from app.cli.web import adapted, address, command, knows, welcome
 from app.cli.web_children import Service
 
 SESSIONS: Final = 8
-"""Pages at a time; each is a process of its own."""
+"""The most pages at a time; each is a process of its own."""
 FULL: Final = f"{SESSIONS} pages are open, and there is room for no more. Close one, then load this page again."
 FULL_SHOWN: Final = 600.0
-"""Seconds that this sentence stands in a page."""
+"""Seconds that a page shows this sentence."""
 LOOK: Final = 0.5
-"""Seconds between two looks whether a page is still there."""
+"""Seconds between two checks that a page is still there."""
 HEADERS: Final = {
     "X-Frame-Options": "DENY",
     "Content-Security-Policy": "default-src 'self' 'unsafe-inline' data:; frame-ancestors 'none'; base-uri 'none'",
     "Referrer-Policy": "no-referrer",
 }
-"""No page of another's around this one, nothing from elsewhere in it, its address told to nobody."""
+"""Keep the page out of other pages' frames, content from elsewhere out of it, and its address secret."""
 log = logging.getLogger("cutcomp.serve")
 
 
 def serve(file: Path | None, host: str, port: int) -> None:
-    """Serve until Ctrl+C; OSError where the address cannot be served."""
-    # the screens are found wherever the server was started, and nothing of that folder is taken for them
+    """Serve until Ctrl+C; raise OSError if the address cannot be served."""
+    # the screens are found from any current folder, and nothing in that folder is taken for them
     root = str(Path(__file__).parents[2])
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
     secret = secrets.token_urlsafe(24)
@@ -49,7 +49,7 @@ def serve(file: Path | None, host: str, port: int) -> None:
         server.app(),
         host=host,
         port=port,
-        # said once it listens; the log of every request would repeat the secret
+        # printed once it listens; a log of every request would repeat the secret
         print=lambda _: print(words, flush=True),
         access_log=None,
         shutdown_timeout=GRACE,
@@ -57,18 +57,18 @@ def serve(file: Path | None, host: str, port: int) -> None:
 
 
 class ScreenServer(Server):
-    """The screens on a file, behind a secret."""
+    """Serves the screens on a file, behind a secret."""
 
     def __init__(self, file: Path | None, host: str, port: int, secret: str) -> None:
         super().__init__(command(file), host, port, title="cutcomp", public_url=address(host, port))
         module: Any = textual_serve.server
-        # the package makes its programs of this class
+        # textual-serve runs the program of each page with this class
         module.AppService = Service
         self.secret = secret
         self.pages = Pages(super().handle_websocket)
 
     async def app(self) -> web.Application:
-        """Page, socket, downloads and static files below a path that only the printed address names."""
+        """Return page, socket, downloads and static files below a path that only the printed address names."""
         outer = web.Application(middlewares=[self._guarded()])
         outer.on_response_prepare.append(_add_headers)
         outer.add_subapp(f"/{self.secret}", await self._make_app())
@@ -84,14 +84,14 @@ class ScreenServer(Server):
         return guard
 
     async def on_startup(self, _: web.Application) -> None:
-        """Say nothing: the package's own greeting names an address without the secret."""
+        """Print nothing: textual-serve's own greeting names an address without the secret."""
 
     async def on_shutdown(self, _: web.Application) -> None:
         """End all pages."""
         await self.pages.end()
 
     async def handle_index(self, request: web.Request) -> Any:  # noqa: ANN401  # a template's values or its response
-        """The page, unless there is room for no more."""
+        """Return the page; refuse it if there is no more room."""
         if self.pages.full:
             raise web.HTTPServiceUnavailable(text=FULL)
         answer: Any = await super().handle_index(request)
@@ -99,7 +99,7 @@ class ScreenServer(Server):
         return answer
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:
-        """A page's connection; refused to pages of others."""
+        """Serve a page's connection; refuse it to pages from elsewhere."""
         headers = request.headers
         if not welcome(headers.get("Host", ""), headers.get("Origin", ""), self.host, self.port):
             raise web.HTTPForbidden
@@ -111,7 +111,7 @@ async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
 
 
 class Pages:
-    """The pages that are open: at most SESSIONS at a time, each logged with its address, none behind its connection."""
+    """The open pages: at most SESSIONS at a time, each logged with its address, none outliving its connection."""
 
     def __init__(self, handle: Callable[[web.Request], Awaitable[web.WebSocketResponse]]) -> None:
         self._handle = handle
@@ -120,21 +120,21 @@ class Pages:
 
     @property
     def full(self) -> bool:
-        """Whether there is room for no more."""
+        """True if there is no more room."""
         return len(self._open) >= SESSIONS
 
     async def connect(self, request: web.Request) -> web.WebSocketResponse:
-        """A page's connection, from its beginning to its end."""
+        """Serve a page's connection from its beginning to its end."""
         full = self.full
         log.log(logging.WARNING if full else logging.INFO, "%s: %s", "refused" if full else "connected", request.remote)
         pages = self._refused if full else self._open
-        page = asyncio.ensure_future(_last_words(request) if full else self._handle(request))
+        page = asyncio.ensure_future(_refuse_in_page(request) if full else self._handle(request))
         pages.add(page)
         try:
             while not page.done():
                 await asyncio.wait({page}, timeout=LOOK)
                 if request.transport is None:
-                    # whatever it waits for: nobody is there any more
+                    # the connection is gone, whatever the page waits for
                     page.cancel()
             return await page
         finally:
@@ -143,23 +143,23 @@ class Pages:
             log.info("closed: %s", request.remote)
 
     async def end(self) -> None:
-        """End all of them, and wait until they have."""
+        """End all pages, and wait until they have ended."""
         for patience in (GRACE + 0.2, 0.3):
             pages = self._open | self._refused
             for page in pages:
-                # the second time, what waits for a browser's good-bye
+                # the second time, this ends the wait for the browser to close the connection
                 page.cancel()
             if pages:
                 await asyncio.wait(pages, timeout=patience)
 
 
-async def _last_words(request: web.Request) -> web.WebSocketResponse:
+async def _refuse_in_page(request: web.Request) -> web.WebSocketResponse:
     """Say in the page that there is no room for it; a refused connection would only look broken."""
     socket = web.WebSocketResponse()
     await socket.prepare(request)
     await socket.send_bytes(f"\x1b[2J\x1b[H{FULL}\r\n".encode())
     with suppress(TimeoutError):
-        # until the page is closed: at the end of its connection it would cover the sentence
+        # until the page is closed: when the connection ends, the page covers the sentence
         await asyncio.wait_for(socket.receive(), FULL_SHOWN)
     await socket.close()
     return socket
