@@ -1,4 +1,4 @@
-"""The arguments of the command line, but for those that `cutcomp check`, `proof` and the shop's commands read."""
+"""This module has the parsers of the screens and of the commands in `HELP`; other commands have their own."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC 
 
 
 def screen_parser() -> argparse.ArgumentParser:
-    """Of the screens."""
+    """Return the parser for the screens."""
     parser = argparse.ArgumentParser(
         "cutcomp",
         description=DESCRIPTION,
@@ -46,7 +46,7 @@ def screen_parser() -> argparse.ArgumentParser:
 
 
 def command_parser(name: str) -> argparse.ArgumentParser:
-    """Of one of the commands without a screen."""
+    """Return the parser for one of the commands in `HELP`."""
     parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
     parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML), - for standard input")
     if name in ("path", "lookahead"):
@@ -68,6 +68,6 @@ def command_parser(name: str) -> argparse.ArgumentParser:
 
 
 def example_names() -> tuple[str, ...]:
-    """Names of the example parts that ship with the program."""
-    found = (entry.name for entry in files("app").joinpath("examples").iterdir())
-    return tuple(sorted(name.removesuffix(".toml") for name in found if name.endswith(".toml")))
+    """Return the names of the example parts that ship with the program."""
+    names = (entry.name for entry in files("app").joinpath("examples").iterdir())
+    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))

@@ -1,4 +1,4 @@
-"""The options that `cutcomp check` and `cutcomp proof` have in common: the control, the tools, the unit."""
+"""This module adds and reads options that several commands share: the control, the tools, the unit."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from core.units import Kind, Unit, Unreadable, parse
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """The tools and the unit."""
+    """Add the options for the tools and the unit."""
     add_tool_options(parser)
     parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
 
 
 def add_tool_options(parser: argparse.ArgumentParser) -> None:
-    """The tools."""
+    """Add the options for the tools."""
     parser.add_argument(
         "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
     )
@@ -37,23 +37,23 @@ def add_tool_options(parser: argparse.ArgumentParser) -> None:
 
 
 def control_of(text: str) -> str:
-    """The full name of a control; Unusable where there is none of that name."""
+    """Return the full name of a control; raise Unusable if there is none of that name."""
     # this loads every control; a drawing needs none
     from core.controls.registry import UnknownControl, resolve
 
-    found = resolve(text)
-    if isinstance(found, UnknownControl):
-        raise Unusable(f"--control {quoted(text)}: {found.text}")
-    return found
+    control = resolve(text)
+    if isinstance(control, UnknownControl):
+        raise Unusable(f"--control {quoted(text)}: {control.text}")
+    return control
 
 
 def unit_of(options: argparse.Namespace) -> Unit | None:
-    """The unit that --units names."""
+    """Return the unit that --units names; None without it."""
     return Unit(options.units) if options.units else None
 
 
 def tools_of(options: argparse.Namespace) -> ToolTable:
-    """The tools that --tools and --tool name; Unusable where they cannot be read."""
+    """Return the tools that --tools and --tool name; raise Unusable if they cannot be read."""
     table = ToolTable()
     if options.tools is not None:
         table, findings = read_table(bytes_of(options.tools))
@@ -67,7 +67,7 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
 
 
 def _tool(text: str) -> CutterTool:
-    """A tool written N=DIAMETER or NAME=DIAMETER, the diameter as in a field of a form: `1=.5`, `2=6mm`, `3=1/2`."""
+    """Return the tool in N=DIAMETER or NAME=DIAMETER, the diameter as in a form's field: `1=.5`, `2=6mm`, `3=1/2`."""
     name, _, diameter = text.rpartition("=")
     inches, millimeters = (parse(diameter, Kind.LENGTH, unit) for unit in (Unit.IN, Unit.MM))
     if not name.strip() or isinstance(inches, Unreadable) or isinstance(millimeters, Unreadable):
@@ -75,14 +75,14 @@ def _tool(text: str) -> CutterTool:
         raise Unusable(f"--tool {quoted(text)}: write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2.{reason}")
     tool = tool_id(name.strip())
     if inches == millimeters:
-        # no unit is written: it is the program's
+        # no unit is written, so it is in the program's
         return CutterTool(tool, inches)
     metric = "mm" in diameter.lower()
     return CutterTool(tool, millimeters if metric else inches, unit=Unit.MM if metric else Unit.IN)
 
 
 def bytes_of(path: Path) -> bytes:
-    """What a file holds; Unusable where it cannot be read."""
+    """Return the bytes of a file; raise Unusable if it cannot be read."""
     try:
         return read_file(path, MAX_NC_BYTES)[0]
     except (OSError, ValueError) as error:

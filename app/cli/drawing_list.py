@@ -1,4 +1,4 @@
-"""The work of `cutcomp import` on a drawing, done in a process of its own: it loads no control and no solver."""
+"""This module reads a drawing for `cutcomp import` in a process of its own; it loads no control and no solver."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.units import from_mm, to_mm
 
 
 def list_drawing(data: bytes, options: argparse.Namespace, *, progress: Progress) -> ContourList:
-    """The drawing and its contours; DrawingError UNITS or OPTION where the arguments do not fit the drawing."""
+    """Return the drawing and its contours; raise DrawingError UNITS or OPTION if the arguments do not fit them."""
     drawing = read_dxf(data, options.file.name, damaged=options.damaged, progress=progress)
     asked = DrawingUnit(options.units.upper()) if options.units else None
     unit = asked or drawing.unit
@@ -26,7 +26,7 @@ def list_drawing(data: bytes, options: argparse.Namespace, *, progress: Progress
 
 
 def _import_options(options: argparse.Namespace, drawing: Drawing, unit: DrawingUnit) -> ImportOptions:
-    """The options of the arguments, each checked."""
+    """Return the checked options of the import; raise DrawingError OPTION if one does not fit the drawing."""
     program = unit.program_unit
     most = from_mm(MAX_TOLERANCE[program], program)
     for name, value in (("--tolerance", options.tolerance), ("--fit", options.fit)):

@@ -1,7 +1,7 @@
-"""A program that a server has started ends when that server ends, in whatever way.
+"""This module ends a program that a server has started when that server ends, in whatever way.
 
-The server holds one end of a pipe and never writes.  The system closes that end with the server, and the program,
-which waits for this in a thread from its first line on, sees the end of the pipe.
+The server holds one end of a pipe and never writes.  The system closes that end with the server.  The program waits
+for this in a thread from its first line on.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from time import sleep
 from typing import Final
 
 VARIABLE: Final = "CUTCOMP_LIFELINE"
-"""Holds the number of the pipe's end."""
+"""The environment variable with the number of the pipe's end."""
 GRACE: Final = 1.0
-"""Seconds a program has to end in order; what was accepted is on the disk already."""
+"""Seconds that a program has to end in order; all accepted work is on the disk already."""
 
 
 def watch() -> None:
-    """Watch the pipe that the environment names, if it names one."""
+    """Watch the pipe that the environment names, if any."""
     number = os.environ.pop(VARIABLE, "")
     if number.isdecimal():
         os.set_inheritable(int(number), False)

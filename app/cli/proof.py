@@ -1,4 +1,4 @@
-"""`cutcomp proof`: the screen NC PROOF on a file."""
+"""`cutcomp proof` opens the screen NC PROOF on a file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.cli.shell import Unusable, prepare, reported
 
 @reported
 def proof(arguments: list[str]) -> int:
-    """Run the command; returns the exit status."""
+    """Run the command; return the exit status."""
     from app.cli.control_options import control_of, tools_of, unit_of
     from app.documents.programs import is_nc
     from core.pipeline.checking import Asked

@@ -1,4 +1,4 @@
-"""The entry of the screens: opens the document, prepares the terminal's side of Textual, then runs the App."""
+"""This module starts the screens: it opens the document, prepares Textual for the terminal and runs the App."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def run(
     asked: Asked | None = None,
     options: TerminalOptions = NOTHING_ASKED,
 ) -> int:
-    """Show the screens on a program, an NC file, a drawing, an example or HOME; returns the exit status.
+    """Show the screens on a program, an NC file, a drawing, an example or HOME; return the exit status.
 
     `asked` holds the control, the tools and the unit of an NC file.
     """
@@ -58,12 +58,12 @@ def run(
 
 
 def in_browser() -> bool:
-    """Whether `cutcomp serve` has started this: a page then stands in for the terminal."""
+    """True if `cutcomp serve` has started this process: a page then takes the place of the terminal."""
     return bool(os.environ.get("TEXTUAL_DRIVER"))
 
 
 def begin(service: DocumentService, path: Path | None, example: str | None) -> Opened[Any] | Trouble:
-    """The document to begin with; StoreError when the file is none."""
+    """Return the document to begin with, or the trouble with it; raise StoreError if the file is not a program."""
     if example is not None:
         return service.example(example)
     if path is not None and path.suffix.lower() in NC_SUFFIXES and not path.exists():
@@ -74,7 +74,7 @@ def begin(service: DocumentService, path: Path | None, example: str | None) -> O
 def made(
     service: DocumentService, opened: Opened[Any], options: TerminalOptions, asked: Asked | None, *, home: bool
 ) -> CutcompApp:
-    """The App on a document, as the terminal and the settings of last time have it."""
+    """Return the App on a document, set up for the terminal and with the settings of last time."""
     from app.app import CutcompApp
     from app.file_actions import session_of
     from app.terminal import character_set, driver, key_sequences
@@ -114,7 +114,7 @@ def made(
 
 
 def guarded(service: DocumentService, app: CutcompApp, *, mouse: bool = False) -> int:
-    """Run the App to its end, wanted or not; what is not saved stays in the journals."""
+    """Run the App to its end, wanted or not; unsaved work stays in the journals."""
     from app.terminal.signals import Safety
 
     safety = Safety(lambda status: app.exit(status, return_code=status), lambda: app.disk.finish(service.stop))

@@ -1,4 +1,4 @@
-"""What all commands share: their names, their exit statuses, and how they speak.  Costs the screens nothing."""
+"""This module holds what all commands share: names, exit statuses and messages.  It is cheap to import."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ SHOP_HELP: Final = {
 }
 
 SWITCH_SECONDS: Final = 0.0005
-"""How long a thread calculates before another one that waits has its turn; a tenth of what is usual."""
+"""Seconds that a thread calculates before a waiting one gets its turn; a tenth of Python's default."""
 
 
 @dataclass(frozen=True, slots=True)
 class TerminalOptions:
-    """What the operator asks of the terminal: characters to draw with (empty: what it has), light paper, the mouse."""
+    """What the operator asks of the terminal: drawing characters (empty: what it has), light paper, the mouse."""
 
     characters: str = ""
     light: bool = False
@@ -46,7 +46,7 @@ class Unusable(Exception):
 
 
 def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
-    """The command, which says what cannot be used and returns the status of that."""
+    """Return the command changed to report Unusable as a message and return the status UNUSABLE."""
 
     @wraps(command)
     def run(asked: Asked) -> int:
@@ -63,11 +63,11 @@ NOTHING_ASKED: Final = TerminalOptions()
 
 
 def prepare() -> None:
-    """Settle what must be so before Textual is imported, or anything else that is large.
+    """Set what must be set before Textual or another large package is imported.
 
-    Without the first, F3 of some terminals is lost.  The imports make hundreds of thousands of objects that stay:
-    looking through them again and again costs a tenth of the start, so the App switches the collector on again.
-    A key waits no longer than `SWITCH_SECONDS` for what a thread is calculating, each time it has to.
+    Without the first setting, F3 is lost on some terminals.  The imports make hundreds of thousands of objects that
+    stay; collecting garbage among them costs a tenth of the start, so the App turns the collector on again later.
+    Each time a key has to wait for a calculating thread, it waits no longer than `SWITCH_SECONDS`.
     """
     os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
     gc.disable()
@@ -75,6 +75,6 @@ def prepare() -> None:
 
 
 def say(text: str) -> None:
-    """A message for the person at the keyboard."""
-    plain = "".join(one if one.isprintable() or one == "\n" else "?" for one in text)
+    """Print a message for the operator on standard error."""
+    plain = "".join(character if character.isprintable() or character == "\n" else "?" for character in text)
     print(f"cutcomp: {plain}", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""The commands of the shop: setup sheets, tool tables, and the screens in a browser."""
+"""This module holds the commands for the shop: setup sheets, tool tables, and the screens in a browser."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from core.program.tools import table_faults
 from core.units import Unit
 
 
-def shop(given: list[str]) -> int:
-    """Run one of these commands; returns the exit status."""
-    options = _parser(given[0]).parse_args(given[1:])
+def shop(arguments: list[str]) -> int:
+    """Run one of these commands; return the exit status."""
+    options = _parser(arguments[0]).parse_args(arguments[1:])
     try:
-        return {"sheet": sheet, "tools": tools, "serve": serve}[given[0]](options)
+        return {"sheet": sheet, "tools": tools, "serve": serve}[arguments[0]](options)
     except StoreError as error:
         say(str(error))
         return UNUSABLE
@@ -55,7 +55,7 @@ def _port(text: str) -> int:
 
 
 def sheet(options: argparse.Namespace) -> int:
-    """`cutcomp sheet`: the setup sheet; status 1 while it says DO NOT RUN."""
+    """Run `cutcomp sheet`, which writes the setup sheet; return 1 if the sheet says DO NOT RUN."""
     from app.session.posting import setup_sheet
     from core.output.sheet import NOT_READY
 
@@ -69,45 +69,45 @@ def sheet(options: argparse.Namespace) -> int:
 
 
 def tools(options: argparse.Namespace) -> int:
-    """`cutcomp tools`: the table of a program, after an import that is whole or not at all."""
+    """Run `cutcomp tools`, which lists a program's tools; an import before that is complete or changes nothing."""
     if options.table is None:
-        return _listed(load(options.file))
+        return _print_tools(load(options.file))
     now, lock = times.now(), None
     with suppress(OSError):
-        # where no lock can be written, the program cannot either, and says so
+        # if no lock can be written, neither can the program, and saving it says so
         lock = take(options.file, myself(now))
     if isinstance(lock, Owner):
         say(f"nothing was imported: {held_sentence(lock, now)} TOOL SETUP there imports a table, too.")
         return UNUSABLE
     try:
-        return _imported(options)
+        return _import_table(options)
     finally:
         if lock is not None:
             release(lock)
 
 
-def _imported(options: argparse.Namespace) -> int:
+def _import_table(options: argparse.Namespace) -> int:
     program = load(options.file)
     table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
     if table.errors:
         say(table_faults(str(options.table), table.errors))
         say("nothing was imported.")
         return UNUSABLE
-    for one in table.findings:
-        say(f"{options.table}, line {one.line}, column {one.column}: warning: {one.text}")
+    for finding in table.findings:
+        say(f"{options.table}, line {finding.line}, column {finding.column}: warning: {finding.text}")
     program = merged(program, table.tools)
     save(program, options.file)
-    return _listed(program)
+    return _print_tools(program)
 
 
-def _listed(program: Program) -> int:
+def _print_tools(program: Program) -> int:
     for tool in program.tools:
         print(tool_line(tool, program.unit))
     return CLEAN
 
 
 def serve(options: argparse.Namespace) -> int:
-    """`cutcomp serve`: until Ctrl+C."""
+    """Run `cutcomp serve` until Ctrl+C."""
     from app.cli import web
 
     if reason := web.refusal(options.host, allow_network=options.allow_network):

@@ -1,7 +1,7 @@
-"""What `cutcomp serve` serves, and to whom.  There is no login, so the address holds a secret and is of this machine.
+"""This module decides what `cutcomp serve` serves, and to whom: without a login, it takes a local, secret address.
 
-A page of somebody else's, open in the same browser, must not reach the screens either: a connection whose Origin or
-Host is not the served address is refused.
+A page from elsewhere, open in the same browser, must not reach the screens either: a connection whose Origin or Host
+is not the served address is refused.
 """
 
 from __future__ import annotations
@@ -29,23 +29,23 @@ const look = setInterval(() => {
   if (typed && document.activeElement === typed) clearInterval(look);
 }, 100);
 </script>"""
-"""Without it the first key needs a click or Tab: the terminal in the page does not take the keys by itself."""
+"""Focuses the terminal in the page, which does not take keys by itself until a click or Tab."""
 
 
 ELSEWHERE: Final = re.compile(r"<link[^>]*https?://fonts\.[^>]*>")
-"""A type from another machine: without the internet the page would wait for it."""
+"""A link to a font on another machine: without the internet the page would wait for it."""
 _NAME: Final = re.compile(r"[\w.:\[\]-]+", re.ASCII)
 
 
 def refusal(host: str, *, allow_network: bool) -> str:
-    """Why an address is not served, empty for one that is."""
+    """Return why an address is not served; empty if it is."""
     if allow_network or is_local(host):
         return ""
     return f"{host} can be reached by others. {NO_LOGIN} Say --allow-network if that is what you want."
 
 
 def is_local(host: str) -> bool:
-    """Whether an address can be reached from this machine only."""
+    """True if an address can be reached from this machine only."""
     try:
         return ip_address(host).is_loopback
     except ValueError:
@@ -53,23 +53,23 @@ def is_local(host: str) -> bool:
 
 
 def command(file: Path | None) -> str:
-    """What a browser's connection starts; no word of it can be more to a shell than a word."""
+    """Return the command that a browser's connection starts, quoted so that a shell takes each word literally."""
     words = [sys.executable, "-P", "-m", "app"]
     return shlex.join(words if file is None else [*words, "--", str(file.absolute())])
 
 
 def knows(path: str, secret: str) -> bool:
-    """Whether a request's path begins with the secret; compared in constant time."""
+    """True if a request's path begins with the secret; the comparison takes constant time."""
     return hmac.compare_digest(path.lstrip("/").partition("/")[0].encode(), secret.encode())
 
 
 def address(host: str, port: int) -> str:
-    """What is typed into the browser."""
+    """Return the URL of the server, without the secret."""
     return f"http://{f'[{host}]' if ':' in host else host}:{port}"
 
 
 def why_not_served(error: OSError | UnicodeError) -> str:
-    """Why an address cannot be listened on, and the remedy; `error` is what the system or the name's coding said."""
+    """Return why an address cannot be served, and the remedy; `error` is from the system or from encoding the name."""
     if isinstance(error, UnicodeError | socket.gaierror):
         return "no such machine is known. Check --host."
     if error.errno == errno.EADDRINUSE:
@@ -82,24 +82,24 @@ def why_not_served(error: OSError | UnicodeError) -> str:
 
 
 def adapted(page: str, served: str, asked: str) -> str:
-    """The page as it works here: the address it was asked for under, no type from another machine, keys at once.
+    """Return the page with the address that the browser asked for, no fonts from elsewhere, and the focus set.
 
-    The server writes the address it listens on into the page; a browser that was told another name of the same
-    machine would connect from one to the other and be refused, and 0.0.0.0 is nobody's address.
+    The server writes the address it listens on into the page; a browser that knows the machine by another name would
+    connect from one address to the other and be refused, and 0.0.0.0 is no machine's address.
     """
-    here = urlsplit(served).netloc
+    listening = urlsplit(served).netloc
     page = ELSEWHERE.sub("", page)
     if _NAME.fullmatch(asked):
-        page = page.replace(f"//{here}/", f"//{asked}/")
+        page = page.replace(f"//{listening}/", f"//{asked}/")
     return page.replace("</body>", f"{FOCUS}</body>")
 
 
 def welcome(asked: str, origin: str, host: str, port: int) -> bool:
-    """Whether a connection comes from the page that was served: its Host and Origin headers are the same address.
+    """True if a connection comes from the served page: its Host and Origin headers have the same address.
 
-    On this machine's own address the name must be one of this machine's too, whatever a name server says.
+    If the served address is local, the name must be a local one too, whatever a name server says.
     """
     if urlsplit(origin).netloc != asked or not asked:
         return False
-    name, at = urlsplit(f"//{asked}").hostname, urlsplit(f"//{asked}").port or 80
-    return at == port and name is not None and (not is_local(host) or name in LOCAL)
+    name, asked_port = urlsplit(f"//{asked}").hostname, urlsplit(f"//{asked}").port or 80
+    return asked_port == port and name is not None and (not is_local(host) or name in LOCAL)

@@ -1,4 +1,4 @@
-"""The programs a served page starts end with their page and with the server, however it ends, and pile nothing up."""
+"""This module keeps a served page's program from outliving the page or the server, and from piling up data."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from app.cli import lifeline
 from app.cli.lifeline import GRACE
 
 UNREAD: Final = 15.0
-"""Seconds a page may leave what is sent to it unread; its program ends then."""
+"""Seconds that a page or its program may leave unread what it is sent; then the program is killed."""
 LARGEST_COMPLAINT: Final = 16_384
-"""Bytes of what a program writes on its standard error that are logged; the rest is read and dropped."""
+"""The most bytes of a program's standard error that are logged; the rest is read and dropped."""
 WIDTHS: Final = (20, 500)
 HEIGHTS: Final = (5, 200)
-"""Cells of a page.  One that has not measured its type yet asks for any number, and a program that paints 100,000
-lines takes gigabytes."""
+"""The fewest and the most cells of a page.  A page that has not measured its font yet asks for any number, and a
+program that paints 100,000 lines takes gigabytes."""
 log = logging.getLogger("cutcomp.serve")
 
 
 def cells(width: int, height: int) -> tuple[int, int]:
-    """The size a page asks for, within what a screen can be."""
+    """Return the size that a page asks for, limited to what a screen can be."""
     return max(WIDTHS[0], min(width, WIDTHS[1])), max(HEIGHTS[0], min(height, HEIGHTS[1]))
 
 
 async def complaint(errors: asyncio.StreamReader) -> None:
-    """Read what a program writes on its standard error to its end; log the beginning."""
+    """Read a program's standard error to its end; log the beginning."""
     text = b""
     while data := await errors.read(4096):
         text = (text + data)[:LARGEST_COMPLAINT]
@@ -41,28 +41,28 @@ async def complaint(errors: asyncio.StreamReader) -> None:
 
 
 class Service(AppService):
-    """textual-serve's service of one page, whose child cannot outlive it."""
+    """textual-serve's service of one page, with a child process that cannot outlive it."""
 
     lifeline: int | None = None
     complaint: asyncio.Task[None] | None = None
 
     async def start(self, width: int, height: int) -> None:
-        """Start the program, on a screen of the size the page asks for."""
+        """Start the program on a screen of the size that the page asks for."""
         await super().start(*cells(width, height))
 
     async def set_terminal_size(self, width: int, height: int) -> None:
-        """Tell the program the size the page has now."""
+        """Tell the program the page's new size."""
         await super().set_terminal_size(*cells(int(width), int(height)))
 
     async def send_bytes(self, data: bytes) -> bool:
-        """Keys to the program, which ends when it takes none; whether they were sent."""
-        return await self._taken(super().send_bytes(data))
+        """Send keys to the program; return True if they were sent.  A program that does not take them is killed."""
+        return await self._send_or_kill(super().send_bytes(data))
 
     async def send_meta(self, data: dict[str, str | int | bool | None]) -> bool:
-        """As `send_bytes`, with what is no key."""
-        return await self._taken(super().send_meta(data))
+        """Send anything but keys, in the same way as `send_bytes`."""
+        return await self._send_or_kill(super().send_meta(data))
 
-    async def _taken(self, sending: Coroutine[None, None, bool]) -> bool:
+    async def _send_or_kill(self, sending: Coroutine[None, None, bool]) -> bool:
         try:
             return await asyncio.wait_for(sending, UNREAD)
         except TimeoutError:
@@ -72,28 +72,28 @@ class Service(AppService):
 
     async def _open_app_process(self, width: int = 80, height: int = 24) -> asyncio.subprocess.Process:
         pipe = asyncio.subprocess.PIPE
-        held, self.lifeline = os.pipe()
+        read_end, self.lifeline = os.pipe()
         try:
             self._process = process = await asyncio.create_subprocess_exec(
                 *shlex.split(self.command),
                 stdin=pipe,
                 stdout=pipe,
                 stderr=pipe,
-                env=self._build_environment(width=width, height=height) | {lifeline.VARIABLE: str(held)},
-                pass_fds=(held,),
+                env=self._build_environment(width=width, height=height) | {lifeline.VARIABLE: str(read_end)},
+                pass_fds=(read_end,),
             )
         finally:
-            os.close(held)
+            os.close(read_end)
         self._stdin = process.stdin
         assert process.stderr is not None
         self.complaint = asyncio.create_task(complaint(process.stderr))
-        # the base class would keep all of it in memory
+        # the base class would keep all of that output in memory
         process.stderr = asyncio.StreamReader()
         process.stderr.feed_eof()
         return process
 
     async def on_data(self, payload: bytes) -> None:
-        """What the program has painted, to its page; the program ends when the page does not read it."""
+        """Send what the program has painted to its page; kill the program if the page does not read it."""
         try:
             await asyncio.wait_for(super().on_data(payload), UNREAD)
         except TimeoutError:
@@ -107,7 +107,7 @@ class Service(AppService):
                 self._process.kill()
 
     async def stop(self) -> None:
-        """Ask the program to end; kill it after GRACE, as one whose output nobody reads cannot answer."""
+        """Ask the program to end; kill it after GRACE, since one whose output is not read cannot answer."""
         try:
             await asyncio.wait_for(super().stop(), GRACE)
         except TimeoutError:
@@ -118,7 +118,7 @@ class Service(AppService):
                 os.close(self.lifeline)
                 self.lifeline = None
             if self._process is not None and self._process.stdout is not None:
-                # asyncio counts a program as ended when all it has written is read
+                # asyncio counts a program as ended only when all its output has been read
                 await self._process.stdout.read()
                 await self._process.wait()
             if self.complaint is not None:
