@@ -188,7 +188,7 @@ def _contours(paths: list[Path], asked: Asked) -> int:
 
 
 def _as_json(answers: Iterator[_Checked]) -> int:
-    """Print JSON of result shape for any number of files and controls; `check-json.md` describes it."""
+    """Print JSON of one shape for any number of files and controls; `check-json.md` describes it."""
     status, results = CLEAN, list[dict[str, object]]()
     for checked in answers:
         status = max(status, _status_of(checked))
@@ -237,7 +237,7 @@ def _print_missing(answers: tuple[Answer, ...], program: list[str]) -> None:
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:
-    """Print result line for each file and control, and then the totals."""
+    """Print one line for each file and control, and then the totals."""
     status, counts, warned = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}, 0
     for checked in answers:
         file_status = _status_of(checked)

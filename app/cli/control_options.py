@@ -75,7 +75,7 @@ def _tool(text: str) -> CutterTool:
         raise Unusable(f"--tool {quoted(text)}: write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2.{reason}")
     tool = tool_id(name.strip())
     if inches == millimeters:
-        # no unit is written, so it is in the program's
+        # no unit is written, so the program's applies
         return CutterTool(tool, inches)
     metric = "mm" in diameter.lower()
     return CutterTool(tool, millimeters if metric else inches, unit=Unit.MM if metric else Unit.IN)

@@ -1,4 +1,4 @@
-"""This module decides what `cutcomp serve` serves, and to whom: without a login, it takes a local, secret address.
+"""This module decides what `cutcomp serve` serves, and to whom; with no login, the address is local and secret.
 
 A page from elsewhere, open in the same browser, must not reach the screens either: a connection whose Origin or Host
 is not the served address is refused.

@@ -10,7 +10,7 @@ from typing import Final
 COLORED: Final = re.compile(
     r"(?:xterm|screen|tmux|linux|putty|rxvt|vte|konsole|gnome|alacritty|foot|kitty)\b|.*colou?r"
 )
-"""Names of terminals with colors; they save the start some milliseconds for a look into the table."""
+"""Names of terminals with colors; for these the start skips the table, which costs some milliseconds."""
 BARE: Final = re.compile(r"vt[1-5]\d\d\b.*|.*-(?:m|mono)\b.*")
 """Names of terminals without colors, for use if the table does not know them."""
 OLD: Final = re.compile(r"vt[1-5]\d\d\b")

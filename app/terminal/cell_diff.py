@@ -193,7 +193,7 @@ def parsed(data: str, columns: int, rows: int) -> Picture | None:
 
 
 def single(text: str) -> bool:
-    """True if every character takes character cell."""
+    """True if every character takes one cell."""
     return text.isascii() or all(cell_len(character) == 1 for character in set(text))
 
 

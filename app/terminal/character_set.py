@@ -75,7 +75,7 @@ def _known(name: str) -> str:
 
 
 def lookalike(text: str) -> str:
-    """Return the text with each non-ASCII character replaced by character ASCII character."""
+    """Return the text with each non-ASCII character replaced by one ASCII character."""
     return "".join(character if character.isascii() else _letter(character) for character in text.translate(LOOKALIKES))
 
 

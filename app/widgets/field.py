@@ -109,7 +109,7 @@ class NumberField(LineInput):
         return self.value.strip() not in (self.resting.strip(), self.full.strip())
 
     def check_consume_key(self, key: str, character: str | None) -> bool:
-        """True if a key is typed: any printable one but ?, =, Space in a LISTED field, and a softkey digit."""
+        """True if a key is typed: any printable one except ?, =, Space in a LISTED field, and softkey digits."""
         if key in ("question_mark", "equals_sign") or (key == "space" and self.name in LISTED):
             return False
         if self.softkey_digits and key in tuple("12345678"):

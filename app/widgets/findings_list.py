@@ -1,4 +1,4 @@
-"""FindingsList lists the findings of a block, each with its title and full sentence; Enter goes to the place."""
+"""FindingsList lists the findings of a block, each with its title and full sentence; Enter goes to its place."""
 
 from __future__ import annotations
 

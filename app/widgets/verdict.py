@@ -263,7 +263,7 @@ def _row(texts: Iterable[tuple[str, str]]) -> Content:
 
 
 def first_step(block: DerivedBlock) -> str:
-    """Return what to do in a block without segments; empty if there is an error other than missing values."""
+    """Return what to do in a block without segments; empty if it has any, or an error other than missing values."""
     if block.block.segments or any(finding.code not in TO_TYPE for finding in block.errors):
         return ""
     if any(finding.code == "MISSING" for finding in block.errors):
