@@ -61,7 +61,8 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
             raise Unusable(table_faults(printable_path(options.tools), findings))
     named = [_tool(text) for text in options.tool]
     numbers = [tool.number for tool in named]
-    if twice := next((number for number in numbers if numbers.count(number) > 1), None):
+    twice = next((number for number in numbers if numbers.count(number) > 1), None)
+    if twice is not None:
         raise Unusable(f"--tool: tool {twice} has two diameters. Keep one.")
     return table.with_tools(ToolTable.of(*named))
 

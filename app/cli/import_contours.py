@@ -222,10 +222,12 @@ def import_nc(options: argparse.Namespace) -> None:
     chosen = replace(read, contours=contours)
     program, imported = nc_blocks(replace(empty_program(read.unit), tools=(), blocks=()), chosen)
     _write_program(options, program, comment(options.file.name, ()))
-    for number, block in enumerate(imported, 1):
-        say(f"chain {number}: {len(block.block.segments)} segments.")
-        for note in (*chosen.notes, *block.notes):
+    for number, block in zip(sorted(wanted), imported, strict=True):
+        say(f"chain {number}: {counted(len(block.block.segments), 'segment')}.")
+        for note in block.notes:
             say(note)
+    for note in chosen.notes:
+        say(note)
 
 
 def _given(value: object) -> bool:

@@ -99,7 +99,11 @@ def welcome(asked: str, origin: str, host: str, port: int) -> bool:
 
     If the served address is local, the name must be a local one too, whatever a name server says.
     """
-    if urlsplit(origin).netloc != asked or not asked:
+    try:
+        if urlsplit(origin).netloc != asked or not asked:
+            return False
+        name, asked_port = urlsplit(f"//{asked}").hostname, urlsplit(f"//{asked}").port or 80
+    except ValueError:
+        # an address that cannot be read
         return False
-    name, asked_port = urlsplit(f"//{asked}").hostname, urlsplit(f"//{asked}").port or 80
     return asked_port == port and name is not None and (not is_local(host) or name in LOCAL)

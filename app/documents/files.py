@@ -238,8 +238,9 @@ def _write(target: Path, data: bytes) -> str:
         finally:
             # some network folders report a full disk only here
             os.close(handle)
-        reason = reason or _put_in_place_of(temporary, target)
-        if reason and old is not None:
+        if old is None:
+            temporary.replace(target)
+        elif reason := reason or _put_in_place_of(temporary, target):
             _write_in_place(target, data, old)
             temporary.unlink()
     except BaseException:

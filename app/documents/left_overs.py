@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents import times
-from app.documents.files import NotAFileError, read_file
+from app.documents.files import MAX_NAME_BYTES, NotAFileError, read_file
 from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, read_journal
 from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
@@ -24,7 +24,7 @@ MAX_KEPT_COPIES: Final = 20
 """The most kept copies that are listed, the newest; the others stay in the folder."""
 UNNAMED: Final = "a program without a name"
 CUT_NAME: Final = 100
-"""The length in characters from which a file's name may be cut in the name of its journal."""
+"""The number of characters of a file's name that the name of a journal in the user's folder begins with."""
 KEPT_COPY_WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
 
 
@@ -278,9 +278,12 @@ def _may_be(path: Path, kind: Kind, folder: Path, state: Path) -> bool:
     name = _file_name(path)
     if name == UNNAMED:
         return kind is Kind.CONTOUR
-    if len(name) < CUT_NAME and name.lower().endswith(".toml") is (kind is Kind.NC):
+    # beside its file a name is cut within its bytes, perhaps by the three that a letter then lacks
+    adjacent = path.name.startswith(".")
+    cut = len(os.fsencode(name)) > MAX_NAME_BYTES - 4 if adjacent else len(name) >= CUT_NAME
+    if not cut and name.lower().endswith(".toml") is (kind is Kind.NC):
         return False
-    return kind is Kind.CONTOUR or path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
+    return kind is Kind.CONTOUR or adjacent or place_of(path) == elsewhere(folder / name, state)
 
 
 def _file_name(path: Path) -> str:

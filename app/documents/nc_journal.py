@@ -149,6 +149,8 @@ def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple
     after = next((row for row in range(shorter - first) if old[-1 - row] != new[-1 - row]), shorter - first)
     old, new = old[first : len(old) - after], new[first : len(new) - after]
     if max(len(old), len(new)) > MAX_COMPARED_LINES:
+        if not new:
+            return (f"Lines {first + 1} to {first + len(old)} of the file are deleted.",)
         return (f"Lines {first + 1} to {first + len(new)} differ from the file.",)
     return tuple(_compared(old, new, first + 1, other))
 

@@ -44,6 +44,7 @@ TEMPORARY: Final = ".tmp"
 """The suffix of the file that an interrupted save leaves."""
 MAX_JOURNAL_GROWTH: Final = {Kind.CONTOUR: 8_000_000, Kind.NC: 64_000_000}
 """The length in bytes beyond which the journal of a document that stays unsaved is rewritten from its current work."""
+SAVE_ELSEWHERE: Final = "SAVE AS (Ctrl+K) saves elsewhere."
 
 
 # ---- what comes back
@@ -609,7 +610,7 @@ class DocumentService:
         if open_here is not None and open_here.known.file.opening is not document.file.opening:
             return Trouble(f"{printable(target.name)} is open here, too. Type another name.", open_here.known)
         try:
-            if document.kind is Kind.NC:
+            if document.kind is Kind.NC and target != document.file.path:
                 refuse_program(target)
         except StoreError as error:
             return Trouble(error.text)
@@ -641,17 +642,20 @@ class DocumentService:
                 theirs = put_theirs_aside(path, MAX_BYTES[document.kind], today)
             except StoreError as error:
                 return Trouble(error.text)
-        elif (ask := self._ask_if_changed(document, path, copy, today)) is not None:
-            return ask
+        elif (stop := self._ask_if_changed(document, path, copy, today)) is not None:
+            return stop
         return self._write_file(kept, document, path, theirs, link_agreed=questions.WRITE_THERE in agreed)
 
-    def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | None:
-        """Return a question if the file differs from what was last read or saved; None also if it cannot be read."""
+    def _ask_if_changed(self, document: Document, path: Path, copy: Path, today: str) -> Ask | Trouble | None:
+        """Return a question if the file differs from what was last read or saved, Trouble if it cannot be read."""
         then = document.file.stamp
         try:
             data, status = read_file(path, MAX_BYTES[document.kind])
-        except (OSError, ValueError):
+        except FileNotFoundError:
             return None
+        except OSError as error:
+            reason = why(error).partition(".")[0]
+            return Trouble(f"{short_path(path)} is not saved over what cannot be read: {reason}. {SAVE_ELSEWHERE}")
         now = stamp_of_data(data, status.st_mtime_ns)
         if then is not None and now.same_content(then):
             return None
@@ -667,7 +671,7 @@ class DocumentService:
         except (StoreError, ValueError) as error:
             cause = error.__cause__ or error
             reason = why(cause) if isinstance(cause, OSError | ValueError) else str(error)
-            return Trouble(f"{short_path(path)} is not saved: {reason} SAVE AS (Ctrl+K) saves elsewhere.")
+            return Trouble(f"{short_path(path)} is not saved: {reason} {SAVE_ELSEWHERE}")
         before = document.file
         agreed = (before.link_agreed and path == before.path) or (link_agreed and _leads_elsewhere(path))
         state = replace(before, path=path, stamp=stamp_of_data(data), link_agreed=agreed)

@@ -126,7 +126,7 @@ def load_settings(path: Path) -> tuple[Settings, str]:
         return parsed(read_file(path, MAX_SETTINGS_BYTES)[0].decode()), ""
     except FileNotFoundError:
         return Settings(), ""
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         reason = why(error).partition(".")[0] if isinstance(error, OSError) else "it is no settings file"
         return Settings(), f"Your settings in {path} cannot be read: {reason}. The usual ones hold."
 

@@ -277,3 +277,11 @@ def test_a_drawing_without_a_contour_to_take_writes_no_file(
 
 def without_contours(data: bytes, options: Namespace, *, progress: Callable[..., None]) -> ContourList:
     return replace(list_drawing(data, options, progress=progress), contours=())
+
+
+def test_a_chosen_chain_of_an_nc_program_keeps_its_number(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    nc, out = tmp_path / "two.nc", tmp_path / "part.toml"
+    cuts = "".join(f"G0 X{x}. Y-1.\nG1 Z-.1 F5.\nG41 D1 X{x}. Y0\nX{x + 2}.\nY2.\nG40 X9.\nG0 Z1.\n" for x in (0, 4))
+    nc.write_text(f"G20 G17 G90\nT1 M6\nS1000 M3\nG0 Z1.\n{cuts}M2\n")
+    assert main(["import", str(nc), "--control", "linuxcnc", "--tool", "1=.5", "--chain", "2", "-o", str(out)]) == 0
+    assert capsys.readouterr().err.startswith("cutcomp: chain 2: 2 segments.")

@@ -83,6 +83,8 @@ def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:
         ("elsewhere.example:8000", "http://elsewhere.example:8000", False),
         ("127.0.0.1:9000", "http://127.0.0.1:9000", False),
         ("127.0.0.1:8000", "null", False),
+        ("127.0.0.1:x", "http://127.0.0.1:x", False),
+        ("127.0.0.1:8000", "http://[1", False),
     ],
 )
 def test_only_the_served_page_may_connect(asked: str, origin: str, let_in: bool) -> None:

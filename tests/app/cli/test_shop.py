@@ -33,6 +33,11 @@ def test_a_sheet_with_the_drawing_and_one_that_says_do_not_run(part: Path) -> No
     assert "DO NOT RUN" in part.with_suffix(".txt").read_text()
 
 
+def test_two_diameters_of_tool_0_are_refused(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(part), "--control", "linuxcnc", "--tool", "0=.5", "--tool", "0=.6"]) == 2
+    assert "tool 0 has two diameters" in capsys.readouterr().err
+
+
 def test_what_cannot_be_read_or_written(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sheet", "none.toml"]) == 2
     assert main(["sheet", str(part), "-o", str(part / "x.txt")]) == 2

@@ -228,6 +228,8 @@ def test_differences_of_texts_in_words() -> None:
     assert nc_journal.differences(file, file) == ()
     long = NcText.read(b"".join(b"%d\n" % row for row in range(900)))
     assert nc_journal.differences(file, long) == ("Lines 1 to 900 differ from the file.",)
+    long = NcText.read(b"A\nB\n" + b"X\n" * 900 + b"D\n")
+    assert nc_journal.differences(long, NcText.read(b"A\nB\nD\n")) == ("Lines 3 to 902 of the file are deleted.",)
 
 
 # ---- format 1

@@ -392,6 +392,15 @@ def test_a_copy_without_a_name_comes_back_in_a_new_program(own: Path, part: Path
     assert (operator.work, operator.document.file.path) == (first.work, None)
 
 
+@pytest.mark.parametrize("letter", ["p", "\u90e8"])
+def test_a_copy_whose_name_is_cut_is_listed(own: Path, part: Path, letter: str) -> None:
+    file = part.rename(part.with_name(f"{letter * (240 // len(letter.encode()))}.toml"))
+    started(own, file).type(7).killed()
+    started(own, file).answer("DISCARD").left()
+    [copy] = copies(own, file)
+    assert file_of_copy(copy.path, file.parent) == file
+
+
 def test_a_file_that_is_gone_comes_back_from_its_copy(own: Path, file: Path) -> None:
     started(own, file).type(7).killed()
     operator = started(own, file).answer("DISCARD")

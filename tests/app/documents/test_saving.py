@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 
 from app.documents import questions
+from app.documents.document import MAX_BYTES
 from app.documents.files import load, save
 from app.documents.journal_file import journal_path
 from app.documents.lock import lock_path
+from app.documents.paths import short_path
 from app.documents.programs import empty_program, example
 from app.documents.questions import Ask
 from app.documents.service import Opened, Saved, Trouble
@@ -266,6 +268,28 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     assert copy in operator.said or operator.document.file.path.name == copy
     assert {number_in(file.with_name(copy)), number_in(file)} == {3, 7}
     assert not operator.document.unsaved
+
+
+def test_what_is_too_large_to_be_read_is_not_overwritten(own: Path, file: Path) -> None:
+    operator = started(own, file).type(7)
+    size = MAX_BYTES[operator.document.kind] + 1
+    os.truncate(file, size)
+    assert trouble(operator) == (
+        f"{short_path(file)} is not saved over what cannot be read: it is too large. SAVE AS (Ctrl+K) saves elsewhere."
+    )
+    assert file.stat().st_size == size
+    operator.save(file.with_name(f"mine{file.suffix}"))
+    assert not operator.document.unsaved
+
+
+def test_an_nc_text_with_a_line_of_a_contour_program_is_saved_over_itself(own: Path, tmp_path: Path) -> None:
+    file = tmp_path / "part.nc"
+    file.write_bytes(b"G20\nM2\n")
+    operator = started(own, file)
+    for line in ("format = 1", "G21"):
+        operator.keep(operator.document.edited(changed(operator.document.text, 0, line), 0))
+        operator.save()
+    assert file.read_bytes() == b"G21\nM2\n"
 
 
 def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, file: Path) -> None:

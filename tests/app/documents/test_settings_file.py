@@ -56,6 +56,15 @@ def test_settings_that_cannot_be_read_are_the_usual_ones_and_say_so(tmp_path):
     assert load_settings(tmp_path / "none.toml") == (Settings(), "")
 
 
+def test_brackets_without_end_are_no_settings_file(tmp_path):
+    path = tmp_path / "settings.toml"
+    path.write_text("a = " + "[" * 50_000)
+    assert load_settings(path) == (
+        Settings(),
+        f"Your settings in {path} cannot be read: it is no settings file. The usual ones hold.",
+    )
+
+
 def test_only_changes_are_written_and_a_failure_is_told_once(tmp_path):
     keeper = SettingsFile(tmp_path / "folder" / "settings.toml", Settings())
     assert keeper.keep(Settings()) == ""
