@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Flags, Floats, Path
+from core.geometry.path import Flags, Floats, Path, lengths, pieces_of
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -64,7 +64,7 @@ def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SplitContours:
-    """A path with lines split where contours close within them, its contours, and the open ones among closed ones.
+    """A path with its pieces split where contours close within them, its contours, and the open ones among closed ones.
 
     `open_lines` has all lines of each open contour.
     """
@@ -75,13 +75,13 @@ class SplitContours:
 
     @staticmethod
     def of(path: Path) -> SplitContours:
-        """Find the contours of a path without splitting its lines."""
+        """Find the contours of a path without splitting its pieces."""
         contours = contours_of(path)
         return SplitContours(path, contours, open_contours(path, contours))
 
 
 def split_where_it_closes(path: Path) -> SplitContours:
-    """Split in two the lines that run past the point at which the contour begins.
+    """Split in two the lines and arcs that run past the point at which the contour begins.
 
     The contour begins after at most MAX_LEAD_MOVES moves, or ends before as many.  Programs cut it a little past the
     point where it closes, cut all of it once more, or start beyond its corner.
@@ -97,19 +97,19 @@ def split_where_it_closes(path: Path) -> SplitContours:
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
-    """Split the lines that run past the point where the first moves end, trying the most moves first.
+    """Split the lines and arcs that run past the point where the first moves end, trying the most moves first.
 
-    Return the path split on the line, and split at the point itself, which may be off the line by rounding.
+    Return the path split on the piece, and split at the point itself, which may be off the piece by rounding.
     """
     directions = path.start_directions
     for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
         point = path.points[lead]
         over = _runs_over(path, point, directions[lead])
-        rows = [row for row in over.nonzero()[0].tolist() if row >= lead + 2]
+        rows = [row for row in over.nonzero()[0].tolist() if row > lead]
         if rows:
-            along, starts = directions[rows], path.starts[rows]
-            feet = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
-            return _split(path, rows, feet), _split(path, rows, np.repeat(point[None], len(rows), axis=0))
+            return _split(path, rows, _feet(path, rows, point)), _split(
+                path, rows, np.repeat(point[None], len(rows), axis=0)
+            )
     return None
 
 
@@ -122,26 +122,52 @@ def _split_at_corner(path: Path) -> Path | None:
         return None
     for directed, is_reversed in ((path, False), (path.reversed(), True)):
         row = len(directed) - 1
-        if not directed.turns[0] and _runs_over(directed, directed.points[1], directed.end_directions[row])[row]:
+        lines = not directed.turns[0] and not directed.turns[row]
+        if lines and _runs_over(directed, directed.points[1], directed.end_directions[row])[row]:
             split = _split(directed, [row], directed.points[1:2])
             return split.reversed() if is_reversed else split
     return None
 
 
 def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
-    """Return (n,) whether a piece is a line over a point, in direction `way`, with both ends away from the point."""
-    steps, along = point - path.starts, path.start_directions
-    reach, off = (steps * along).sum(axis=1), np.abs(steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
-    inside = (reach > CLOSED) & (reach < path.lengths - CLOSED)
-    over: Flags = (path.turns == 0) & inside & (off <= CLOSED) & (along @ way > cos(BLEND))
+    """Return (n,) whether a piece runs over a point, in direction `way`, with both ends away from the point.
+
+    A full circle does not: it closes by itself.
+    """
+    steps, along, radial = point - path.starts, path.start_directions, point - path.centers
+    size, arcs = np.hypot(radial[:, 0], radial[:, 1]), path.turns != 0
+    reach = np.where(arcs, _arc_lengths_to(path, point), (steps * along).sum(axis=1))
+    off = np.where(arcs, size - path.radii, steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
+    tangent = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * (path.turns / np.where(size == 0.0, 1.0, size))[:, None]
+    straight_on = np.where(arcs[:, None], tangent, along) @ way > cos(BLEND)
+    inside = (reach > CLOSED) & (reach < path.lengths - CLOSED) & (path.starts != path.ends).any(axis=1)
+    over: Flags = inside & (np.abs(off) <= CLOSED) & straight_on
     return over
 
 
+def _arc_lengths_to(path: Path, point: Floats) -> Floats:
+    """Return the (n,) lengths of arcs up to the ray through a point; 0 for lines."""
+    pieces = pieces_of(path)
+    ray = np.full(len(path), complex(*point))
+    return lengths(pieces._replace(end=np.where(pieces.turn == 0, pieces.start, ray)))
+
+
+def _feet(path: Path, rows: list[int], point: Floats) -> Floats:
+    """Return the (m, 2) points of the pieces in these rows that are nearest to a point near each of them."""
+    along, starts, centers = path.start_directions[rows], path.starts[rows], path.centers[rows]
+    on_lines = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
+    radial = point - centers
+    size = np.hypot(radial[:, 0], radial[:, 1])
+    on_arcs = centers + radial * (path.radii[rows] / np.where(size == 0.0, 1.0, size))[:, None]
+    return np.where(path.turns[rows, None] == 0, on_lines, on_arcs)
+
+
 def _split(path: Path, rows: list[int], at: Floats) -> Path:
-    """Return the path with lines split in two at points (m, 2); both pieces keep the line's number."""
+    """Return the path with pieces split in two at points (m, 2); both halves keep the piece's number."""
     after = [row + 1 for row in rows]
-    points, centers = np.insert(path.points, after, at, axis=0), np.insert(path.centers, after, at, axis=0)
-    turns, numbers = np.insert(path.turns, after, 0), np.insert(path.numbers, after, path.numbers[rows])
+    centers = np.where(path.turns[rows, None] == 0, at, path.centers[rows])
+    points, centers = np.insert(path.points, after, at, axis=0), np.insert(path.centers, after, centers, axis=0)
+    turns, numbers = np.insert(path.turns, after, path.turns[rows]), np.insert(path.numbers, after, path.numbers[rows])
     return Path.of(points, centers, turns, numbers)
 
 

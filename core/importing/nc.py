@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from math import dist, pi
 from typing import Final
 
-from core.controls.contours_and_leads import contours_of
+from core.controls.contours_and_leads import split_where_it_closes
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves, Plane
@@ -169,9 +169,10 @@ def _contours(cuts: list[Cut], side: Side | None) -> Iterator[tuple[list[Cut], t
     """
     if not cuts:
         return
-    path = Path.from_pieces([cut.piece for cut in cuts])
-    for first, last in contours_of(path):
-        part, notes = cuts[first:last], tuple[str, ...]()
+    split = split_where_it_closes(Path.from_pieces([cut.piece for cut in cuts], range(len(cuts))))
+    whole = [cuts[int(split.path.numbers[row])]._replace(piece=split.path[row]) for row in range(len(split.path))]
+    for first, last in split.contours:
+        part, notes = whole[first:last], tuple[str, ...]()
         if dist(part[0].piece.start, part[-1].piece.end) > CLOSED and side is not None:
             inner = _without_leads(part, side)
             if inner is not part:

@@ -166,6 +166,42 @@ def test_leads_and_laps_of_good_programs_are_no_gouges(name: str, control: str) 
     assert result.verdict.uncut_length <= 10.0 + 1e-6
 
 
+ROUND = {
+    "boss": "G0 X-50. Y-15.\n{offset}G1 X-35.\nG3 X-20. Y0 J15.\n{laps}G3 X-33.5594 Y17.9934 I-14.9429 J1.3073\n",
+    "bore": "G0 X0 Y0\n{offset}G1 X10. Y-10.\nG3 X20. Y0 I0 J10.\n{laps}G3 X9.0903 Y10.8336 I-9.9619 J-0.8716\n",
+}
+LAPS = {
+    "boss": ("G2 X20. Y0 I20. J0\nG2 X-19.9239 Y1.7431 I-20. J0\n", "G2 I20. J0\nG2 X-19.9239 Y1.7431 I20. J0\n"),
+    "bore": ("G3 X-20. Y0 I-20. J0\nG3 X19.9239 Y1.7431 I20. J0\n", "G3 I-20. J0\nG3 X19.9239 Y1.7431 I-20. J0\n"),
+}
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
+@pytest.mark.parametrize("way", [0, 1])
+@pytest.mark.parametrize("kind", ROUND)
+def test_a_circle_that_runs_five_degrees_past_its_start_is_no_gouge(kind: str, way: int, control: str) -> None:
+    offset = "G41 " if control == "linuxcnc" else "G41 D1 "
+    text = (
+        f"G21 G17 G40 G90 F400\nT1 M6\n{ROUND[kind].format(offset=offset, laps=LAPS[kind][way])}G40 G1 X0 Y60.\nM30\n"
+    )
+    done = ran(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
+    assert done.stopped_at is None
+    (result,) = judge_run(done)
+    assert (result.verdict.clean, result.verdict.uncut_length, len(result.leads)) == (True, 0.0, 3)
+
+
+def test_an_arc_is_split_where_it_runs_over_the_start() -> None:
+    half = Arc((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CW)
+    over = Arc((1.0, 0.0), (-0.8, 0.6), (0.0, 0.0), Turn.CW)
+    path = Path.from_pieces([Line((-1.0, -2.0), (-1.0, 0.0)), half, over, Line((-0.8, 0.6), (0.0, 2.0))])
+    split = split_where_it_closes(path)
+    assert split.contours == ((1, 3),)
+    assert np.allclose(split.path.points[3], (-1, 0))
+    assert split.path[3] == Arc((-1.0, 0.0), (-0.8, 0.6), (0.0, 0.0), Turn.CW)
+    assert split.path.numbers.tolist() == [1, 2, 3, 3, 4]
+    assert split_where_it_closes(path.reversed()).contours == ((1, 3),)
+
+
 def test_of_two_laps_each_is_judged() -> None:
     start, cut = GOOD["two laps"]
     narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import pi
 from pathlib import Path
 
 import pytest
@@ -250,3 +251,16 @@ def test_quarter_circles_that_are_left_out_of_an_open_contour_are_told() -> None
     assert len(read.contours[0].pieces) == 2
     _, made = nc_blocks(Program(unit=read.unit), read)
     assert any("quarter circles of lines 8 and 11 are taken for lead-in and lead-out" in note for note in made[0].notes)
+
+
+@pytest.mark.parametrize(
+    "text", ["G2 X20. Y0 I20. J0\nG2 X-19.9239 Y1.7431 I-20. J0\n", "G2 I20. J0\nG2 X-19.9239 Y1.7431 I20. J0\n"]
+)
+def test_a_circle_that_runs_past_its_start_is_imported_as_one_lap(text: str) -> None:
+    whole = (
+        f"G21 G17 G40 G90 F400\nT1 M6\nG0 X-50. Y-15.\nG41 G1 X-35. Y-15.\nG3 X-20. Y0 I0 J15.\n{text}"
+        "G3 X-33.5594 Y17.9934 I-14.9429 J1.3073\nG40 G1 X0 Y60.\nM2\n"
+    )
+    (contour,) = read_nc(whole.encode(), "linuxcnc", TOOLS).contours
+    assert contour.closed
+    assert abs(sum(piece.length for piece in contour.pieces) - 40.0 * pi) < 1e-3
