@@ -22,7 +22,7 @@ from core.controls.registry import UnknownControl, is_klartext, run
 from core.finding import Severity
 from core.geometry.construct import even_arc
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.importing.nc_contour import SAME_HEIGHT, CenterPathTool, Cut, NcContour, NcError, NcProgram
 from core.importing.offset_back import offset_back
 from core.tolerance import CLOSED
@@ -180,38 +180,8 @@ def _contours(cuts: list[Cut], side: Side | None) -> Iterator[tuple[list[Cut], t
                 notes = (
                     f"The quarter circles of lines {lines} are taken for lead-in and lead-out: they are left out.",
                 )
-            part = _without_overlap(inner)
+            part = inner
         yield part, notes
-
-
-MAX_OVERLAP: Final = 8
-"""Pieces at the end of a contour that may be the one that runs past its start."""
-
-
-def _without_overlap(cuts: list[Cut]) -> list[Cut]:
-    """Trim a contour that runs past its start and on along its beginning, so that it cuts nothing twice."""
-    start = cuts[0].piece.start
-    for row in range(len(cuts) - 1, max(len(cuts) - MAX_OVERLAP, 1), -1):
-        cut = cuts[row]
-        if not _passes_over(cut.piece, start) or not _tangent(replace(cut.piece, end=start), cuts[0].piece):
-            continue
-        again = [cut.piece.end, *(later.piece.end for later in cuts[row + 1 :])]
-        if all(any(_passes_over(first.piece, point) for first in cuts[:row]) for point in again):
-            return [*cuts[:row], cut._replace(piece=replace(cut.piece, end=start))]
-    return cuts
-
-
-def _passes_over(piece: Piece, point: Point) -> bool:
-    """True if a piece passes over a point after its start."""
-    if dist(piece.start, point) <= SAME_CONTOUR:
-        return False
-    if isinstance(piece, Arc):
-        if abs(dist(piece.center, point) - piece.radius) > SAME_CONTOUR or piece.start == piece.end:
-            return False
-        return abs(replace(piece, end=point).sweep) <= abs(piece.sweep) + SAME_CONTOUR / piece.radius
-    (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
-    along, off = (point[0] - x) * dx + (point[1] - y) * dy, (point[1] - y) * dx - (point[0] - x) * dy
-    return abs(off) <= SAME_CONTOUR and 0.0 < along <= piece.length + SAME_CONTOUR
 
 
 def _without_leads(cuts: list[Cut], side: Side) -> list[Cut]:
