@@ -29,7 +29,7 @@ from core.tolerance import CLOSED
 from core.units import Unit, sentence, to_mm
 
 SAME_CONTOUR: Final = 0.001
-"""Largest distance in millimeters between passes of one contour, and of a piece from a point on it."""
+"""Largest distance in millimeters between passes of one contour."""
 
 LEAD_SLACK: Final = 0.002
 """Largest difference in millimeters of the radii of a lead-in and its lead-out."""
