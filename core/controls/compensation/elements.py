@@ -11,6 +11,7 @@ from typing import Final, NamedTuple
 
 from core.geometry.carrier import Carrier, meeting_places
 from core.geometry.piece import Point
+from core.tolerance import ROUNDING
 
 SAME_DIRECTION: Final = 1e-9
 """Radians within which two directions are equal, and by which rounding may carry an arc past its end."""
@@ -145,8 +146,8 @@ def _carrier(element: Element, offset: float) -> Carrier:
 
 
 def fits(element: Element, offset: float) -> bool:
-    """True if the tool can run along an element; inside an arc it must be smaller than the arc."""
-    return not element.turn or offset_radius(element, offset) > 0.0
+    """True if the tool can run along an element; inside an arc it must be smaller than the arc, beyond rounding."""
+    return not element.turn or offset_radius(element, offset) > ROUNDING
 
 
 def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
@@ -162,14 +163,20 @@ def element_sweep(element: Element) -> float:
     return sweep(element.start, element.end, element.center, element.turn) or tau
 
 
+def _trim(programmed: Point, actual: Point, center: Point, turn: int) -> float:
+    """Return the angle by which an arc's end lies inside the programmed arc, -pi / 2 if it extends it by a quarter."""
+    angle = sweep(programmed, actual, center, turn)
+    return angle - tau if angle > 1.5 * pi else angle
+
+
 def runs_back(element: Element, start: Point, end: Point) -> bool:
     """True if a compensated element from `start` to `end` runs against the programmed one.
 
-    A line does if it points the other way; an arc if its trims have crossed, so that it would go nearly all the way
-    around: its sweep grows by more than half a turn.
+    A line does if it points the other way; an arc if its trims, or extensions of at most a quarter turn, have crossed.
     """
     if element.turn:
-        traveled = sweep(start, end, element.center, element.turn)
-        return traveled - element_sweep(element) > pi
+        cut_before = _trim(element.start, start, element.center, element.turn)
+        cut_after = _trim(element.end, end, element.center, -element.turn)
+        return element_sweep(element) - cut_before - cut_after < -SAME_DIRECTION
     way = element.start_direction
     return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_DIRECTION

@@ -81,6 +81,7 @@ def test_offset_radii_shrink_inside_and_grow_outside() -> None:
     assert (offset_radius(circle, 0.5), offset_radius(circle, -0.5)) == (1.5, 2.5)
     assert fits(circle, 1.99)
     assert not fits(circle, 2.0)
+    assert not fits(circle, 2.0 - 1e-9)
     assert element_sweep(circle) == pytest.approx(2 * pi)
 
 
@@ -90,6 +91,17 @@ def test_backwards_is_reported_of_lines_and_arcs() -> None:
     quarter = arc(2, 0, 0, 2, 0, 0, 1)
     assert runs_back(quarter, rotated((1, 0), (0, 0), 1.0), rotated((1, 0), (0, 0), 0.9))
     assert not runs_back(quarter, rotated((1, 0), (0, 0), 0.9), rotated((1, 0), (0, 0), 1.0))
+    assert not runs_back(quarter, rotated((1, 0), (0, 0), -0.5), rotated((1, 0), (0, 0), 2.0))
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+@pytest.mark.parametrize(
+    ("start", "end", "back"), [(200, 30, True), (200, 190, True), (30, 240, False), (190, 200, False)]
+)
+def test_an_arc_runs_backwards_however_much_is_cut_off_both_ends(turn: int, start: int, end: int, back: bool) -> None:
+    three_quarters = arc(2, 0, 0, -2 * turn, 0, 0, turn)
+    first, last = (rotated((2, 0), (0, 0), turn * radians(angle)) for angle in (start, end))
+    assert runs_back(three_quarters, first, last) is back
 
 
 def round_corner(angle: float, offset: float, rules: CornerRules, *, rapid: bool = False) -> Joint:
