@@ -28,15 +28,17 @@ BLOCKS_BETWEEN: Final = 200
 MAX_CALL_DEPTH: Final = 19
 """Most calls of subprograms within one another."""
 
-_LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$', re.ASCII)
-_CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$', re.ASCII)
+_NAME: Final = r'(?:0+(?=\d))?("[^"]*"|\d+)'
+"""A label's name or number; 02 is 2."""
+_LABEL: Final = re.compile(rf"\s*{_NAME}\s*$", re.ASCII)
+_CALL: Final = re.compile(rf"\s*LBL\s*{_NAME}\s*(?:REP\s*(\d{{1,5}})(?:/\d+)?)?\s*$", re.ASCII)
 _SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$", re.ASCII)
 _FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$", re.ASCII)
 _ASSIGNMENT: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$", re.ASCII)
 _WITH_VALUES: Final = re.compile(r"\s*DEF\s*[2-9]\d\d(?!\d)", re.ASCII)
 """The cycles whose definition goes on in further lines, one Q parameter a line."""
 _COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT", re.ASCII)
-_GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
+_GOAL: Final = re.compile(rf"\s*LBL\s*{_NAME}\s*$", re.ASCII)
 _READ: Final = re.compile(r"Q[LR]?\d+", re.ASCII)
 _PASSED_OVER: Final = frozenset((15, 16, 18, 20, 26, 27))
 """Functions that print, read data of the control, wait, or write tables."""

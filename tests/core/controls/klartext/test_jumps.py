@@ -16,6 +16,7 @@ def xs(*blocks: str) -> list[float]:
 def test_a_part_is_repeated() -> None:
     assert xs("LBL 1", "L IX+5", "CALL LBL 1 REP 2") == [5, 10, 15]
     assert xs("LBL 1", "L IX+5", "CALL LBL 1 REP 2/2", "L IX+1") == [5, 10, 15, 16]
+    assert xs("LBL 02", "L IX+5", "CALL LBL 2 REP 1", "FN 9: IF +1 EQU +1 GOTO LBL 003", "L IX+9", "LBL 3") == [5, 10]
 
 
 def test_repeats_within_repeats() -> None:
