@@ -11,7 +11,7 @@ from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
 from textual.message import Message
-from textual.widgets import OptionList, Static
+from textual.widgets import Input, OptionList, Static
 
 from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
@@ -66,6 +66,8 @@ class PostScreen(EntryScreen):
         self.choice = ""
         self.made: NcText | None = None
         self.stopped = False
+        self._enter_waits = False
+        """Enter was pressed while the text was being made: it acts once the text is there."""
         self._work: Work | None = None
         self._program: Program | None = None
         """The program that `made` is, or is being, made from."""
@@ -106,12 +108,16 @@ class PostScreen(EntryScreen):
     def _control_taken(self) -> None:
         self.query_one("#entry").focus()
 
+    @on(Input.Changed, "#entry")
+    def _name_changed(self) -> None:
+        self._enter_waits = False
+
     def action_controls(self) -> None:
         """Move the cursor to the list of controls."""
         self.query_one("#post-controls").focus()
 
     def _make(self, program: Program) -> None:
-        self.made, self.stopped, self._program = None, False, program
+        self.made, self.stopped, self._enter_waits, self._program = None, False, False, program
         self.host.end_work(self._work)
         self._work = self.host.begin_work(self._make_stopped)
         self._show()
@@ -132,7 +138,7 @@ class PostScreen(EntryScreen):
 
     def _make_stopped(self) -> None:
         """Note that Esc has stopped the work; Enter starts it again."""
-        self.stopped = True
+        self.stopped, self._enter_waits = True, False
         self._show()
 
     @on(NcMade)
@@ -144,6 +150,9 @@ class PostScreen(EntryScreen):
             self._work = None
             self.made = event.made
             self._show()
+            if self._enter_waits:
+                self._enter_waits = False
+                self.action_enter()
 
     def _show(self) -> None:
         lines, preview = self._findings(), ""
@@ -189,7 +198,8 @@ class PostScreen(EntryScreen):
             self._make(self.current_session.program)
             return
         if self.made is None:
-            self.say("The NC text is still being made: press Enter again.", Tone.WARNING)
+            self._enter_waits = True
+            self.say("The NC text is being made and posted then. Esc stops it.")
             return
         override = None
         if self.made.against:

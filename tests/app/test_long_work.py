@@ -125,6 +125,20 @@ async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
         assert "Free:" in status(one)
 
 
+@pytest.mark.parametrize("typed", ["", "9"])
+async def test_enter_posts_once_the_text_is_made_unless_the_name_changes(monkeypatch, tmp_path, typed):
+    monkeypatch.chdir(tmp_path)
+    async with posting(monkeypatch) as (one, slow):
+        await one.press("enter")
+        assert one.prompt == "The NC text is being made and posted then. Esc stops it."
+        await one.press(*typed)
+        slow.go.set()
+        await one.settle()
+        await one.pilot.pause(0.2)
+        await one.settle()
+        assert [path.suffix for path in tmp_path.iterdir()] == ([] if typed else [".nc"])
+
+
 async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
     async with posting(monkeypatch) as (_, slow):
         pass
