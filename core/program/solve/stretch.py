@@ -369,26 +369,25 @@ def _taken(
 
 def _why_stuck(contour: Contour, run: Run, stuck: Branch, *, tried: bool) -> Finding:
     if run.missing > 0:
-        return reasons.missing(run, run.missing, _may_be_tangent(contour, run))
+        return reasons.missing(stuck, run.missing, _may_be_tangent(contour, stuck))
     for index in range(1, len(run.elements)):
         if stuck.joint(index) is None and _on_same_curve(stuck, index):
             return reasons.coincident(run, index)
     return reasons.not_yet(run, tried=tried)
 
 
-def _may_be_tangent(contour: Contour, run: Run) -> int | None:
+def _may_be_tangent(contour: Contour, stuck: Branch) -> int | None:
     """Return the number of the first segment of a run where TANGENT YES would add a value.
 
     It adds none on segment 1, after a BLEND ARC or CHAMFER, or if both headings at the joint are already known.
     """
-    heading = run.heading
-    for element in run.elements:
-        known = element.known
-        settled = heading is not None and ("angle" in known or "start_angle" in known)
+    heading = stuck.run.heading
+    for index, element in enumerate(stuck.run.elements):
+        settled = heading is not None and stuck.heading_in[index] is not None
         behind_corner = element.number > 1 and isinstance(contour.segments[element.number - 2], CornerSegment)
         if element.number > 1 and element.link is None and not settled and not behind_corner:
             return element.number
-        heading = known.get("angle")
+        heading = stuck.heading_out[index]
     return None
 
 

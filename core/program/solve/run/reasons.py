@@ -289,12 +289,13 @@ def wrong_sense(branch: Branch, index: int) -> Finding:
     return _fault("WRONG_SENSE", text, element, "direction")
 
 
-def missing(run: Run, count: int, tangent: int | None) -> Finding:
+def missing(stuck: Branch, count: int, tangent: int | None) -> Finding:
     """Too few data are typed; `tangent` is the number of a segment where TANGENT would add a value, if any."""
+    run = stuck.run
     values = f"{count} more value{'' if count == 1 else 's'}"
     subject = segments(run.elements)
     verb = "needs" if len(run.elements) == 1 else "need"
-    element, name = suggested(run)
+    element, name = suggested(stuck)
     ways = [f"{label(element, name)} of {element.number}", "an end" if name == "x_end" else "an end (X END or Y END)"]
     if tangent is not None and name != "angle":
         ways.append(f"TANGENT YES on {tangent}")
@@ -302,15 +303,28 @@ def missing(run: Run, count: int, tangent: int | None) -> Finding:
     return Finding("MISSING", Severity.ERROR, text, segment=element.number, field=name)
 
 
-def suggested(run: Run) -> tuple[Element, str]:
-    """Return a helpful blank field: an ARC's RADIUS, else a LINE's XY ANGLE or XY LENGTH, an ARC's sweep, or an end."""
+def suggested(stuck: Branch) -> tuple[Element, str]:
+    """Return a helpful blank field: an ARC's RADIUS, else a LINE's XY ANGLE or XY LENGTH, an ARC's sweep, or an end.
+
+    What follows from the data already is passed over.
+    """
+    run = stuck.run
     for arcs, name in ((True, "radius"), (False, "angle"), (False, "length"), (True, "sweep"), (False, "x_end")):
-        for element in run.elements:
+        for index, element in enumerate(run.elements):
             relative = element.link is not None if name == "angle" else f"{name}_inc" in element.known
-            given = name == "radius" and _radius_follows(run, element)
+            given = _follows(stuck, index, name) or (name == "radius" and _radius_follows(run, element))
             if bool(element.turn) is arcs and name not in element.known and not relative and not given:
                 return element, name
     return run.elements[0], "x_end"
+
+
+def _follows(branch: Branch, index: int, name: str) -> bool:
+    """True if a value of an element is known without being typed."""
+    values = {"radius": branch.rho, "angle": branch.heading_in, "length": branch.length, "sweep": branch.sweep}
+    ends_known = branch.joint(index) is not None and branch.joint(index + 1) is not None
+    if name == "x_end":
+        return branch.joint(index + 1) is not None
+    return values[name][index] is not None or (ends_known and name in ("length", "angle"))
 
 
 def _radius_follows(run: Run, element: Element) -> bool:
