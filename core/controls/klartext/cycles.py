@@ -94,7 +94,7 @@ def _is_neutral(state: State, block: Block, number: int, body: str) -> bool:
 def _define(state: State, block: Block, number: int) -> None:
     """Define a cycle that waits for its call, or a pattern, which calls the cycle before it at once."""
     if number in _PATTERNS:
-        _pass_over(state, block, number, None)
+        _pass_over(state, block, number, None, pattern=True)
         return
     _take_values(state, block)
     text = f"Cycle {number} is skipped: it moves nothing."
@@ -138,7 +138,7 @@ def _call_block(state: State, block: Block) -> None:
         for index, value in enumerate(state.target(rest, words)):
             state.position[index] = value
     elif head and head[1] == "PAT" and state.cycle is not None:
-        _pass_over(state, block, state.cycle, None)
+        _pass_over(state, block, state.cycle, None, pattern=True)
         return
     else:
         state.words(rest, frozenset(("M",)))
@@ -163,8 +163,11 @@ def _refuse_compensated(state: State, block: Block) -> None:
         state.stop("CYCLE", text, block)
 
 
-def _pass_over(state: State, block: Block, number: int, height: float | None) -> None:
-    """Skip a cycle's moves, and set where it ends, or make that unknown until the next absolute words."""
+def _pass_over(state: State, block: Block, number: int, height: float | None, *, pattern: bool = False) -> None:
+    """Skip a cycle's moves, and set where it ends, or make that unknown until the next absolute words.
+
+    After a pattern, the tool is over the last of its points.
+    """
     _refuse_compensated(state, block)
     state.waiting.flush()
     state.last = None
@@ -172,7 +175,7 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
     if number in _DRILLING or number in _TAPPING or number in state.told_cycles:
         severity, template = Severity.INFO, SKIPPED
     state.told_cycles.add(number)
-    if number in _RETURNING:
+    if number in _RETURNING and not pattern:
         state.tell(severity, "CYCLE", template.format(number, "it ends where it began"), block)
         return
     third = state.plane.axes[2]
@@ -186,7 +189,7 @@ def _pass_over(state: State, block: Block, number: int, height: float | None) ->
         state.now_known({third})
         state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends above its hole"), block)
         return
-    unknown = {third} if number in _DRILLING else {0, 1, 2}
+    unknown = {third} if number in _DRILLING and not pattern else {0, 1, 2}
     state.known -= unknown
     names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
     text = template.format(number, f"cutcomp takes {names} from the next absolute words")

@@ -68,6 +68,12 @@ def test_after_a_pocket_relative_words_start_from_an_unknown_place() -> None:
     assert codes(made)[-2:] == [("CYCLE", 6), ("POSITION", 7)]
 
 
+@pytest.mark.parametrize("cycle", [DRILLING, ("CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 SET UP 2")])
+def test_after_a_pattern_the_tool_is_somewhere_over_its_points(cycle: tuple[str, ...]) -> None:
+    made = runs("L X+1 Y+1 Z+9 FMAX", *cycle, "CYCL CALL PAT FMAX", "L X+5 F9")
+    assert codes(made)[-2:] == [("CYCLE", 5 + len(cycle)), ("POSITION", 6 + len(cycle))]
+
+
 @pytest.mark.parametrize("number", [26, 28, 400, 421])
 def test_a_cycle_that_moves_the_contour_or_measures_it_is_not_followed(number: int) -> None:
     made = runs("L X+1 Y+1 Z+1 FMAX", f"CYCL DEF {number} SOMETHING", "L X+5 F9")
