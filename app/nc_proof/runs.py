@@ -27,6 +27,10 @@ RUN_SHARE: Final = 0.5
 MAX_GUESS_LINES: Final = 200
 """Most lines that are read to guess a program's control and its first tool."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
+_WRITTEN_FOR: Final = re.compile(r"^[^\w\n]*(?:\d+ ; )?WRITTEN BY CUTCOMP FOR (\S+):", re.MULTILINE)
+_HEADER_UNIT: Final = re.compile(r"^\(UNITS (INCH|MM)\)", re.MULTILINE)
+_HEADER_TOOL: Final = re.compile(r"^\(TOOL (\d{1,4}) DIAMETER (\d*\.?\d+):", re.MULTILINE)
+_HEADER_OFFSET: Final = re.compile(r"^\(OFFSET D(\d{1,4}) RADIUS (\d*\.?\d+)", re.MULTILINE)
 _REMEMBERED: Final = re.compile(r'(?<!\S)(?:(\d{1,4})|"([^"]+)")=([-+.e\d]{1,25})(in|mm)(?!\S)')
 _TOOL: Final = re.compile(
     r'(?<![A-Z])(?:TOOL\s+(?:DEF|CALL)\s+"([^"]+)"|(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.]))',
@@ -164,18 +168,39 @@ def read_tools(text: str) -> ToolTable:
 
 
 def likely_control(text: NcText, usual: str = "") -> str:
-    """Return the likely control of a text: Klartext if it begins with BEGIN PGM, else the caller's `usual` one.
+    """Return the likely control of a text: the one in cutcomp's header, Klartext, else the caller's `usual` one.
 
     Return LinuxCNC, whose rules are checked, if `usual` is not a control or is one that reads only Klartext.
     """
     from core.controls.registry import is_klartext, resolve
 
-    rows = range(min(MAX_GUESS_LINES, len(text)))
-    first = next((line for row in rows if (line := text.text(row)).strip()), "")
-    if _KLARTEXT.match(first):
+    head = _head(text)
+    if _KLARTEXT.match(head.lstrip()):
         return "klartext"
+    written = _WRITTEN_FOR.search(head)
+    if written and isinstance(known := resolve(written[1]), str):
+        return known
     known = resolve(usual)
     return known if isinstance(known, str) and not is_klartext(known) else "linuxcnc"
+
+
+def header_tools(text: NcText) -> ToolTable:
+    """Return the tools and offsets that the header of a program posted by cutcomp tells the operator to enter."""
+    from core.controls.control_tools import CutterTool, ToolTable
+
+    head = _head(text)
+    unit = _HEADER_UNIT.search(head)
+    if unit is None or not _WRITTEN_FOR.search(head):
+        return ToolTable()
+    sizes = [(int(number), float(diameter)) for number, diameter in _HEADER_TOOL.findall(head)]
+    # an offset has the number and the radius that the control uses, whatever the tool's number is
+    sizes += [(int(number), 2.0 * float(radius)) for number, radius in _HEADER_OFFSET.findall(head)]
+    units = Unit.IN if unit[1] == "INCH" else Unit.MM
+    return ToolTable.of(*(CutterTool(number, diameter, unit=units) for number, diameter in dict(sizes).items()))
+
+
+def _head(text: NcText) -> str:
+    return "\n".join(text.text(row) for row in range(min(MAX_GUESS_LINES, len(text))))
 
 
 def first_tool(text: NcText) -> ToolId:

@@ -27,6 +27,7 @@ from app.nc_proof.runs import (
     RanDotted,
     Result,
     first_tool,
+    header_tools,
     judge,
     likely_control,
     read_tools,
@@ -120,10 +121,12 @@ class ProofScreen(BaseScreen):
         folder = None if document.file.path is None else document.file.path.absolute().parent
         self.given = read_tools(remembered)
         """The tools typed for this program, now or in an earlier session."""
-        self.question = Question(text, control, self.given, folder=folder)
+        self.header = header_tools(text)
+        """The tools that the header of a program posted by cutcomp names."""
+        self.question = Question(text, control, self.header.with_tools(self.given), folder=folder)
         self.tool = first_tool(text)
         if asked is not None:
-            tools = self.given.with_tools(asked.tools)
+            tools = self.question.tools.with_tools(asked.tools)
             self.question = Question(text, asked.control or control, tools, asked.unit, folder)
             self.tool = next(iter(asked.tools.tools), self.tool)
         self.result: Result | None = None
@@ -164,6 +167,9 @@ class ProofScreen(BaseScreen):
         if any(tool is self.question.tools.get(number) for number, tool in self.given.tools.items()):
             before = "" if opened is None else f"{opened.text} "
             self.say(f"{before}Its tools are those that you gave it the last time.")
+        elif self.header.tools and self.question.tools.tools == self.header.tools:
+            before = "" if opened is None else f"{opened.text} "
+            self.say(f"{before}Its tools are those that its header names.")
 
     # ---- the text
 

@@ -13,7 +13,9 @@ from textual.widgets import Input, Label, OptionList, Static
 from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
+from app.documents.files import load
 from app.documents.nc_text import NcText
+from app.documents.programs import example
 from app.documents.service import DocumentService, Opened
 from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
@@ -29,7 +31,10 @@ from app.widgets.status import Status
 from core.controls.control_tools import CutterTool, ToolTable
 from core.draw.scene import Style
 from core.finding import Severity
+from core.output.nc import Posted
 from core.pipeline.checking import Asked
+from core.pipeline.derive import derive
+from core.pipeline.post import post_control_program
 from core.progress import Progress
 from core.units import Unit
 from tests.app.test_file_actions import DEAD
@@ -235,6 +240,31 @@ async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
     assert likely_control(text, chosen) == chosen
     assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
     assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "klartext", "nine-series:b", "rosettacnc:normal"])
+async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_header(tmp_path, control):
+    posted = post_control_program(derive(load(example("plate-mm"))), name="plate", control=control)
+    assert isinstance(posted, Posted), posted
+    async with at_proof(tmp_path, posted.text.encode()) as user:
+        assert user.proof.question.control == control
+        assert "runs" in user.outcome
+        assert user.app.settings.tools_of(tmp_path / "p.nc") == ""
+        if control != "klartext":
+            assert user.prompt.endswith("Its tools are those that its header names.")
+
+
+async def test_tools_that_were_typed_come_before_those_of_the_header(tmp_path):
+    posted = post_control_program(derive(load(example("overrun-square"))), name="square", control="fanuc:a")
+    assert isinstance(posted, Posted), posted
+    async with at_proof(tmp_path, posted.text.encode()) as user:
+        assert user.proof.question.tools.get(1) == CutterTool(1, 0.5, unit=Unit.IN)
+        await with_tool(user, "1=.625")
+        await user.press("f8")
+        user.app.open_file(tmp_path / "p.nc")
+        await user.settle()
+        assert user.proof.question.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
+        assert "the last time" in user.prompt
 
 
 async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
