@@ -48,6 +48,7 @@ from core.importing.contour import (
     started_at_corner,
     started_at_side,
     started_at_usual_place,
+    traveled_like,
 )
 from core.importing.contours import FIT, MAX_TOLERANCE, Branch, ContourList, ImportOptions, contours_of, with_joined
 from core.importing.drawing import Drawing as ReadDrawing
@@ -485,7 +486,7 @@ class ImportScreen(BaseScreen):
         contours, options = self.chosen, self.options
         assert options is not None
         if any(contour.number in self.lines for contour in contours):
-            self._change(lambda each: self.lines.pop(each.number, each), contours)
+            self._change(lambda each: traveled_like(self.lines.pop(each.number, each), each), contours)
             self._after_fit("The lines are back.")
             return
         self.say("Fitting arcs.")

@@ -110,6 +110,12 @@ def reversed_contour(contour: Contour) -> Contour:
     return replace(contour, pieces=reversed_pieces(contour.pieces))
 
 
+def traveled_like(contour: Contour, other: Contour) -> Contour:
+    """Give a contour the direction and the start of another one along the same line."""
+    turned = contour if contour.turn is other.turn else reversed_contour(contour)
+    return turned if turned.start == other.start else started_at(turned, other.start)
+
+
 def started_at_usual_place(contour: Contour) -> Contour:
     """Start a closed contour at the middle of its longest line (or arc), a circle at its leftmost point."""
     if not contour.closed:

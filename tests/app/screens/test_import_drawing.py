@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from itertools import pairwise
-from math import cos, pi, sin
+from math import cos, dist, pi, sin
 from pathlib import Path
 
 import pytest
@@ -322,8 +322,11 @@ async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
         await user.press("f3")
         await user.until(lambda: user.rows[0][3] == "1")
         assert "300 lines -> 1 ARC, off by 0." in user.about
-        await user.press("f3")
+        turn, start = user.contour.turn, user.contour.start
+        await user.press("f6", "f3")
         await user.until(lambda: user.rows[0][3] == "300")
+        assert user.contour.turn == -turn
+        assert dist(user.contour.start, start) < 0.01
 
 
 def spline_export(count: int) -> bytes:
