@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from contextlib import suppress
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual import on, work
 from textual.app import ComposeResult
@@ -13,8 +14,12 @@ from textual.widgets.option_list import Option
 
 from app.nc_proof.runs import Compared, Question, compare
 from app.screens.dialogs import Dialog
+from app.session.work import SHOWN_AFTER, Work
 from app.widgets.option_rows import OptionRows
 from app.widgets.plain import PlainText
+from core.progress import Stopped
+
+RUNNING: Final = "Every control is running the program ..."
 
 if TYPE_CHECKING:
     from core.pipeline.checking import Answer
@@ -33,20 +38,31 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
         super().__init__("COMPARE CONTROLS", classes="wide-box")
         self.asked = question
         self.answers: tuple[Answer, ...] = ()
+        self._work = Work(self.action_none)
 
     def compose_box(self) -> ComposeResult:
         """Lay out the list, which stays empty until the controls have answered."""
-        yield PlainText("Every control is running the program ...", id="compare-wait")
+        yield PlainText(RUNNING, id="compare-wait")
         yield OptionRows(id="compared")
 
     def on_mount(self) -> None:
         """Run the program on all controls."""
         self.query_one("#question").border_subtitle = "Enter takes a control, Space draws its path dotted"
+        self.set_interval(SHOWN_AFTER, self._show_progress)
         self._compare()
+
+    def on_unmount(self) -> None:
+        """Stop the comparison; its result is no longer needed."""
+        self._work.stopped = True
+
+    def _show_progress(self) -> None:
+        if not self.answers and self._work.long:
+            self.query_one("#compare-wait", Static).update(f"{RUNNING}  {self._work.text}")
 
     @work(thread=True, exclusive=True, group="compare")
     def _compare(self) -> None:
-        self.post_message(Compared(compare(self.asked)))
+        with suppress(Stopped):
+            self.post_message(Compared(compare(self.asked, self._work)))
 
     @on(Compared)
     def _compared(self, event: Compared) -> None:

@@ -133,11 +133,11 @@ def _result(question: Question, proof: Proof, *, judged: bool) -> Result:
     return Result(question, answer, proof, fixed_scene(proof), judged)
 
 
-def compare(question: Question) -> tuple[Answer, ...]:
+def compare(question: Question, progress: Progress = silent) -> tuple[Answer, ...]:
     """Return every control's answer to the text."""
     from core.pipeline.checking import answer_all
 
-    return answer_all(question.text.data, _asked(question, "all"), question.control)
+    return answer_all(question.text.data, _asked(question, "all"), question.control, progress)
 
 
 def _asked(question: Question, control: str) -> Asked:

@@ -18,10 +18,14 @@ from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
 from core.controls.write.rewritten_stretch import NotTranslated
 from core.geometry.path import EMPTY, Floats, Path
+from core.progress import Progress, part, silent
 from core.units import Unit
 
 MIN_WRITTEN_APART: Final = 0.001
 """Millimeters above which a rewritten path differs, unless two of its last digits are more."""
+
+RUN_SHARE: Final = 0.3
+"""The share of a control's progress that the run takes; its verdicts take the rest."""
 
 MAX_POINT_PAIRS: Final = 1_000_000
 """Most pairs of points that are measured for one line."""
@@ -57,6 +61,7 @@ def compare(
     unit: Unit | None = None,
     library: ProgramLibrary = NO_LIBRARY,
     reference: str = "",
+    progress: Progress = silent,
 ) -> tuple[Compared | OtherLanguage, ...]:
     """Run the program on every control, in the registry's order; `unit` applies if it names none, inches by default.
 
@@ -66,15 +71,18 @@ def compare(
     """
     first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []
-    for control in dict.fromkeys((reference, *compared()) if reference else compared()):
+    controls = tuple(dict.fromkeys((reference, *compared()) if reference else compared()))
+    for number, control in enumerate(controls):
+        of_this = part(progress, number / len(controls), (number + 1) / len(controls))
         if not reads(control, text):
             rows.append(OtherLanguage(control))
             continue
-        done = run(text, control, tools, unit or Unit.IN, library)
+        done = run(text, control, tools, unit or Unit.IN, library, progress=part(of_this, 0.0, RUN_SHARE))
         if isinstance(done, UnknownControl):
             continue
         parts = None if first is None else parting(first.moves, done.moves)
-        rows.append(_row(done, parts, of="" if first is None else first.control))
+        judging = part(of_this, RUN_SHARE, 1.0)
+        rows.append(_row(done, parts, of="" if first is None else first.control, progress=judging))
         if first is None and done.stopped_at is None:
             first = done
     whole = first or next(filter(None, (run_with_tiny_tool(text, row.control, tools) for row in rows)), None)
@@ -84,8 +92,10 @@ def compare(
     )
 
 
-def _row(done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "") -> Compared:
-    results = judge_run(done)
+def _row(
+    done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "", progress: Progress = silent
+) -> Compared:
+    results = judge_run(done, progress)
     return Compared(done.control, done, results, deepest_gouge(results)[0], parts, by, of)
 
 

@@ -220,13 +220,13 @@ def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answ
     return _answer(done, results, _foreign(done.control, text), "", shop=False)
 
 
-def answer_all(text: bytes, asked: Asked, reference: str = "") -> tuple[Answer, ...]:
+def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progress = silent) -> tuple[Answer, ...]:
     """Return every control's answer, and where its path leaves that of the `reference`, which comes first.
 
     Without a reference, or if it does not run the program, the first control that runs it is the one compared with.
     """
     asked = replace(asked, unit=asked.unit or Unit.IN)
-    rows = compare(text, asked.tools, asked.unit, asked.library, reference)
+    rows = compare(text, asked.tools, asked.unit, asked.library, reference, progress)
     return tuple(_compared(row, asked, text) for row in rows)
 
 

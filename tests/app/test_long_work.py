@@ -7,8 +7,10 @@ from threading import Event
 from time import monotonic, sleep
 
 import pytest
+from textual.widgets import Static
 
 import app.derivation_actions as app_module
+import app.nc_proof.dialogs as dialogs_module
 import app.nc_proof.screen as proof_module
 import app.screens.post as post_module
 from app.documents.document import NcDocument
@@ -158,3 +160,20 @@ async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(mon
         assert slow.stopped
         assert "stopped" in str(user.screen.query_one("#proof-outcome").render())
         assert type(user.screen).__name__ == "ProofScreen"
+
+
+async def test_escape_from_the_comparison_stops_the_controls(monkeypatch):
+    async with operator() as user:
+        slow = Slow(monkeypatch, dialogs_module, "compare")
+        user.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
+        await user.settle()
+        await user.pilot.press("v")
+        while not isinstance(user.app.screen, dialogs_module.CompareControls):
+            await user.pilot.pause(0.01)
+        waiting = user.app.screen.query_one("#compare-wait", Static)
+        while "working 40 %" not in str(waiting.content):
+            await user.pilot.pause(0.01)
+        await user.pilot.press("escape")
+        while not slow.stopped:
+            await user.pilot.pause(0.01)
+        assert type(user.app.screen).__name__ == "ProofScreen"
