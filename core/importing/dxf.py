@@ -354,13 +354,17 @@ class _Reader:
         yield from self._bulged(entity, vertices, float(dxf.get("elevation", 0.0)), matrix, closed=bool(entity.closed))
 
     def polyline(self, entity: Polyline, matrix: Matrix44 | None) -> Iterator[Shape]:
-        """Yield the lines and bulge arcs of a two-dimensional POLYLINE, without the frame of a fitted one."""
+        """Yield the lines and bulge arcs of a POLYLINE, without the frame of a fitted one; a 3D one must be flat."""
         mode = entity.get_mode()
-        if mode != "AcDb2dPolyline":
-            kind = "3D polyline" if mode == "AcDb3dPolyline" else "mesh"
-            raise _NotFlatError(f"is a {kind}, which may leave the XY plane")
+        if mode not in ("AcDb2dPolyline", "AcDb3dPolyline"):
+            raise _NotFlatError("is a mesh, which may leave the XY plane")
         frame = 16
         rows = [vertex.dxf for vertex in entity.vertices if not vertex.dxf.flags & frame]
+        if mode == "AcDb3dPolyline" and len(rows) > 1:
+            points = [_moved(row.location, matrix) for row in rows]
+            ends = points[1:] + points[:1] if entity.is_closed else points[1:]
+            yield from (self._straight(start, end) for start, end in zip(points, ends, strict=False))
+            return
         if any(row.get("start_width", 0.0) or row.get("end_width", 0.0) for row in rows):
             self.notes["The width of polylines is ignored."] = 1
         vertices = [(row.location.x, row.location.y, row.get("bulge", 0.0)) for row in rows]

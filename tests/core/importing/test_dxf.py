@@ -146,10 +146,20 @@ def test_a_slope_is_refused_and_another_height_is_told() -> None:
     assert drawing.notes == ("The entities lie at heights from Z 0 to 5: Z is dropped.",)
 
 
-def test_a_three_dimensional_polyline_is_refused() -> None:
-    vertices = [(0, "VERTEX"), (8, "0"), (10, 0), (20, 0), (30, 0), (70, 32)] * 2
-    polyline = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, 8), (10, 0), (20, 0), (30, 0), *vertices, (0, "SEQEND")]
-    assert "is a 3D polyline" in read(dxf(polyline)).not_flat[0].text
+def polyline_3d(*points: tuple[float, float, float], flags: int) -> list[tuple[int, object]]:
+    vertices = [tag for x, y, z in points for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, y), (30, z), (70, 32))]
+    return [(0, "POLYLINE"), (8, "0"), (66, 1), (70, flags), (10, 0), (20, 0), (30, 0), *vertices, (0, "SEQEND")]
+
+
+def test_a_three_dimensional_polyline_is_read_only_if_it_is_flat() -> None:
+    corners = ((0.0, 0.0), (4.0, 0.0), (4.0, 3.0))
+    flat = read(dxf(polyline_3d(*((x, y, 5.0) for x, y in corners), flags=9)))
+    assert (flat.not_flat, len(flat.shapes)) == ((), 3)
+    assert len(read(dxf(polyline_3d(*((x, y, 5.0) for x, y in corners), flags=8))).shapes) == 2
+    sloping = read(dxf(polyline_3d(*((x, y, x) for x, y in corners), flags=9)))
+    assert "does not lie in the XY plane" in sloping.not_flat[0].text
+    mesh = polyline_3d(*((x, y, 5.0) for x, y in corners), flags=16)
+    assert "is a mesh" in read(dxf(mesh)).not_flat[0].text
 
 
 def insert(name: str, at: tuple[float, float], *more: tuple[int, object]) -> list[tuple[int, object]]:
