@@ -307,3 +307,12 @@ def test_lines_and_arcs_of_a_sampled_slot_come_back() -> None:
     assert fitted.fitted.off <= 0.005
     assert fitted.area == pytest.approx(20 * 10 + math.pi * 25, abs=0.2)
     assert any(isinstance(piece, Line) for piece in fitted.pieces)
+
+
+@pytest.mark.parametrize("angle", [100.0, 180.0, 235.0])
+def test_a_contour_starts_on_its_arc_where_that_is_nearest_to_a_place(angle: float) -> None:
+    slot = [line((0, -5), (20, -5)), arc((20, 0), 5, -90, 90), line((20, 5), (0, 5)), arc((0, 0), 5, 90, 270)]
+    contour = listed(dxf(*slot)).contours[0]
+    x, y = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    for start in (contour, reversed_contour(contour)):
+        assert started_at(start, (9.0 * x, 9.0 * y)).start == pytest.approx((5.0 * x, 5.0 * y))
