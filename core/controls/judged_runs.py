@@ -560,8 +560,6 @@ def _cuts(result: Judged) -> list[Finding]:
     if verdict.wrong_side:
         line = _line(result.center.numbers[verdict.wrong_side[0]])
         text = "The cutter is on the wrong side of the contour at this line."
-        if 2 * len(verdict.wrong_side) > len(result.center):
-            text = "The cutter is on the wrong side. Swap G41 and G42 (RL and RR)."
         listed.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
     return listed
 

@@ -9,7 +9,7 @@ import pytest
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.registry import run
-from core.pipeline.checking import Asked, answer, answer_all, reasons, with_largest_tool
+from core.pipeline.checking import Asked, answer, answer_all, reasons, same_contours, with_largest_tool
 from core.progress import Stopped
 from core.units import Unit, from_mm
 
@@ -24,6 +24,14 @@ def test_a_missing_diameter_stops_the_run_and_names_the_option_that_gives_it() -
     assert row.why is not None
     assert row.why.text.endswith("On the command line: --tool 3=DIAMETER.")
     assert row.why in row.findings
+
+
+def test_a_comparison_of_contours_says_which_program_stops_and_why() -> None:
+    whole, stopped = b"G21 F9.\nG41 D1 G1 X9.\nX20.\nG40 X30.\nM30\n", b"G21 F9.\nG41 D2 G1 X9.\nX20.\nM30\n"
+    same, sentences = same_contours(whole, stopped, asked("fanuc:a", CutterTool(1, 5.0)))
+    assert not same
+    assert sentences[-1].startswith("The second program stops at line 2; what follows is not compared. ")
+    assert sentences[-1].endswith("On the command line: --tool 2=DIAMETER.")
 
 
 def test_what_several_passes_find_at_one_place_is_told_once() -> None:
