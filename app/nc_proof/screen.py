@@ -164,11 +164,10 @@ class ProofScreen(BaseScreen):
         self._ask(self.question)
         if opened is not None:
             self.say(opened.text, opened.tone)
+        before = "" if opened is None else f"{opened.text.removesuffix('.')}. "
         if any(tool is self.question.tools.get(number) for number, tool in self.given.tools.items()):
-            before = "" if opened is None else f"{opened.text} "
             self.say(f"{before}Its tools are those that you gave it the last time.")
         elif self.header.tools and self.question.tools.tools == self.header.tools:
-            before = "" if opened is None else f"{opened.text} "
             self.say(f"{before}Its tools are those that its header names.")
 
     # ---- the text
