@@ -12,6 +12,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.progress import Progress, part, silent
 from core.verify.judge import judge
+from core.verify.report import enumerated
 from core.verify.verdict import Verdict
 
 VALUES = range(LOWEST, HIGHEST + 1)
@@ -71,6 +72,14 @@ class Row:
     def deleted(self) -> tuple[float, ...]:
         """Numbers of the segments that it deletes, each once."""
         return tuple(dict.fromkeys(self.compensated.deleted.segments.tolist()))
+
+    @property
+    def effect(self) -> tuple[str, tuple[float, ...]]:
+        """What a clean value does, as the end of a sentence, and the lengths for its places {0}, {1}."""
+        if self.verdict.uncut:
+            return "does not gouge but leaves {0} uncut", (self.uncut,)
+        segments = [number for number in self.deleted if number == int(number)]
+        return f"does not gouge but deletes {enumerated('segment', segments)}" if segments else "is clean", ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

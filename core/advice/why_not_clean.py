@@ -128,14 +128,17 @@ def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
     if not row.verdict.gouges:
         return (Finding("CAL_NOT_CLEAN", Severity.WARNING, f"CAL {calculated} makes no path that can be cut."),)
     gouge = row.verdict.gouges[0]
+    lengths: tuple[float, ...] = ()
     if table.recommended is not None:
-        help_ = f"Enter look-ahead {table.recommended}, which is clean."
+        effect, lengths = table.row(table.recommended).effect
+        help_ = f"Enter look-ahead {table.recommended}, which {effect}."
     elif _starts_at_inside_corner(row):
         help_ = "START is in an inside corner, where no look-ahead helps."
     else:
         help_ = "No look-ahead is clean."
     text, number = f"CAL {calculated} gouges. {help_}", gouge.surface_number
-    return (Finding("CAL_NOT_CLEAN", Severity.WARNING, text, number, at=gouge.surface_at, value=gouge.depth),)
+    at, depth = gouge.surface_at, gouge.depth
+    return (Finding("CAL_NOT_CLEAN", Severity.WARNING, text, number, at=at, value=depth, lengths=lengths),)
 
 
 def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:

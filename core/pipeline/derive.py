@@ -215,10 +215,11 @@ def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:
     setup = cutting_setup(block, program)
     if setup is None or not any(finding.code in OVERRIDABLE for finding in block.errors):
         return None
-    value = judge_lookaheads(setup).recommended
-    if value is not None:
-        text = f"Block {block.number}: CUTCOMP LOOKAHEAD {value} is clean."
-        return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead")
+    table = judge_lookaheads(setup)
+    if table.recommended is not None:
+        effect, lengths = table.row(table.recommended).effect
+        text = f"Block {block.number}: CUTCOMP LOOKAHEAD {table.recommended} {effect}."
+        return Finding("LOOKAHEAD_FITS", Severity.INFO, text, field="lookahead", lengths=lengths)
     fits = largest_tool(setup)
     if fits is None:
         return None

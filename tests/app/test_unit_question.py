@@ -23,7 +23,7 @@ from tests.app.widget_pilot import operator
 from tests.core.program.parts import line, program
 
 LARGE = "The tool is 0.5000 across, more than half of the part's smaller side, 0.9000. The program is in INCH."
-GOUGED = "CUTCOMP LOOKAHEAD 3 is clean."
+GOUGED = "CUTCOMP LOOKAHEAD 3 does not gouge but leaves 0.9000 uncut."
 
 
 def plate(width: float, height: float, tool: float, unit: Unit = Unit.IN) -> Program:

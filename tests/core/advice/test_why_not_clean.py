@@ -308,7 +308,7 @@ def test_every_remedy_holds(asked: CuttingSetup) -> None:
 def test_the_value_that_is_clean_is_told_where_the_calculated_one_is_not():
     notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
     found = of(setup(notch, Side.LEFT, closed=False))
-    assert said(found) == "CAL 2 gouges. Enter look-ahead 3, which is clean."
+    assert said(found) == "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.900 uncut."
     assert (found.tool, found.start) == (None, None)
     assert not of(setup(notch, Side.RIGHT, closed=False)).sentences
 
