@@ -9,6 +9,7 @@ from core.finding import Finding, Severity
 from core.program.fields import Form, default_value, field_of, value_refusal
 from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
 from core.program.solve.solved import Origin, Solved, SolvedBlock
+from core.program.tools import called_tool
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
@@ -103,9 +104,15 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
 
 
 def _finish_tool_without_allowance(block: Block, program: Program) -> Iterator[Finding]:
-    """Say that a finish tool finds nothing left to cut: it runs the contour once more."""
+    """Say that a finish tool finds nothing left to cut: it runs the contour once more.
+
+    A finish tool smaller than the other one cuts the corners that it left.
+    """
     tool = block.finish_tool
     if not isinstance(tool, Number) or tool.value == 0.0:
+        return
+    rough, finish = (called_tool(program, getattr(block, name), name).diameter for name in ("tool", "finish_tool"))
+    if rough is not None and finish is not None and finish < rough:
         return
     if not any(_parameter(name, program) for name in ("finish_xy", "finish_z")):
         text = f"FINISH TOOL {tool.value:g} has nothing to cut: FINISH XY and FINISH Z are 0. F4 sets them."

@@ -13,6 +13,7 @@ from core.program.model import (
     Number,
     PartSetup,
     ProgramParameters,
+    Tool,
     Unread,
     changed,
 )
@@ -344,3 +345,10 @@ def test_a_finish_tool_for_which_nothing_is_left_is_told():
     assert not told(part(finish_xy=Number(0.02)), "NOTHING_LEFT")
     assert not told(part(finish_z=Number(0.02)), "NOTHING_LEFT")
     assert not told(program(block(NOTCH, CutterComp.LEFT)), "NOTHING_LEFT")
+
+
+def test_a_smaller_finish_tool_without_allowance_still_cuts_the_corners():
+    part = program(block(NOTCH, CutterComp.LEFT, finish_tool=Number(9)))
+    for diameter, count in ((0.1, 0), (5.0, 1)):
+        tools = (*part.tools, Tool(9, "END MILL", Number(diameter)))
+        assert len(told(replace(part, tools=tools), "NOTHING_LEFT")) == count

@@ -132,7 +132,8 @@ def test_the_notch_is_told_the_look_ahead_that_is_clean():
     found = advice_for_block(derive(part).blocks[0], part)
     assert found is not None
     assert [finding.code for finding in found.sentences] == ["CAL_NOT_CLEAN"]
-    assert sentence(found.sentences[0], part.unit) == "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
+    said = "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
+    assert sentence(found.sentences[0], part.unit) == said
     assert found.sentences[0].at is not None
     assert found.tool is None
     assert found.start is None
