@@ -266,7 +266,7 @@ class NumberForm(Dialog[tuple[float, ...]]):
 class ChooseLine(Dialog[str]):
     """A list to choose from, with the cursor on option `here`; the result is an option's id, empty on Esc and F8.
 
-    A letter or digit moves the cursor to the next option whose text or id begins with it.
+    Letters and digits move the cursor to the next option whose text or id begins with them.
     """
 
     def __init__(self, title: str, options: Sequence[Option], here: str = "", *, classes: str = "") -> None:
@@ -284,16 +284,9 @@ class ChooseLine(Dialog[str]):
             self.query_one(OptionList).highlighted = ids.index(self.here) if self.here in ids else 0
 
     def on_key(self, event: events.Key) -> None:
-        """Move the cursor to the next option that begins with the letter or digit."""
-        if not (event.character or "").isalnum():
-            return
-        event.stop()
-        rows, letter = self.query_one(OptionList), str(event.character).lower()
-        here = rows.highlighted or 0
-        order = (*range(here + 1, len(self.options)), *range(here + 1))
-        names = [(str(option.prompt).strip().lower(), option.id or "") for option in self.options]
-        fits = (row for row in order if any(name.startswith(letter) for name in names[row]))
-        rows.highlighted = next(fits, here)
+        """Move the cursor to the next option that begins with the letters typed."""
+        if self.query_one(OptionRows).jump(event):
+            event.stop()
 
     @on(OptionList.OptionSelected)
     def _selected(self, event: OptionList.OptionSelected) -> None:

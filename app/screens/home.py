@@ -33,14 +33,13 @@ from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
+from app.widgets.option_rows import LETTERS_TOGETHER
 from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
-LETTERS_TOGETHER: Final = 1.0
-"""Longest pause in seconds between two letters of one name."""
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
 
 

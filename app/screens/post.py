@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from textual import on, work
+from textual import events, on, work
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
@@ -17,7 +17,7 @@ from app.screens.dialogs import Phrase
 from app.screens.entry_screen import EntryScreen
 from app.session.guide import POST_NAME, WHOLE_WAY
 from app.session.messages import Sentence, Tone
-from app.session.posting import OVERRIDE_PHRASES, NcText, choices, nc_text, objections
+from app.session.posting import CENTER_PATH, OVERRIDE_PHRASES, NcText, choices, nc_text, objections
 from app.session.session import Session
 from app.session.words import counted
 from app.session.work import Work
@@ -26,6 +26,7 @@ from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.status import UNITS
 from app.widgets.verdict import MARKS
+from core.controls.control_names import shown_name
 from core.program.file.read import StoreError
 from core.progress import Stopped
 
@@ -112,6 +113,12 @@ class PostScreen(EntryScreen):
     def _name_changed(self) -> None:
         self._enter_waits = False
 
+    def on_key(self, event: events.Key) -> None:
+        """In the list of controls, letters move the cursor to the next name that begins with them."""
+        controls = self.query_one("#post-controls", OptionRows)
+        if controls.has_focus and controls.jump(event):
+            event.stop()
+
     def action_controls(self) -> None:
         """Move the cursor to the list of controls."""
         self.query_one("#post-controls").focus()
@@ -183,7 +190,7 @@ class PostScreen(EntryScreen):
     def prompt_text(self) -> Sentence:
         """Return what Enter does."""
         if self.focused is not None and self.focused.id == "post-controls":
-            return Sentence("Up and down choose the control. Enter goes back to the name.")
+            return Sentence("Up and down or letters choose the control. Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
         what = f"{counted(len(self.made.against), 'finding')} must be corrected."
@@ -230,6 +237,7 @@ class PostScreen(EntryScreen):
             return
         self.host.posted_for = choice
         where, lines = written[0], written[1].count("\n")
-        self.notify(f"Posted: {where}, {lines} lines.", timeout=5)
+        what = "the center path" if choice == CENTER_PATH else f"for {shown_name(choice)}"
+        self.notify(f"Posted {what}: {where}, {lines} lines.", timeout=5)
         self.app.call_later(self.app.run_action, "app.back")
         self.app.call_later(self.host.end_guide, f"Posted. {WHOLE_WAY}")

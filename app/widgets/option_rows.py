@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from rich.segment import Segment
 from rich.style import Style
+from textual import events
 from textual.content import Content
 from textual.strip import Strip
 from textual.widgets import OptionList
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from core.controls.control_names import ControlChoice
 
 REVERSED = Style(reverse=True, underline=False)
+LETTERS_TOGETHER: Final = 1.0
+"""Longest pause in seconds between two letters of one name."""
 
 
 class OptionRows(OptionList):
@@ -27,6 +30,7 @@ class OptionRows(OptionList):
 
     def __init__(self, *options: Option | None, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(*options, id=id, classes=classes, compact=True, markup=False)
+        self._letters, self._last_letter = "", 0.0
 
     def render_line(self, y: int) -> Strip:
         """Return a line; while the list has the focus, the cursor line has the cursor's look."""
@@ -44,6 +48,39 @@ class OptionRows(OptionList):
             Segment(text, style + ink if style and style.bgcolor == cursor.bgcolor else style, control)
             for text, style, control in strip
         )
+
+    def jump(self, event: events.Key) -> bool:
+        """Move the cursor to the next option whose text or id begins with the letters typed; False for another key.
+
+        Letters that no option begins with start over with the last one.
+        """
+        letter = (event.character or "").lower()
+        together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
+        if not (letter.isalnum() or (together and letter and letter in "-_.: ")):
+            return False
+        self._last_letter = event.time
+        for letters, step in ((together + letter, 0 if together else 1), (letter, 1)):
+            rows = ((step + more + (self.highlighted or 0)) % self.option_count for more in range(self.option_count))
+            row = next((row for row in rows if self._begins_with(row, letters)), None)
+            if row is not None:
+                self._letters, self.highlighted = letters, row
+                break
+        return True
+
+    def _begins_with(self, row: int, letters: str) -> bool:
+        option = self.get_option_at_index(row)
+        names = (str(option.prompt).strip().lower(), option.id or "")
+        return any(name.startswith(letters) for name in names)
+
+    def action_cursor_up(self) -> None:
+        """Go up a line, but not from the first one to the last."""
+        if self.highlighted != 0:
+            super().action_cursor_up()
+
+    def action_cursor_down(self) -> None:
+        """Go down a line, but not from the last one to the first."""
+        if self.highlighted != self.option_count - 1:
+            super().action_cursor_down()
 
     def action_page_up(self) -> None:
         """Go up a page, if the list has room."""

@@ -272,6 +272,9 @@ async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
         await user.press("c", "h", "h", "enter")
         await user.settle()
         assert user.proof.question.control == "haas:a"
+        await user.press("c", *"fanuc:b", "enter")
+        await user.settle()
+        assert user.proof.question.control == "fanuc:b"
         await user.press("c", "t", "x", "enter")
         await user.settle()
         assert user.proof.question.control == "threeblock"

@@ -171,7 +171,7 @@ async def test_the_control_of_the_last_post_is_chosen_again(tmp_path, monkeypatc
         assert isinstance(screen, PostScreen)
         assert screen.choice == "center path"
         await user.press("f2", "down")
-        assert user.prompt == "Up and down choose the control. Enter goes back to the name."
+        assert user.prompt == "Up and down or letters choose the control. Enter goes back to the name."
         chosen = screen.choice
         await user.press("enter")
         await everything(user)
