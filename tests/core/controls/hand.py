@@ -22,9 +22,9 @@ def ran(text: str | bytes, control: str, **diameters: float) -> ControlRun:
     """The run of a program with tools named t1, t2 ... of these diameters in program units."""
     table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     program = text.encode() if isinstance(text, str) else text
-    done = registry.run(program, control, table)
-    assert not isinstance(done, UnknownControl)
-    return done
+    run = registry.run(program, control, table)
+    assert not isinstance(run, UnknownControl)
+    return run
 
 
 def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
@@ -39,28 +39,28 @@ def sample(name: str, control: str, **diameters: float) -> ControlRun:
     return ran((DATA / "nc" / name).read_bytes(), control, **diameters)
 
 
-def told(done: ControlRun, code: str) -> list[Finding]:
+def findings_of(run: ControlRun, code: str) -> list[Finding]:
     """The findings of one rule."""
-    return [finding for finding in done.findings if finding.code == code]
+    return [finding for finding in run.findings if finding.code == code]
 
 
-def lines_and_ends(done: ControlRun, line: int | None = None) -> list[tuple[float, float]]:
+def lines_and_ends(run: ControlRun, line: int | None = None) -> list[tuple[float, float]]:
     """The end points X, Y of the moves (of one line), in program units, to nine decimals."""
     return [
-        (round(from_mm(move.point[0], done.unit), 9), round(from_mm(move.point[1], done.unit), 9))
-        for move in done.moves
+        (round(from_mm(move.point[0], run.unit), 9), round(from_mm(move.point[1], run.unit), 9))
+        for move in run.moves
         if move.line and (line is None or move.line == line)
     ]
 
 
-def shape(done: ControlRun, start: int = 1) -> list[tuple[object, ...]]:
+def shape(run: ControlRun, start: int = 1) -> list[tuple[object, ...]]:
     """Every move from a row on: its turn as letter, its end and an arc's center in X, Y, program units."""
     letters = {0: "line", 1: "ccw", -1: "cw"}
     out: list[tuple[object, ...]] = []
-    for move in list(done.moves)[start:]:
+    for move in list(run.moves)[start:]:
         values = [*move.point[:2], *(move.center[:2] if move.turn else ())]
         name = "rapid" if move.rapid else letters[move.turn]
-        out.append((name, *(from_mm(value, done.unit) for value in values)))
+        out.append((name, *(from_mm(value, run.unit) for value in values)))
     return out
 
 

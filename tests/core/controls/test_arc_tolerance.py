@@ -11,7 +11,7 @@ from core.controls.iso.arcs import center_by_radius
 from core.controls.registry import arc_tolerance
 from core.finding import Finding, Severity
 from core.units import Unit
-from tests.core.controls.hand import ran, told
+from tests.core.controls.hand import findings_of, ran
 from tests.core.controls.rs274 import witness
 from tests.rs274 import WITNESS
 
@@ -42,8 +42,8 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     limit = arc_tolerance(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
     assert within.stopped_at is None
-    assert not told(within, "ARC")
-    (alarm,) = told(beyond, "ARC")
+    assert not findings_of(within, "ARC")
+    (alarm,) = findings_of(beyond, "ARC")
     assert (alarm.severity, alarm.line, beyond.stopped_at) == (Severity.ERROR, 4, 4)
     assert alarm.lengths == pytest.approx((radius * SCALE[unit], (radius + 1.01 * limit) * SCALE[unit]), abs=1e-5)
     assert ("cutcomp assumes" in alarm.text) is (control != "linuxcnc")
@@ -73,20 +73,20 @@ def test_of_a_center_that_is_wrong_in_both_ways_nothing_else_is_said(control: st
 @pytest.mark.parametrize("control", ["fanuc:a", "linuxcnc", "threeblock"])
 def test_a_full_circle_has_no_other_center(control: str) -> None:
     metric = "G71" if control == "threeblock" else "G21"
-    done = ran(
+    run = ran(
         f"{metric} G17 G90 F100.\nG1 X10. Y5.\nG3 X10. Y5. {'I10. J5.' if control == 'threeblock' else 'I0. J0.'}\n",
         control,
     )
-    assert done.stopped_at == 3
-    assert "meant" not in done.findings[-1].text
+    assert run.stopped_at == 3
+    assert "meant" not in run.findings[-1].text
 
 
 def quarter_turn(control: str, start: str, center: str) -> Finding:
     """The alarm at a quarter from X10 up to ten farther in X and Y, with another center."""
     metric, (x, y) = "G71" if control == "threeblock" else "G21", (float(word[1:]) + 10 for word in start.split())
-    done = ran(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
-    assert done.stopped_at == 3
-    return done.findings[-1]
+    run = ran(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
+    assert run.stopped_at == 3
+    return run.findings[-1]
 
 
 @pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")

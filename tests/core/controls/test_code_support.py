@@ -8,7 +8,7 @@ from core.controls.control_run import ControlRun
 from core.controls.iso import code_support
 from core.controls.registry import CONTROLS
 from core.finding import Severity
-from tests.core.controls.hand import lines_and_ends, ran, told
+from tests.core.controls.hand import findings_of, lines_and_ends, ran
 
 HAVE = {
     code_support.LINUXCNC: "linuxcnc",
@@ -21,11 +21,11 @@ HAVE = {
 ISO = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 
 
-def alarm(done: ControlRun) -> str:
+def alarm(run: ControlRun) -> str:
     """The text of the alarm that stops a run, empty where none does."""
-    if done.stopped_at is None:
+    if run.stopped_at is None:
         return ""
-    return next(one.text for one in reversed(done.findings) if one.severity is Severity.ERROR)
+    return next(one.text for one in reversed(run.findings) if one.severity is Severity.ERROR)
 
 
 @pytest.mark.parametrize("code", code_support.CODES)
@@ -39,8 +39,8 @@ def test_a_control_that_is_named_has_the_code(code: int) -> None:
 @pytest.mark.parametrize("code", ["G61.1", "G90.1", "G91.1"])
 def test_linuxcnc_runs_its_path_and_center_modes_and_the_others_name_it(code: str) -> None:
     for control in ISO:
-        done = ran(f"G20 G17 F9.\n{code}\nG1 X1.\nM2\n", control)
-        assert (alarm(done).endswith("LinuxCNC has it.")) == (control != "linuxcnc"), control
+        run = ran(f"G20 G17 F9.\n{code}\nG1 X1.\nM2\n", control)
+        assert (alarm(run).endswith("LinuxCNC has it.")) == (control != "linuxcnc"), control
 
 
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series"])
@@ -51,45 +51,45 @@ def test_g10_l1_names_the_controls_that_set_tool_data(control: str) -> None:
 @pytest.mark.parametrize("control", ["rosettacnc", "linuxcnc"])
 @pytest.mark.parametrize("line", ["G1 X#10001", "#10001=2"])
 def test_a_parameter_from_10000_on_names_fanuc(control: str, line: str) -> None:
-    done = ran(f"G20 F9.\n{line}\nM2\n", control)
-    assert (done.stopped_at, alarm(done).endswith("Fanuc has it.")) == (2, True)
+    run = ran(f"G20 F9.\n{line}\nM2\n", control)
+    assert (run.stopped_at, alarm(run).endswith("Fanuc has it.")) == (2, True)
 
 
 def test_d_and_h_next_to_t_count_where_they_may_stand_anywhere() -> None:
-    done = ran("G20 G17 F9.\nT1 M6 D1 H1\nG41 G1 X1.\nX3.\n", "nine-series", t1=0.5)
-    assert lines_and_ends(done) == [(1.0, 0.25), (3.0, 0.25)]
-    assert not told(done, "UNUSED")
+    run = ran("G20 G17 F9.\nT1 M6 D1 H1\nG41 G1 X1.\nX3.\n", "nine-series", t1=0.5)
+    assert lines_and_ends(run) == [(1.0, 0.25), (3.0, 0.25)]
+    assert not findings_of(run, "UNUSED")
 
 
 @pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "linuxcnc"])
 def test_d_next_to_t_is_an_alarm_that_names_who_takes_it(control: str) -> None:
-    done = ran("G20 G17 F9.\nT1 M6 D1\nG1 X1.\n", control, t1=0.5)
-    assert done.stopped_at == 2
-    assert "Allen-Bradley 9/Series, Fanuc and Haas have it." in alarm(done)
+    run = ran("G20 G17 F9.\nT1 M6 D1\nG1 X1.\n", control, t1=0.5)
+    assert run.stopped_at == 2
+    assert "Allen-Bradley 9/Series, Fanuc and Haas have it." in alarm(run)
 
 
 def test_d_of_another_tool_than_the_one_called_is_an_alarm_where_t_gives_the_radius() -> None:
     text = "G20 G17 F9.\nT{}\nG1 G41 X1. D1\nX3.\nX4.Y1.\nX4.Y5.\nG40 X9.\n"
     other, same_tool = (ran(text.format(number), "threeblock", t1=0.5, t2=0.25) for number in (2, 1))
-    assert (other.stopped_at, told(other, "CODE")[0].line) == (3, 3)
-    assert not told(same_tool, "CODE")
+    assert (other.stopped_at, findings_of(other, "CODE")[0].line) == (3, 3)
+    assert not findings_of(same_tool, "CODE")
 
 
 def test_h_next_to_t_names_who_takes_it() -> None:
     assert "Fanuc and Haas have it." in alarm(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "linuxcnc", t1=0.5))
-    (unused,) = told(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "rosettacnc", t1=0.5), "UNUSED")
+    (unused,) = findings_of(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "rosettacnc", t1=0.5), "UNUSED")
     assert "Fanuc and Haas have it." in unused.text
 
 
 def test_no_brackets_are_needed_right_of_the_equal_sign_on_rosettacnc() -> None:
-    done = ran("G21 F100\n#1=2\n#2=#1+3*4-[1]/2\n#3=SQRT[#1+2]*2\nG1 X#2 Y#3\nM30\n", "rosettacnc")
-    assert lines_and_ends(done) == [(13.5, 4.0)]
+    run = ran("G21 F100\n#1=2\n#2=#1+3*4-[1]/2\n#3=SQRT[#1+2]*2\nG1 X#2 Y#3\nM30\n", "rosettacnc")
+    assert lines_and_ends(run) == [(13.5, 4.0)]
 
 
 def test_linuxcnc_refuses_an_expression_without_brackets_at_its_operator() -> None:
-    done = ran("G21 F100\n#1=2\n#2=#1+3\nM2\n", "linuxcnc")
-    assert [(one.line, one.column) for one in told(done, "MACRO")] == [(3, 6)]
-    assert "RosettaCNC, Fanuc and Haas have it." in alarm(done)
+    run = ran("G21 F100\n#1=2\n#2=#1+3\nM2\n", "linuxcnc")
+    assert [(one.line, one.column) for one in findings_of(run, "MACRO")] == [(3, 6)]
+    assert "RosettaCNC, Fanuc and Haas have it." in alarm(run)
 
 
 @pytest.mark.parametrize("control", ["threeblock", "nine-series"])
@@ -100,14 +100,14 @@ def test_expressions_name_the_controls_that_evaluate_them(control: str) -> None:
 @pytest.mark.parametrize("line", ["IF [#1 EQ 2] GOTO 5", "WHILE [#1 LT 3] DO 1", "GOTO 7", "DO1"])
 @pytest.mark.parametrize("control", ISO)
 def test_jumps_name_the_controls_that_follow_them(control: str, line: str) -> None:
-    done = ran(f"G20 F9.\n{line}\nM2\n", control)
-    assert (done.stopped_at, alarm(done).endswith("Fanuc and Haas have it.")) == (2, True)
+    run = ran(f"G20 F9.\n{line}\nM2\n", control)
+    assert (run.stopped_at, alarm(run).endswith("Fanuc and Haas have it.")) == (2, True)
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "threeblock"])
 @pytest.mark.parametrize("block", ["G68 X0 Y0 R30", "G65 P1601 A60. D1", "G12 I.3 K1. Q.2 D1"])
 def test_a_code_that_the_control_lacks_is_named_before_its_words(block: str, control: str) -> None:
-    done = ran(f"G20 F9\nG0 X1.\n{block}\nM2\n", control, t1=0.5)
-    (said,) = told(done, "CODE")
+    run = ran(f"G20 F9\nG0 X1.\n{block}\nM2\n", control, t1=0.5)
+    (said,) = findings_of(run, "CODE")
     assert (said.line, said.severity) == (3, Severity.ERROR)
     assert said.text.startswith(f"cutcomp does not know {block.split()[0]} on this control.")

@@ -1,4 +1,4 @@
-"""Contours told from the moves that lead to them: nothing that may be surface is taken for a lead."""
+"""Contours are separated from their leads: no move that may be surface counts as a lead."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def test_one_or_two_pieces_next_to_a_closed_contour_are_leads() -> None:
     assert contour_of(path.part(0, 2)) == (0, 2)
 
 
-def test_a_move_within_the_rounding_is_no_closed_contour() -> None:
-    """Its ends are one place, and between them lies nothing: what it is next to is judged as before."""
+def test_a_move_within_the_rounding_tolerance_is_no_closed_contour() -> None:
+    """Its ends coincide, so the walls next to it are judged as without it."""
     open_walls = ((500.0, 400.0), (500.0, 450.0), (450.0, 450.0), (450.0, 400.0), (400.0, 400.0))
     for tiny in ((450.0005, 400.0005), (450.0, 400.001)):
         corners = list(open_walls)
@@ -47,8 +47,8 @@ def test_a_move_within_the_rounding_is_no_closed_contour() -> None:
 
 
 @pytest.mark.parametrize("gap", [0.0001, 0.001, 0.0025])
-def test_ends_within_the_rounding_are_one_place_wherever_they_are(gap: float) -> None:
-    """The grid that points are sorted into has borders: a contour closes across them too."""
+def test_ends_within_the_rounding_tolerance_coincide_wherever_they_are(gap: float) -> None:
+    """A contour also closes across the cell borders of the grid that sorts points."""
     for at in np.arange(0.0, 0.006, 0.0002):
         corners = np.array(RING, np.float64) + at
         corners[-1, 0] += gap
@@ -56,7 +56,7 @@ def test_ends_within_the_rounding_are_one_place_wherever_they_are(gap: float) ->
 
 
 def blended(*, tangent: bool) -> Path:
-    """A square that its last line closes on the way, an arc leading in to the middle of that side."""
+    """A square whose last line passes the start, with an arc leading in to the middle of that side."""
     lead = Arc((-0.5, 1.0 - 0.5), (0.0, 1.0), (-0.5, 1.0), Turn.CCW) if tangent else Line((-0.5, 0.5), (0.0, 1.0))
     corners = ((0.0, 1.0), (0.0, 2.0), (2.0, 2.0), (2.0, 0.0), (0.0, 0.0), (0.0, 1.2), (-1.0, 1.5))
     return Path.from_pieces([lead, *(Line(start, end) for start, end in pairwise(corners))])
@@ -72,7 +72,7 @@ def test_a_contour_that_closes_within_its_last_line_is_split_there() -> None:
 
 
 def cornered(*, tangent: bool) -> Path:
-    """A square from a corner, its lead-in and its lead-out both between the corner and one point."""
+    """A square that starts at a corner, with both leads between that corner and one point."""
     away = -0.5 if tangent else 0.5
     start, corner = (-0.5, -0.5), (0.0, 0.0)
     square = (corner, (0.0, 2.0), (2.0, 2.0), (2.0, 0.0), corner)
@@ -101,7 +101,7 @@ BORE = (
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 @pytest.mark.parametrize("circle", ["I-20.\n", "G3 X-20. R20.\nX20. R20.\n"])
-def test_half_turns_that_lead_into_a_bore_and_out_at_one_point_are_leads(circle: str, control: str) -> None:
+def test_half_turns_into_and_out_of_a_bore_at_one_point_are_leads(circle: str, control: str) -> None:
     (result,) = judge_run(ran(BORE.format(side="G41", circle=circle), control, t1=10.0))
     assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
     assert len(result.leads) == 2
@@ -115,12 +115,12 @@ def test_half_turns_through_a_boss_gouge_it(control: str) -> None:
 
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a"])
 def test_a_contour_with_a_loop_at_its_far_end_is_no_lead(control: str) -> None:
-    done = ran(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)
-    assert any(result.verdict.gouges for result in judge_run(done))
+    run = ran(BIG.format(offset="" if control == "linuxcnc" else "D1 "), control, t1=10.0)
+    assert any(result.verdict.gouges for result in judge_run(run))
 
 
 @pytest.mark.parametrize("turned_round", [False, True])
-def test_lines_are_split_wherever_they_run_over_the_start(turned_round: bool) -> None:
+def test_laps_of_lines_are_split_at_their_start(turned_round: bool) -> None:
     square = ((0, 2), (2, 2), (2, 0), (0, 0))
     laps = lines_through((-1, 1), (0, 1), *square, *square, (0, 1.2), (-1, 1.2))
     split = split_where_it_closes(laps.reversed() if turned_round else laps)
@@ -130,9 +130,9 @@ def test_lines_are_split_wherever_they_run_over_the_start(turned_round: bool) ->
     assert last - first == 10
 
 
-def test_nothing_is_split_where_the_contour_closes_or_is_run_over_the_other_way() -> None:
-    back = lines_through((0, 0), (2, 0), (2, 2), (1, 2), (1, 0), (0.5, 0), (-1, 0))
-    for path in (lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0)), back):
+def test_contours_that_close_or_are_retraced_in_reverse_are_not_split() -> None:
+    backtrack = lines_through((0, 0), (2, 0), (2, 2), (1, 2), (1, 0), (0.5, 0), (-1, 0))
+    for path in (lines_through((-1, -1), *RING, (-1, 1)), lines_through((0, 0), (1, 0)), backtrack):
         assert len(split_where_it_closes(path).path) == len(path)
 
 
@@ -150,17 +150,17 @@ GOOD = {
     "off a corner and back": ("-40. Y-40.", f"G41 D1 X-15. Y-15.\nX0. Y0.\n{LAP}X-15. Y-15.\nG40 X-40. Y-40."),
     "two laps": ("-30. Y20.", f"{ARC_IN}X0.\n{LAP}Y25.\nG3 X-10. Y35. R10.\nG1 {OUT}"),
 }
-"""The start and the blocks of a plate of 80 by 50 that is not gouged."""
+"""The start and the blocks of programs that do not gouge an 80 by 50 plate."""
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 @pytest.mark.parametrize("name", GOOD)
-def test_leads_and_laps_of_good_programs_are_no_gouges(name: str, control: str) -> None:
+def test_leads_and_laps_of_good_programs_do_not_gouge(name: str, control: str) -> None:
     start, cut = GOOD[name]
     text = FRAME.format(start=start, cut=cut.replace("D1 ", "") if control == "linuxcnc" else cut)
-    done = ran(text, control, t1=10.0)
-    assert done.stopped_at is None
-    (result,) = judge_run(done)
+    run = ran(text, control, t1=10.0)
+    assert run.stopped_at is None
+    (result,) = judge_run(run)
     assert result.verdict.clean
     # a square lead-out leaves a cusp
     assert result.verdict.uncut_length <= 10.0 + 1e-6
@@ -179,18 +179,18 @@ LAPS = {
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 @pytest.mark.parametrize("way", [0, 1])
 @pytest.mark.parametrize("kind", ROUND)
-def test_a_circle_that_runs_five_degrees_past_its_start_is_no_gouge(kind: str, way: int, control: str) -> None:
+def test_a_circle_that_runs_five_degrees_past_its_start_does_not_gouge(kind: str, way: int, control: str) -> None:
     offset = "G41 " if control == "linuxcnc" else "G41 D1 "
     text = (
         f"G21 G17 G40 G90 F400\nT1 M6\n{ROUND[kind].format(offset=offset, laps=LAPS[kind][way])}G40 G1 X0 Y60.\nM30\n"
     )
-    done = ran(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
-    assert done.stopped_at is None
-    (result,) = judge_run(done)
+    run = ran(text.replace("X0 Y60.", "X0 Y0") if kind == "bore" else text, control, t1=10.0)
+    assert run.stopped_at is None
+    (result,) = judge_run(run)
     assert (result.verdict.clean, result.verdict.uncut_length, len(result.leads)) == (True, 0.0, 3)
 
 
-def test_an_arc_is_split_where_it_runs_over_the_start() -> None:
+def test_an_arc_that_runs_past_the_start_is_split_there() -> None:
     half = Arc((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CW)
     over = Arc((1.0, 0.0), (-0.8, 0.6), (0.0, 0.0), Turn.CW)
     path = Path.from_pieces([Line((-1.0, -2.0), (-1.0, 0.0)), half, over, Line((-0.8, 0.6), (0.0, 2.0))])
@@ -202,7 +202,7 @@ def test_an_arc_is_split_where_it_runs_over_the_start() -> None:
     assert split_where_it_closes(path.reversed()).contours == ((1, 3),)
 
 
-def test_of_two_laps_each_is_judged() -> None:
+def test_each_of_two_laps_is_judged() -> None:
     start, cut = GOOD["two laps"]
     narrow = FRAME.format(start=start, cut=cut.replace("X80.", "X79.", 1))
     assert any(result.verdict.gouges for result in judge_run(ran(narrow, "fanuc:a", t1=10.0)))
@@ -213,10 +213,10 @@ ROUNDED = (
     "X-16.811 Y-47.089\nX40.498 Y-29.324\nX28.655 Y8.883\nX0. Y0.\nX-6.205 Y-1.923\nX-9.758 Y9.539\n"
     "G40 X-15.087 Y26.731\nM30\n"
 )
-"""A rectangle turned by an angle, its points rounded: where the overlap ends is 0.0005 off the wall."""
+"""A rotated rectangle with rounded points: its overlap ends 0.0005 off the wall."""
 
 
-def test_no_wall_is_bent_where_a_contour_runs_along_it_again() -> None:
+def test_a_wall_is_not_bent_when_a_contour_runs_along_it_again() -> None:
     assert not [finding for finding in errors(ROUNDED, "fanuc:a", t1=10.0) if finding.code == "GOUGE"]
 
 
@@ -227,10 +227,10 @@ MISTYPED = {
 
 
 @pytest.mark.parametrize("name", MISTYPED)
-def test_a_wall_that_is_run_twice_up_to_a_corner_is_no_lead(name: str) -> None:
-    """The last corner was to be at X0."""
-    found = errors(FRAME.format(start="20. Y-30.", cut=f"G1 {MISTYPED[name]}"), "fanuc:a", t1=10.0)
-    assert "GOUGE" in {finding.code for finding in found}
+def test_a_wall_that_is_cut_twice_up_to_a_corner_is_no_lead(name: str) -> None:
+    """The last corner should be at X0."""
+    findings = errors(FRAME.format(start="20. Y-30.", cut=f"G1 {MISTYPED[name]}"), "fanuc:a", t1=10.0)
+    assert "GOUGE" in {finding.code for finding in findings}
 
 
 SPIKES = {
@@ -241,35 +241,35 @@ SPIKES = {
 
 @pytest.mark.parametrize("name", SPIKES)
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
-def test_a_way_there_and_back_is_no_closed_contour(name: str, control: str) -> None:
-    """The walls beside it are cut, and are no leads."""
+def test_moves_out_and_back_are_no_closed_contour(name: str, control: str) -> None:
+    """The walls beside the moves are gouged and are not leads."""
     text = FRAME.format(start="-30. Y10.", cut=f"G41 D1 X-20. Y0.\n{SPIKES[name]}\nG40 Y20.")
-    found = judged_findings(judge_run(ran(text, control, t1=10.0)))
-    assert {finding.code for finding in found if finding.severity is Severity.ERROR} >= {"GOUGE"}
-    assert "LEADS" not in {finding.code for finding in found}
+    findings = judged_findings(judge_run(ran(text, control, t1=10.0)))
+    assert {finding.code for finding in findings if finding.severity is Severity.ERROR} >= {"GOUGE"}
+    assert "LEADS" not in {finding.code for finding in findings}
 
 
 def test_long_moves_beside_a_small_loop_may_be_walls() -> None:
     cut = "G41 D1 X-20. Y0.\nX40.\nX50. Y-20.\nX30. Y-20.\nX40. Y0.\nX100.\nG40 Y20."
-    found = judged_findings(judge_run(ran(FRAME.format(start="-30. Y10.", cut=cut), "fanuc:a", t1=10.0)))
-    (leads,) = [finding for finding in found if finding.code == "LEADS"]
+    findings = judged_findings(judge_run(ran(FRAME.format(start="-30. Y10.", cut=cut), "fanuc:a", t1=10.0)))
+    (leads,) = [finding for finding in findings if finding.code == "LEADS"]
     assert leads.severity is Severity.WARNING
-    cuts = [finding for finding in found if finding.code == "LEAD-GOUGE"]
+    cuts = [finding for finding in findings if finding.code == "LEAD-GOUGE"]
     assert [finding.severity for finding in cuts] == [Severity.WARNING] * 2
 
 
-def test_more_pieces_next_to_a_closed_contour_are_a_contour() -> None:
+def test_three_pieces_next_to_a_closed_contour_are_a_contour() -> None:
     path = lines_through(*RING, (-1, 1), (-2, 1), (-2, 4))
     assert contours_of(path) == ((0, 3), (3, 6))
     assert contour_of(path) == (0, 6)
 
 
-def test_two_closed_contours_and_the_way_between_them() -> None:
+def test_two_closed_contours_are_separated_from_the_moves_between_them() -> None:
     assert contours_of(lines_through(*RING, *OTHER)) == ((0, 3), (4, 8))
     assert contours_of(lines_through(*OTHER, (5, 5), (4, 5), *RING, (-1, -1))) == ((0, 4), (4, 7), (7, 10))
 
 
-def test_a_line_forth_and_back_is_no_contour_of_its_own() -> None:
+def test_a_line_out_and_back_is_no_separate_contour() -> None:
     assert contours_of(lines_through(*OTHER, (5, 5), (6, 6), (5, 5))) == ((0, 4), (4, 7))
 
 
@@ -280,14 +280,14 @@ def test_a_full_circle_next_to_a_longer_contour_is_a_contour() -> None:
     assert contours_of(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
 
 
-def test_among_very_many_contours_no_moves_count_as_leads() -> None:
+def test_no_moves_count_as_leads_among_very_many_contours() -> None:
     corners = [(x + 4 * row, y) for row in range(40) for x, y in RING]
     path = lines_through(*corners)
     assert contours_of(path) == ((0, len(path)),)
 
 
 KEY = "X-70. Y-50.\nY-20.\nX-62.\nY-30.\nX-67.\nY-40.\nX-48.\nY-30.\nX-58.\nY-20.\nX-45.\nY-50.\nX-70."
-"""A pocket whose neck of 4 mm a tool of 6 mm enters all the same, 2 mm too deep on either side."""
+"""A pocket with a 4 mm neck that a 6 mm tool enters anyway, gouging 2 mm on either side."""
 
 
 def ring_and_key(depths: int) -> str:
@@ -297,16 +297,18 @@ def ring_and_key(depths: int) -> str:
 
 
 def errors(program: str, control: str, t1: float = 6.0) -> list[Finding]:
-    told = judged_findings(judge_run(ran(program, control, t1=t1)))
-    return [one for one in told if one.severity is Severity.ERROR]
+    findings = judged_findings(judge_run(ran(program, control, t1=t1)))
+    return [finding for finding in findings if finding.severity is Severity.ERROR]
 
 
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("depths", [1, 2, 3, 8])
-def test_a_gouge_is_reported_however_often_another_contour_is_cut_before(control: str, depths: int) -> None:
+def test_a_gouge_is_reported_after_any_number_of_passes_of_another_contour(control: str, depths: int) -> None:
     key = len(ring_and_key(depths).split("Z-1.\nX-70. ")[0].splitlines())
-    deep = [one for one in errors(ring_and_key(depths), control) if (one.line or 0) > key]
-    assert [one.value for one in deep if one.code == "GOUGE"][:2] == pytest.approx([2.0, 2.0], abs=1e-6)
+    key_errors = [finding for finding in errors(ring_and_key(depths), control) if (finding.line or 0) > key]
+    assert [finding.value for finding in key_errors if finding.code == "GOUGE"][:2] == pytest.approx(
+        [2.0, 2.0], abs=1e-6
+    )
 
 
 OPEN_KEY = (
@@ -318,37 +320,39 @@ OPEN_KEY = (
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("circle", ["", "G2 X100. Y20. I0. J-20.\nG1 "])
 def test_a_full_circle_after_an_open_contour_does_not_hide_its_gouge(control: str, circle: str) -> None:
-    found = [one for one in errors(OPEN_KEY.format(circle=circle), control) if one.code == "GOUGE"]
-    assert [one.value for one in found if one.line in (6, 12)] == pytest.approx([2.0, 2.0], abs=1e-6)
+    gouges = [finding for finding in errors(OPEN_KEY.format(circle=circle), control) if finding.code == "GOUGE"]
+    assert [finding.value for finding in gouges if finding.line in (6, 12)] == pytest.approx([2.0, 2.0], abs=1e-6)
 
 
 FIRST_RING, SECOND_RING = "Y30.\nX40.\nY0.\nX0.\n", "Y30.\nX140.\nY0.\nX100.\n"
 
 
-def two_rings(way: str) -> str:
+def two_rings(link: str) -> str:
     begin = "G21 G17 G90 G94 F100\nG0 X-30. Y-30. Z5.\nG41 D1 G1 X0. Y-10.\nY0.\n"
-    return begin + FIRST_RING + way + SECOND_RING + "G40 X90. Y-40.\nM2\n"
+    return begin + FIRST_RING + link + SECOND_RING + "G40 X90. Y-40.\nM2\n"
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-def test_a_gouge_on_a_long_way_between_contours_says_that_it_may_be_no_surface(control: str) -> None:
-    """Nothing tells a way of three moves from an open contour: its gouges stay errors, and what to do is said."""
-    told = judged_findings(judge_run(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
-    assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
-    (way,) = (one for one in told if one.code == "WAY")
-    assert (way.severity, way.line) == (Severity.WARNING, 9)
-    assert way.text.startswith("Lines 9-12 are treated as a contour")
+def test_long_moves_between_contours_are_reported_as_a_possible_contour(control: str) -> None:
+    """Three moves may be an open contour: their gouges stay errors, with a hint on what to do."""
+    findings = judged_findings(judge_run(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
+    assert {9.0, 10.0} & {
+        float(finding.text.split("line ")[1].split()[0]) for finding in findings if finding.code == "GOUGE"
+    }
+    (link,) = (finding for finding in findings if finding.code == "WAY")
+    assert (link.severity, link.line) == (Severity.WARNING, 9)
+    assert link.text.startswith("Lines 9-12 are treated as a contour")
     short = judged_findings(judge_run(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
-    assert not {"WAY", "GOUGE"} & {one.code for one in short}
+    assert not {"WAY", "GOUGE"} & {finding.code for finding in short}
 
 
 @pytest.mark.parametrize("way", ["X-20.\nG42 Y-50.\nX100.\nY0.\n", "X-20.\nY-50.\nX100.\nG42 Y0.\n"])
-def test_a_way_on_which_the_side_changes_is_reported_once_and_whole(way: str) -> None:
-    told = judged_findings(judge_run(ran(two_rings(way), "nine-series:a", t1=6)))
-    assert "SIDES" in {one.code for one in told}
-    (way_told,) = (one for one in told if one.code == "WAY")
-    assert way_told.line == 9
-    assert way_told.text.startswith("Lines 9-12 are treated as a contour")
+def test_moves_between_contours_with_a_side_change_are_reported_once(way: str) -> None:
+    findings = judged_findings(judge_run(ran(two_rings(way), "nine-series:a", t1=6)))
+    assert "SIDES" in {finding.code for finding in findings}
+    (warning,) = (finding for finding in findings if finding.code == "WAY")
+    assert warning.line == 9
+    assert warning.text.startswith("Lines 9-12 are treated as a contour")
 
 
 NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"
@@ -356,34 +360,34 @@ NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"
 
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize(("ring", "gouged"), [(FIRST_RING, False), (NECK, True)])
-def test_of_a_long_way_that_is_not_gouged_nothing_is_said(control: str, ring: str, gouged: bool) -> None:
-    way = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
-    results = judge_run(ran(way + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
+def test_long_moves_between_contours_without_gouges_are_not_reported(control: str, ring: str, gouged: bool) -> None:
+    link = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
+    results = judge_run(ran(link + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
     assert any(one.open_lines for one in results)
     codes = {one.code for one in judged_findings(results)}
     assert ("GOUGE" in codes) is gouged
     assert "WAY" not in codes
 
 
-def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
+def test_closed_or_single_contours_are_not_reported_as_moves_between_contours() -> None:
     closed = lines_through(*RING, *OTHER, (5, 5), (4, 5), (3, 5), (-1, -1))
     assert open_contours(closed, contours_of(closed)) == {(8, 12): {9.0, 10.0, 11.0, 12.0}}
     alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
     assert not open_contours(alone, contours_of(alone))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
-    told = [judged_findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
-    assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]
+    findings_by_program = [judged_findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
+    assert [sum(finding.code == "WAY" for finding in findings) for findings in findings_by_program] == [0, 1]
 
 
-def test_the_comparison_reports_it_too() -> None:
+def test_the_comparison_of_controls_reports_the_gouge() -> None:
 
     tools = end_mills({1: 6.0})
     rows = {row.control: row for row in compare(ring_and_key(3).encode(), tools, Unit.MM)}
     assert getattr(rows["linuxcnc"], "gouge", 0.0) >= 2.0 - 1e-6
 
 
-def test_what_is_cut_of_a_line_there_and_back_at_a_corner_is_a_warning() -> None:
-    """It leads in and out along the bottom wall's line, with a wall of its own for all that is known."""
+def test_a_gouge_of_a_line_out_and_back_at_a_corner_is_a_warning() -> None:
+    """The line leads in and out along the line of the bottom wall, and may be a wall itself."""
     cut = "G41 D1 G1 X-30. Y0. F100.\nX0.\nY50.\nX50.\nY0.\nX0.\nX-30.\nG40 X-45. Y-15."
-    found = judged_findings(judge_run(ran(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
-    assert {finding.severity for finding in found if finding.code == "LEAD-GOUGE"} == {Severity.WARNING}
+    findings = judged_findings(judge_run(ran(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
+    assert {finding.severity for finding in findings if finding.code == "LEAD-GOUGE"} == {Severity.WARNING}

@@ -11,7 +11,7 @@ from core.finding import Severity
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome
 from tests.core.controls.cycle_programs import drilled, timed
-from tests.core.controls.hand import ran, told
+from tests.core.controls.hand import findings_of, ran
 from tests.rs274 import WITNESS
 
 needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
@@ -28,25 +28,25 @@ def test_random_programs_fare_as_with_the_interpreter_itself(kind, tmp_path: Pat
     assert sum(one[1] == "same moves" for one in fared) >= 15
 
 
-def heights(done: ControlRun) -> list[tuple[str, float]]:
+def heights(run: ControlRun) -> list[tuple[str, float]]:
     """Every move as rapid or feed and where it goes in Z, program units."""
     return [
-        ("rapid" if move.rapid else "feed", round(from_mm(move.point[2], done.unit), 6))
-        for move in done.moves
+        ("rapid" if move.rapid else "feed", round(from_mm(move.point[2], run.unit), 6))
+        for move in run.moves
         if move.line > 2
     ]
 
 
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series"])
 def test_a_hole_comes_back_to_the_height_before(control: str) -> None:
-    done = ran("G21 F100\nG0 Z5\nG81 X1 Z-2 R1\n", control)
-    assert heights(done) == [("rapid", 5), ("rapid", 1), ("feed", -2), ("rapid", 5)]
+    run = ran("G21 F100\nG0 Z5\nG81 X1 Z-2 R1\n", control)
+    assert heights(run) == [("rapid", 5), ("rapid", 1), ("feed", -2), ("rapid", 5)]
 
 
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series"])
 def test_g99_comes_back_to_r_and_pecks_come_out(control: str) -> None:
-    done = ran("G21 F100\nG0 Z5\nG99 G83 X1 Z-2 R1 Q2\n", control)
-    assert heights(done) == [
+    run = ran("G21 F100\nG0 Z5\nG99 G83 X1 Z-2 R1 Q2\n", control)
+    assert heights(run) == [
         ("rapid", 5),
         ("rapid", 1),
         ("feed", -1),
@@ -58,67 +58,67 @@ def test_g99_comes_back_to_r_and_pecks_come_out(control: str) -> None:
 
 
 def test_the_repeats_of_an_incremental_row() -> None:
-    done = ran("G21 F100\nG0 Z5\nG91 G81 X3 Z-2 R-4 L3\n", "nine-series")
-    assert [(move.point[0], move.point[2]) for move in done.moves if not move.rapid] == [(3, -1), (6, -1), (9, -1)]
+    run = ran("G21 F100\nG0 Z5\nG91 G81 X3 Z-2 R-4 L3\n", "nine-series")
+    assert [(move.point[0], move.point[2]) for move in run.moves if not move.rapid] == [(3, -1), (6, -1), (9, -1)]
 
 
 @pytest.mark.parametrize(
     ("control", "rule"), [("linuxcnc", "N-CYCLE"), ("rosettacnc:easy", "C8"), ("nine-series", "CYCLE")]
 )
 def test_a_cycle_does_not_go_with_compensation(control: str, rule: str) -> None:
-    done = ran("G21 G17 G1 F100\nG41 D1\nG1 X10\nX20 Y-5\nG81 X30 Z-2 R1\n", control, t1=6)
-    assert [one.line for one in told(done, rule)] == [5]
-    assert done.stopped_at == 5
+    run = ran("G21 G17 G1 F100\nG41 D1\nG1 X10\nX20 Y-5\nG81 X30 Z-2 R1\n", control, t1=6)
+    assert [one.line for one in findings_of(run, rule)] == [5]
+    assert run.stopped_at == 5
 
 
 def test_a_cycle_in_force_does_not_go_with_compensation_either() -> None:
-    done = ran("G21 F100\nG81 X1 Z-1 R1\nG41 D1\nX30\nM2\n", "linuxcnc", t1=6)
-    assert done.stopped_at == 4
+    run = ran("G21 F100\nG81 X1 Z-1 R1\nG41 D1\nX30\nM2\n", "linuxcnc", t1=6)
+    assert run.stopped_at == 4
 
 
 def test_of_threeblock_only_the_positions_are_followed() -> None:
-    done = ran("G70F9.\nG0Z1.\nG81X2.Z-1.R.1\n", "threeblock")
-    assert heights(done) == [("rapid", 1)]
-    assert told(done, "CYCLE")[0].severity is Severity.WARNING
+    run = ran("G70F9.\nG0Z1.\nG81X2.Z-1.R.1\n", "threeblock")
+    assert heights(run) == [("rapid", 1)]
+    assert findings_of(run, "CYCLE")[0].severity is Severity.WARNING
 
 
 def test_a_feed_by_time_goes_with_the_programmed_length() -> None:
-    done = ran("G21\nG93 G1 X3 Y4 F2\nG3 X3 Y4 I1 F1\nG94 G1 X0 F7\n", "nine-series")
-    assert [move.feed for move in done.moves if move.line] == pytest.approx([10, 6.283185307, 7])
+    run = ran("G21\nG93 G1 X3 Y4 F2\nG3 X3 Y4 I1 F1\nG94 G1 X0 F7\n", "nine-series")
+    assert [move.feed for move in run.moves if move.line] == pytest.approx([10, 6.283185307, 7])
 
 
 def test_a_feed_by_time_stands_in_every_block() -> None:
-    done = ran("G21\nG93 G1 X3 F2\nX5\n", "nine-series")
-    assert [one.line for one in told(done, "FEED")] == [3]
-    assert done.stopped_at == 3
+    run = ran("G21\nG93 G1 X3 F2\nX5\n", "nine-series")
+    assert [one.line for one in findings_of(run, "FEED")] == [3]
+    assert run.stopped_at == 3
 
 
 def test_a_feed_by_turn_goes_with_the_spindle() -> None:
-    done = ran("G20 S500 M3\nG95 G1 X3 F.01\n", "rosettacnc")
-    assert [from_mm(move.feed, Unit.IN) for move in done.moves if move.line] == pytest.approx([5])
+    run = ran("G20 S500 M3\nG95 G1 X3 F.01\n", "rosettacnc")
+    assert [from_mm(move.feed, Unit.IN) for move in run.moves if move.line] == pytest.approx([5])
 
 
 @pytest.mark.parametrize("start", ["", "G96 S200"])
 def test_a_feed_by_turn_without_turns_is_not_known(start: str) -> None:
-    done = ran(f"G20 {start}\nG95 G1 X3 F.01\n", "nine-series")
-    assert [move.feed for move in done.moves if move.line] == [0]
-    assert [one.line for one in told(done, "FEED")] == [2]
+    run = ran(f"G20 {start}\nG95 G1 X3 F.01\n", "nine-series")
+    assert [move.feed for move in run.moves if move.line] == [0]
+    assert [one.line for one in findings_of(run, "FEED")] == [2]
 
 
 @pytest.mark.parametrize("line", ["G00 G17 G40 G49 G80 G90", "G80 G0 G90", "G0 G80 X0 Y0"])
 @pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "nine-series", "linuxcnc"])
 def test_a_safety_line_with_g80_runs_on_every_iso_control(control: str, line: str) -> None:
-    done = ran(f"G20 F9.\n{line}\nX1.\nM2\n", control)
-    assert done.stopped_at is None
-    assert [move.rapid for move in done.moves][-1]
+    run = ran(f"G20 F9.\n{line}\nX1.\nM2\n", control)
+    assert run.stopped_at is None
+    assert [move.rapid for move in run.moves][-1]
 
 
 def test_g80_leaves_the_motion_before_the_cycle_where_it_has_a_group_of_its_own() -> None:
-    done = ran("G20 F9.\nG1 X1.\nG80 X2.\nG81 X3. Z-1. R.1\nG80\nX4.\nM2\n", "nine-series")
-    assert [(move.line, move.rapid) for move in done.moves if move.line in (3, 6)] == [(3, False), (6, False)]
+    run = ran("G20 F9.\nG1 X1.\nG80 X2.\nG81 X3. Z-1. R.1\nG80\nX4.\nM2\n", "nine-series")
+    assert [(move.line, move.rapid) for move in run.moves if move.line in (3, 6)] == [(3, False), (6, False)]
 
 
 @pytest.mark.parametrize("line", ["G80 G81 X1. Z-1. R.1", "G0 G81 X1. Z-1. R.1", "G80 G80"])
 def test_two_codes_of_which_one_counts_stop_the_nine_series(line: str) -> None:
-    done = ran(f"G20 F9.\n{line}\nM2\n", "nine-series")
-    assert [finding.line for finding in told(done, "GROUP")] == [2]
+    run = ran(f"G20 F9.\n{line}\nM2\n", "nine-series")
+    assert [finding.line for finding in findings_of(run, "GROUP")] == [2]

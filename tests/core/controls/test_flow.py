@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import pytest
 
-from tests.core.controls.hand import lines_and_ends, ran, told
+from tests.core.controls.hand import findings_of, lines_and_ends, ran
 
 HEAD = "G21 G1 F100\n"
 
 
 def test_subprograms_stand_after_the_end_and_repeat() -> None:
-    done = ran(f"{HEAD}M98 P10 L2\nM30\nO10 ; there\nG91 X1\nG90\nM99\n", "rosettacnc")
-    assert lines_and_ends(done) == [(1.0, 0.0), (2.0, 0.0)]
+    run = ran(f"{HEAD}M98 P10 L2\nM30\nO10 ; there\nG91 X1\nG90\nM99\n", "rosettacnc")
+    assert lines_and_ends(run) == [(1.0, 0.0), (2.0, 0.0)]
 
 
 def test_subprograms_call_others() -> None:
-    done = ran(f"{HEAD}M98P1\nX9\nM2\nO1\nX1\nM98P2\nX3\nM99\nO2\nX2\nM99\n", "rosettacnc")
-    assert [x for x, _ in lines_and_ends(done)] == [1.0, 2.0, 3.0, 9.0]
+    run = ran(f"{HEAD}M98P1\nX9\nM2\nO1\nX1\nM98P2\nX3\nM99\nO2\nX2\nM99\n", "rosettacnc")
+    assert [x for x, _ in lines_and_ends(run)] == [1.0, 2.0, 3.0, 9.0]
 
 
 def test_a_label_may_have_a_block_number_and_small_letters() -> None:
@@ -33,22 +33,22 @@ def test_a_label_may_have_a_block_number_and_small_letters() -> None:
     ],
 )
 def test_calls_that_lead_nowhere_or_in_a_circle_stop(body: str, line: int, column: int) -> None:
-    done = ran(HEAD + body, "rosettacnc")
-    assert [(one.line, one.column) for one in told(done, "SUBPROGRAM")] == [(line, column)]
-    assert done.stopped_at == line
+    run = ran(HEAD + body, "rosettacnc")
+    assert [(one.line, one.column) for one in findings_of(run, "SUBPROGRAM")] == [(line, column)]
+    assert run.stopped_at == line
 
 
 def test_the_threeblock_control_has_none() -> None:
-    assert told(ran("G0X1.\nM98P1\nM2\nO1\nX2.\nM99\n", "threeblock"), "SUBPROGRAM")
+    assert findings_of(ran("G0X1.\nM98P1\nM2\nO1\nX2.\nM99\n", "threeblock"), "SUBPROGRAM")
 
 
 def test_running_into_a_subprogram_is_reported() -> None:
-    assert told(ran(f"{HEAD}X1\nO7\nX2\nM99\n", "rosettacnc"), "SUBPROGRAM")
-    assert not told(ran(f"O7\n{HEAD}X1\nM2\n", "rosettacnc"), "SUBPROGRAM")
+    assert findings_of(ran(f"{HEAD}X1\nO7\nX2\nM99\n", "rosettacnc"), "SUBPROGRAM")
+    assert not findings_of(ran(f"O7\n{HEAD}X1\nM2\n", "rosettacnc"), "SUBPROGRAM")
 
 
 def test_a_file_that_ends_in_a_subprogram_is_reported() -> None:
-    assert told(ran(f"{HEAD}M98 P1\nM2\nO1\nX1\n", "rosettacnc"), "SUBPROGRAM")
+    assert findings_of(ran(f"{HEAD}M98 P1\nM2\nO1\nX1\n", "rosettacnc"), "SUBPROGRAM")
 
 
 def test_nothing_after_the_end_runs() -> None:
@@ -59,9 +59,9 @@ def test_nothing_after_the_end_runs() -> None:
 @pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "nine-series", "linuxcnc", "klartext"])
 @pytest.mark.parametrize("text", [b"", b"\n\n", b"%", b"\x00" * 100, b"\xff\xfeG\x00", bytes(range(256))])
 def test_any_file_gives_a_run(control: str, text: bytes) -> None:
-    done = ran(text, control)
-    assert len(done.moves) >= 1
-    assert all(finding.text.isprintable() for finding in done.findings)
+    run = ran(text, control)
+    assert len(run.moves) >= 1
+    assert all(finding.text.isprintable() for finding in run.findings)
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "nine-series:a", "rosettacnc:normal"])

@@ -1,4 +1,4 @@
-"""Verdicts on a control's path by line, and all controls side by side."""
+"""Verdicts on the path of a control, by line, and the comparison of all controls."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence, to_mm
 from core.verify.judge import judge
-from tests.core.controls.hand import DATA, ran, ran_up_to, sample, told
+from tests.core.controls.hand import DATA, findings_of, ran, ran_up_to, sample
 from tests.tool_tables import end_mills
 
 NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
 
 
-def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
-    done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
-    results = judge_run(done)
+def test_a_gouge_is_reported_with_its_depth_and_lines() -> None:
+    run = sample("threeblock-outside.nc", "threeblock", t1=0.6)
+    results = judge_run(run)
     cut, line = deepest_gouge(results)
     assert (round(from_mm(cut, Unit.IN), 9), line) == (0.05, 5)
     (gouge,) = [finding for finding in judged_findings(results) if finding.code == "GOUGE"]
@@ -30,21 +30,21 @@ def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
 
 
 def test_a_clean_path_has_no_finding() -> None:
-    done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
-    assert not judged_findings(judge_run(done))
+    run = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
+    assert not judged_findings(judge_run(run))
 
 
 BORE = "G21 G17 G90 F200\nT1 M6\nG0 X0 Y0\nG1 Z-3\nG41 D1 X6\nG3 I-6\nG40 G1 X0\nM30\n"
 
 
-def test_a_cutter_as_wide_as_the_bore_stands_and_cuts_all_of_it() -> None:
-    done = ran(BORE, "fanuc:a", t1=12.0)
-    (result,) = judge_run(done)
+def test_a_cutter_as_wide_as_the_bore_cuts_all_of_it() -> None:
+    run = ran(BORE, "fanuc:a", t1=12.0)
+    (result,) = judge_run(run)
     assert (result.verdict.clean, result.verdict.uncut_length) == (True, 0.0)
     assert not [finding for finding in judged_findings((result,)) if finding.code == "UNCUT"]
 
 
-def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
+def test_a_notch_that_is_too_narrow_stops_threeblock_and_linuxcnc() -> None:
     rows = {row.control: row for row in compare(NOTCH.encode(), end_mills({1: 0.5}))}
     assert set(rows) == set(compared())
     lenient, strict = rows["threeblock"], rows["linuxcnc"]
@@ -58,7 +58,7 @@ def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
 
 
 @pytest.mark.parametrize("reference", ["fanuc:b", "fanuc:b-arc"])
-def test_the_others_are_compared_with_the_reference(reference: str) -> None:
+def test_all_controls_are_compared_with_the_reference(reference: str) -> None:
     program = b"G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n"
     rows = compare(program, end_mills({1: 0.5}), reference=reference)
     assert rows[0].control == reference
@@ -69,23 +69,23 @@ def test_the_others_are_compared_with_the_reference(reference: str) -> None:
     assert any(row.parts for row in others)
 
 
-def test_two_paths_part_at_the_entry() -> None:
+def test_parting_finds_where_two_paths_separate() -> None:
     easy = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
     normal = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
-    found = parting(easy.moves, normal.moves)
-    assert found is not None
-    assert found.line == found.farthest == 14
-    assert found.distance == pytest.approx(np.hypot(23.675444679663241 - 23, 3), abs=1e-9)
+    difference = parting(easy.moves, normal.moves)
+    assert difference is not None
+    assert difference.line == difference.farthest == 14
+    assert difference.distance == pytest.approx(np.hypot(23.675444679663241 - 23, 3), abs=1e-9)
     assert parting(easy.moves, easy.moves) is None
 
 
-def test_klartext_is_told_from_iso() -> None:
+def test_klartext_and_iso_are_distinguished() -> None:
     assert reads("klartext", b"0 BEGIN PGM A MM\n")
     assert not reads("linuxcnc", b"  BEGIN PGM A MM\n")
     assert reads("linuxcnc", (DATA / "nc" / "rosettacnc-square.ngc").read_bytes())
 
 
-def test_names_are_whole_or_short() -> None:
+def test_resolve_accepts_full_and_short_names() -> None:
     assert resolve("rosettacnc") == "rosettacnc:nist"
     assert resolve(" Nine-Series:B-G39.1 ") == "nine-series:b-g39.1"
     assert all(resolve(name) == name for name in names())
@@ -93,9 +93,9 @@ def test_names_are_whole_or_short() -> None:
         assert "linuxcnc" in getattr(resolve(wrong), "text", "")
 
 
-def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
-    done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
-    (result,) = judge_run(done)
+def test_a_path_that_leaves_the_surface_and_turns_back_is_reported_with_its_line() -> None:
+    run = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
+    (result,) = judge_run(run)
     assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in judged_findings((result,))}
     way = result.center.points.tolist()
     row = int(np.argmax(result.center.lengths * np.isin(result.center.numbers, result.surface.numbers)))
@@ -107,23 +107,23 @@ def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     path = result.center
     bent = Path.of(points, path.centers[kept], path.turns[kept], path.numbers[kept])
     verdict = judge(result.surface, result.stretch.side, result.stretch.radius, bent)
-    told = [
-        one
-        for one in judged_findings((replace(result, center=bent, verdict=verdict),))
-        if one.code in ("AWAY", "BACKWARDS")
+    strays = [
+        finding
+        for finding in judged_findings((replace(result, center=bent, verdict=verdict),))
+        if finding.code in ("AWAY", "BACKWARDS")
     ]
-    assert [one.code for one in told] == ["BACKWARDS", "AWAY"]
-    assert {one.line for one in told} == {int(path.numbers[row])}
+    assert [finding.code for finding in strays] == ["BACKWARDS", "AWAY"]
+    assert {finding.line for finding in strays} == {int(path.numbers[row])}
 
 
-def test_of_several_places_where_the_path_cuts_air_the_farthest_is_told() -> None:
-    """An outside square with one sharper corner, which the control goes around by lines."""
+def test_air_cuts_at_several_places_are_reported_at_the_farthest() -> None:
+    """The control runs around the corners of an outside contour, one of them sharper, with lines."""
     text = "G21 F9.\nG0 X-20. Y5.\nG41 D1 G1 X0.\nY40.\nX40.\nX50. Y0.\nX0.\nY10.\nG40 X-20.\nM2\n"
     (result,) = judge_run(ran(text, "fanuc:a", t1=10.0))
-    (told_of,) = (found for found in judged_findings((result,)) if found.code == "AWAY")
-    said = "The path cuts air at 4 places (lines 4, 5, 6, 7), at most 2.071 off the part, at X 56.063 Y -3.638."
-    assert sentence(told_of, Unit.MM) == said
-    assert told_of.line == 6
+    (away,) = (finding for finding in judged_findings((result,)) if finding.code == "AWAY")
+    expected = "The path cuts air at 4 places (lines 4, 5, 6, 7), at most 2.071 off the part, at X 56.063 Y -3.638."
+    assert sentence(away, Unit.MM) == expected
+    assert away.line == 6
 
 
 POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0.\nY0.5\nX2.\nG40 X1.5 Y1.2\nM2\n"
@@ -131,38 +131,38 @@ POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0
 
 @pytest.mark.parametrize("control", ["nine-series:a", "nine-series:b-g39", "nine-series:b-g39.1"])
 @pytest.mark.parametrize("load", ["T1 M6", "T1 M6 D0", "T1 M6 D2"])
-def test_with_offset_0_no_side_is_wrong_and_the_depth_that_the_tool_cuts_is_told(control: str, load: str) -> None:
-    done = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
-    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in judged_findings(judge_run(done)))
-    (told_of,) = told(done, "RADIUS0")
-    assert "tool 1, diameter 0.5000, cuts 0.2500 too deep along the contour" in sentence(told_of, Unit.IN)
+def test_offset_0_reports_the_depth_of_cut_instead_of_a_wrong_side(control: str, load: str) -> None:
+    run = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
+    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in judged_findings(judge_run(run)))
+    (radius0,) = findings_of(run, "RADIUS0")
+    assert "tool 1, diameter 0.5000, cuts 0.2500 too deep along the contour" in sentence(radius0, Unit.IN)
 
 
-def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
+def test_a_later_negative_offset_is_on_the_wrong_side() -> None:
     program = POCKET.format(load="T1 M6").replace("X3.\n", "X3.\nD9\n")
     assert "WRONG-SIDE" in {
         finding.code for finding in judged_findings(judge_run(ran(program, "nine-series:a", t9=-0.5)))
     }
 
 
-def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None:
+def test_a_tool_that_is_not_loaded_is_named_only_if_it_is_the_only_one() -> None:
     for control in ("linuxcnc", "rosettacnc", "nine-series:a"):
-        (only,) = told(ran(POCKET.format(load="M3"), control, t3=0.5), "RADIUS0")
-        assert "tool 3, diameter 0.5000, cuts 0.2500 too deep" in sentence(only, Unit.IN)
-        (none,) = told(ran(POCKET.format(load="M3"), control, t3=0.5, t4=0.25), "RADIUS0")
-        assert "a cutter cuts its own radius too deep along the contour" in none.text
+        (one_tool,) = findings_of(ran(POCKET.format(load="M3"), control, t3=0.5), "RADIUS0")
+        assert "tool 3, diameter 0.5000, cuts 0.2500 too deep" in sentence(one_tool, Unit.IN)
+        (two_tools,) = findings_of(ran(POCKET.format(load="M3"), control, t3=0.5, t4=0.25), "RADIUS0")
+        assert "a cutter cuts its own radius too deep along the contour" in two_tools.text
 
 
-def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
-    done = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
-    assert "WRONG-SIDE" in {finding.code for finding in judged_findings(judge_run(done))}
+def test_a_wrong_side_with_a_radius_is_reported() -> None:
+    run = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
+    assert "WRONG-SIDE" in {finding.code for finding in judged_findings(judge_run(run))}
 
 
-def test_a_run_that_was_given_up_is_not_judged() -> None:
-    done = ran_up_to("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", 500, t1=1)
-    assert done.stretches
-    assert judge_run(done) == ()
-    assert "does not judge the run" in told(done, "LIMIT")[0].text
+def test_a_run_beyond_the_repeat_limit_is_not_judged() -> None:
+    run = ran_up_to("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", 500, t1=1)
+    assert run.stretches
+    assert judge_run(run) == ()
+    assert "does not judge the run" in findings_of(run, "LIMIT")[0].text
 
 
 CHANGED = "G20 G17 G90\nT1 M6\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nX0 Y2\n{word}\nX0 Y4\nG40 X-1 Y5\nM2\n"
@@ -170,22 +170,22 @@ CHANGED = "G20 G17 G90\nT1 M6\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nX0 Y2\n{word}\
 
 @pytest.mark.parametrize("word", ["D2", "G41 D2"])
 @pytest.mark.parametrize("sizes", [(0.5, 0.75), (0.75, 0.5)])
-def test_a_radius_that_changes_is_judged_where_it_is_in_force(word: str, sizes: tuple[float, float]) -> None:
+def test_each_radius_is_judged_where_it_is_in_force(word: str, sizes: tuple[float, float]) -> None:
     results = judge_run(ran(CHANGED.format(word=word), "nine-series:a", t1=sizes[0], t2=sizes[1]))
-    assert [round(from_mm(one.stretch.radius, Unit.IN), 9) * 2 for one in results] == [*sizes]
-    assert [one.surface.numbers.tolist() for one in results] == [[6.0], [8.0]]
+    assert [round(from_mm(result.stretch.radius, Unit.IN), 9) * 2 for result in results] == [*sizes]
+    assert [result.surface.numbers.tolist() for result in results] == [[6.0], [8.0]]
     assert {finding.code for finding in judged_findings(results)} <= {"UNCUT"}
 
 
-def test_a_radius_that_changes_before_the_first_element_is_that_of_the_stretch() -> None:
+def test_a_radius_set_before_the_first_element_counts_for_the_stretch() -> None:
     text = CHANGED.replace("X0 Y2\n{word}", "D2\nX0 Y2")
     (result,) = judge_run(ran(text, "nine-series:a", t1=0.5, t2=0.75))
     assert round(from_mm(result.stretch.radius, Unit.IN), 9) == 0.375
     assert not judged_findings((result,))
 
 
-def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
-    """A slot .6 wide, down its second wall with a radius of .375: .225 from the first one, which it cuts by .15."""
+def test_a_larger_radius_gouges_the_wall_cut_before() -> None:
+    """A radius of .375 along the second wall of a .6 slot is .225 from the first wall and gouges it by .15."""
     text = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\nX-.6\nY1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
     results = judge_run(ran(text, "nine-series:a", t1=0.4, t2=0.75))
     deepest = {gouge.surface_number: gouge.depth for gouge in reversed(results[1].verdict.gouges)}
@@ -194,8 +194,8 @@ def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
     assert any("surface of line 6" in finding.text for finding in judged_findings(results))
 
 
-def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_calls() -> None:
-    """The second call runs .3 beside the first, into its material."""
+def test_a_subprogram_call_with_another_radius_is_judged_against_other_calls() -> None:
+    """The second call runs .3 beside the first and cuts into its material."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
     text = f"{head}M98 P1\nX5 Y2\nY-1\nX.3\nD2\nY0\nM98 P1\nG40 X-5 Y3\nM2\nO1\nG91 Y2\nG90\nM99\n"
     results = judge_run(ran(text, "nine-series:a", t1=0.4, t2=0.75))
@@ -205,7 +205,7 @@ def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_
 
 
 @pytest.mark.parametrize("control", ["allen-bradley:a", "allen-bradley:b", "fanuc:a", "haas:a"])
-def test_what_rounding_leaves_between_equal_positions_is_no_move(control: str) -> None:
+def test_rounding_between_equal_positions_is_no_move(control: str) -> None:
     head = "G71 G90 G17" if control.startswith("allen") else "G21 G90 G17"
     text = f"{head} G40\nT1 M6\nG0 X-70. Y-20.\nG1 Z-5. F100.\nG41 D1 X-50. Y-10.\nG1 Y0.\nX0.\n{{}}"
     text += "X50.\nY-10.\nG40 X70.\nM30\n"
@@ -216,7 +216,7 @@ def test_what_rounding_leaves_between_equal_positions_is_no_move(control: str) -
     assert tenths.moves.points[-1] == pytest.approx(plain.moves.points[-1])
 
 
-def test_cuts_between_parts_of_one_side_are_judged_where_the_side_changes_later() -> None:
+def test_parts_on_one_side_are_judged_together_before_a_side_change() -> None:
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
     text = f"{head}X0 Y2\nX5\nY-1\nX.3\nD2\nY0\nY2\nX-3\n{{side}}X-5 Y3\nX-9\nG40 X-9 Y9\nM2\n"
     changed, same = (judge_run(ran(text.format(side=side), "nine-series:a", t1=0.4, t2=0.75)) for side in ("G42 ", ""))
@@ -228,17 +228,21 @@ def test_cuts_between_parts_of_one_side_are_judged_where_the_side_changes_later(
 
 
 @pytest.mark.parametrize("control", ["nine-series:a", "nine-series:b"])
-def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str) -> None:
-    """Behind the change the tool cuts 2 into the first wall; nothing asks for that, so it is said."""
+def test_a_side_change_reports_that_the_parts_are_judged_separately(control: str) -> None:
+    """After the side change the tool cuts 2 into the first wall, which is not judged, so a warning says so."""
     head = "G21 G90 F100\nT1 M6\nG0 X-20 Y-20\nG41 D1 G1 X0 Y0\nX0 Y100\n"
     text = f"{head}{{side}}X50 Y100\nX50 Y50\nX2 Y50\nX2 Y20\nG40 X-40 Y20\nM2\n"
     changed = judged_findings(judge_run(ran(text.format(side="G42 "), control, t1=10)))
-    assert [(one.line, one.severity) for one in changed if one.code == "SIDES"] == [(6, Severity.WARNING)]
-    assert "SIDES" not in {one.code for one in judged_findings(judge_run(ran(text.format(side=""), control, t1=10)))}
+    assert [(finding.line, finding.severity) for finding in changed if finding.code == "SIDES"] == [
+        (6, Severity.WARNING)
+    ]
+    assert "SIDES" not in {
+        finding.code for finding in judged_findings(judge_run(ran(text.format(side=""), control, t1=10)))
+    }
 
 
 @pytest.mark.parametrize("arm", [".2999", ".3"])
-def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(arm: str) -> None:
+def test_an_accepted_uneven_arc_hides_no_gouge_of_another_part(arm: str) -> None:
     """The second part runs .225 beside the first wall with a radius of .375."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\n"
     text = f"{head}G3 X-.6 Y2 I-{arm} J0\nG1 Y1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
@@ -246,14 +250,18 @@ def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(a
     cut, line = deepest_gouge(results)
     assert from_mm(cut, Unit.IN) == pytest.approx(0.15, abs=1e-6)
     assert line == 10
-    assert any("surface of line 6" in one.text for one in judged_findings(results) if one.severity is Severity.ERROR)
+    assert any(
+        "surface of line 6" in finding.text
+        for finding in judged_findings(results)
+        if finding.severity is Severity.ERROR
+    )
 
 
 @pytest.mark.parametrize(("off", "said"), [(".001", []), (".002", [8])])
-def test_more_tolerance_than_one_arc_s_rounding_is_said(off: str, said: list[int]) -> None:
-    """Two arcs that follow each other about two centers: each of them is granted its own difference next to the other.
+def test_extra_tolerance_beyond_the_rounding_of_one_arc_is_reported(off: str, said: list[int]) -> None:
+    """Two consecutive uneven arcs about two centers: each adds its own radius difference next to the other.
 
-    Alone each would be within the 0.00254 mm that pass silently.
+    Each difference alone is within the 0.00254 mm that pass silently.
     """
     wall = f"G3 X-10 Y20{off} I-10 J0\nG3 X-20 Y10 I0 J-10{off}\n"
     text = f"G21 G17 G90\nT1 M6\nG0 X-10 Y-20\nG1 F100\nG41 D1 X0 Y0\nG1 Y10\n{wall}G1 Y0\nG40 X-10 Y-20\nM2\n"
@@ -266,7 +274,7 @@ def test_more_tolerance_than_one_arc_s_rounding_is_said(off: str, said: list[int
 
 
 @pytest.mark.parametrize(("center", "slack"), [(".25", 0.0), (".2502", 0.0004)])
-def test_what_is_cut_of_a_lead_says_with_which_tolerance_it_is_judged(center: str, slack: float) -> None:
+def test_a_lead_gouge_names_the_extra_tolerance(center: str, slack: float) -> None:
     """The last move crosses the lead, an arc whose radii differ by `slack` inches."""
     lead = f"G41 D1 X-.5 Y-.5\nY0\nG2 X0 Y0 I{center} J0\n"
     text = f"G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\n{lead}G1 Y2\nX2\nY0\nX0\nG40 X-1\nM2\n"
@@ -278,16 +286,16 @@ def test_what_is_cut_of_a_lead_says_with_which_tolerance_it_is_judged(center: st
         assert [from_mm(length, Unit.IN) for length in finding.lengths] == pytest.approx([slack] if slack else [])
 
 
-def test_leads_that_cannot_be_judged_are_an_error() -> None:
-    """The arc of the lead ends on the ray it begins on: nobody knows whether it is empty or a full circle."""
+def test_a_lead_that_cannot_be_judged_is_an_error() -> None:
+    """The arc of the lead ends on its starting ray: it may be empty or a full circle."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X-.5 Y0\n"
     lead = "G3 X-.4999 Y0 I.2 J0\nG1 X0 Y0\n"
     text = f"{head}{lead}Y2\nX2\nY0\nX0\nG40 X-1\nM2\n"
     results = judge_run(ran(text, "nine-series:a", t1=0.05))
     assert results[0].verdict.judged
     assert not results[0].lead_gouges
-    unknown = [one for one in judged_findings(results) if one.code == "UNJUDGED"]
-    assert [(one.severity, one.line) for one in unknown] == [(Severity.ERROR, 6)]
+    unknown = [finding for finding in judged_findings(results) if finding.code == "UNJUDGED"]
+    assert [(finding.severity, finding.line) for finding in unknown] == [(Severity.ERROR, 6)]
     assert first_unjudged(results)[0]
 
 
@@ -296,55 +304,55 @@ BLENDED = "G41 D1 G1 X-6.5 Y-1.5\nG3 X-5 Y0 J1.5\n" + SQUARE + "Y.2\nG3 X-6.5 Y1
 STRAIGHT = "G41 D1 G1 X-9 Y-1.5\nX-6 Y-.5\nX-5 Y0\n" + SQUARE + "X-6 Y.5\nX-9 Y1.5\nG40 G1 X-12 Y1\nM2\n"
 
 
-def test_a_lead_that_blends_into_the_contour_is_no_finding_and_another_one_is() -> None:
+def test_a_tangent_lead_has_no_gouge_and_a_straight_lead_has_one() -> None:
     head = "G20 F9\nG0 X-12 Y-3\n"
     codes = [
-        {one.code for one in judged_findings(judge_run(ran(head + text, "linuxcnc", t1=2)))}
+        {finding.code for finding in judged_findings(judge_run(ran(head + text, "linuxcnc", t1=2)))}
         for text in (BLENDED, STRAIGHT)
     ]
-    assert ["LEADS" in found for found in codes] == [True, True]
-    assert ["LEAD-GOUGE" in found for found in codes] == [False, True]
+    assert ["LEADS" in codes_of_program for codes_of_program in codes] == [True, True]
+    assert ["LEAD-GOUGE" in codes_of_program for codes_of_program in codes] == [False, True]
 
 
 @pytest.mark.parametrize("unit", Unit)
 @pytest.mark.parametrize("digits", [0.4, 0.6])
-def test_a_gouge_below_half_the_last_digit_is_none_and_said_once(unit: Unit, digits: float) -> None:
-    """The path is judged with a tool that is larger by so many last digits of the unit."""
+def test_a_gouge_below_half_the_last_digit_is_reported_once_and_does_not_count(unit: Unit, digits: float) -> None:
+    """The path is judged with a radius that is larger by `digits` of the last digit of the unit."""
     digit = digits * (1e-4 if unit is Unit.IN else 1e-3)
     code, far = ("G20", 10.0) if unit is Unit.IN else ("G21", 100.0)
     text = f"{code} F9\nG1 X4 Y9\nG41 D1 X4 Y0\nX{far}\nG40 X{far} Y9\n"
-    done = ran(text, "nine-series", t1=1.0)
-    radius = done.stretches[0].radius
-    shifted = replace(done.stretches[0], radius=radius + to_mm(digit, unit))
-    results = judge_run(replace(done, stretches=(shifted,)))
-    codes = [one.code for one in judged_findings(results)]
-    seen = digits > 0.5
-    assert ("GOUGE" in codes) == seen
-    assert codes.count("DIGIT") == (not seen)
-    assert (deepest_gouge(results)[0] > 0.0) == seen
+    run = ran(text, "nine-series", t1=1.0)
+    radius = run.stretches[0].radius
+    shifted = replace(run.stretches[0], radius=radius + to_mm(digit, unit))
+    results = judge_run(replace(run, stretches=(shifted,)))
+    codes = [finding.code for finding in judged_findings(results)]
+    reported = digits > 0.5
+    assert ("GOUGE" in codes) == reported
+    assert codes.count("DIGIT") == (not reported)
+    assert (deepest_gouge(results)[0] > 0.0) == reported
 
 
-def test_every_control_has_a_name_a_title_and_a_line_for_lists() -> None:
+def test_every_control_has_a_name_a_title_and_a_short_description() -> None:
     listed = choices()
     assert {choice.control for choice in listed} == set(names())
     assert all(resolve(choice.name) == choice.control for choice in listed)
-    # the dialog that chooses one has so much room on a terminal of 80 columns
+    # the selection dialog has this much room on an 80-column terminal
     assert all(choice.title and 0 < len(choice.about) <= 51 for choice in listed)
     first = list(dict.fromkeys(choice.name.partition(":")[0] for choice in listed))
     assert first == ["fanuc", "haas", "linuxcnc", "heidenhain", "rosettacnc", "allen-bradley", "three-block"]
-    assert next(one.title for one in listed if one.control == "nine-series:a") == "Allen-Bradley 9/Series"
+    assert next(choice.title for choice in listed if choice.control == "nine-series:a") == "Allen-Bradley 9/Series"
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a", "linuxcnc", "rosettacnc:normal", "nine-series:a"])
 @pytest.mark.parametrize("size", [4.0, 10.0, 16.0])
-def test_a_full_circle_between_tangent_arcs_is_cut_all_around(control: str, size: float) -> None:
+def test_a_full_circle_between_tangent_arcs_is_cut_completely(control: str, size: float) -> None:
     program = (
         "G90 G21 G17 G40\nT1 M6\nS2000 M3\nG0 X-60. Y-10.\nG1 Z-5. F200\nG41 D1 X-40. Y-10. F300\n"
         "G3 X-30. Y0 R10.\nG2 X-30. Y0 I30. J0\nG3 X-40. Y10. R10.\nG1 G40 X-60.\nM30\n"
     )
-    done = ran(program, control, t1=size)
-    assert done.stopped_at is None
-    (result,) = judge_run(done)
+    run = ran(program, control, t1=size)
+    assert run.stopped_at is None
+    (result,) = judge_run(run)
     assert result.verdict.uncut_length == pytest.approx(0.0, abs=1e-6)
     assert not result.verdict.gouges
 
@@ -352,14 +360,14 @@ def test_a_full_circle_between_tangent_arcs_is_cut_all_around(control: str, size
 @pytest.mark.parametrize(
     ("load", "radius"), [("G91 L12 P1 R.2", 5.2), ("G90 L12 P1 R.2", 0.2), ("G91 L13 P1 R.2", 5.2)]
 )
-def test_a_radius_that_is_added_to_counts_from_that_of_the_tool(load: str, radius: float) -> None:
-    done = ran(
+def test_an_incremental_radius_adds_to_that_of_the_tool(load: str, radius: float) -> None:
+    run = ran(
         f"G21 G17 G90 F300\nT1 M6\nG0 Y-20.\nG10 {load}\nG90\nG41 D1 X10.\nY50.\nG40 X0.\nM30\n", "fanuc:a", t1=10.0
     )
-    assert [stretch.radius for stretch in done.stretches] == [pytest.approx(radius)]
+    assert [stretch.radius for stretch in run.stretches] == [pytest.approx(radius)]
 
 
-def test_a_place_in_another_plane_has_the_names_of_its_axes() -> None:
+def test_a_place_in_another_plane_names_the_axes_of_the_plane() -> None:
     program = "G21 G18 G90 F100\nT1 M6\nG0 X-20. Z-20.\nG42 D1\nG1 X0. Z0.\nZ50.\nX.5\nZ52.\nX30.\nG40 Z60.\nM30\n"
     cut = [finding for finding in judged_findings(judge_run(ran(program, "fanuc:a", t1=12.0))) if finding.at]
     assert cut

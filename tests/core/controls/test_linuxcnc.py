@@ -17,7 +17,7 @@ from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
 from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROGRAMS
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
-from tests.core.controls.hand import ran, same, shape, told
+from tests.core.controls.hand import findings_of, ran, same, shape
 from tests.core.controls.macro_programs import whole
 from tests.core.controls.programs import MODAL, stopped
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
@@ -58,9 +58,9 @@ def test_d0_is_the_tool_in_the_spindle(head: str, tmp_path: Path) -> None:
     text = f"G20 F9\n{head}G0 X-1 Y-1\nG1 G41 D0 X0 Y-.6\nY2\nX2\nY-1\nG40 X4\nM2\n"
     assert outcome(text, tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
     if head:
-        done = ran(text, "linuxcnc", t1=0.5, t2=0.25)
-        assert not told(done, "RADIUS0")
-        assert done.stretches[0].radius == 25.4 * (0.125 if "T2 M6" in head else 0.25)
+        run = ran(text, "linuxcnc", t1=0.5, t2=0.25)
+        assert not findings_of(run, "RADIUS0")
+        assert run.stretches[0].radius == 25.4 * (0.125 if "T2 M6" in head else 0.25)
 
 
 LATHE = """G20 G18 F30
@@ -148,29 +148,29 @@ WORK_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59
     ],
 )
 def test_what_compensation_refuses_names_its_rule_and_g40(code: str, rule: str) -> None:
-    done = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
-    (finding,) = told(done, rule)
-    assert (finding.line, done.stopped_at) == (7, 7)
+    run = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
+    (finding,) = findings_of(run, rule)
+    assert (finding.line, run.stopped_at) == (7, 7)
     assert "G40" in finding.text
 
 
 def test_a_shift_that_compensation_ignores_is_a_warning() -> None:
-    assert told(ran(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
+    assert findings_of(ran(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
 
 
 def test_m61_sets_the_tool_whose_radius_counts_without_d() -> None:
     """The interpreter alone, which has no spindle, keeps the tool before; the manual says that M61 sets it."""
-    done = ran("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
-    assert same(shape(done)[:1], [("line", 1, 0.125)])
+    run = ran("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
+    assert same(shape(run)[:1], [("line", 1, 0.125)])
 
 
 @pytest.mark.parametrize(("line", "rule"), [("M61", "N-WORDALONE"), ("M61 Q-1", "N-WORDALONE"), ("M61 Q9", "TOOL")])
 def test_m61_without_a_tool_of_the_table_is_refused(line: str, rule: str) -> None:
-    assert [one.line for one in told(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
+    assert [one.line for one in findings_of(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
 
 
 def test_a_machines_m_code_is_taken_as_moving_nothing_and_said() -> None:
-    assert told(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
+    assert findings_of(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
 
 
 REFUSED = {
@@ -205,7 +205,7 @@ REFUSED = {
 def test_what_the_interpreter_refuses_is_refused_or_warned_of(name: str, tmp_path: Path) -> None:
     assert witness(REFUSED[name], tmp_path, DIAMETERS, Unit.IN).refusal
     ours = ran(REFUSED[name], "linuxcnc", t1=0.5)
-    assert ours.stopped_at is not None or told(ours, "END")
+    assert ours.stopped_at is not None or findings_of(ours, "END")
 
 
 M_PAIRS = list(combinations(["M0", "M30", "M60", "M3", "M5", "M19", "M7", "M8", "M9", "M48", "M53", "M62 P1"], 2))
@@ -237,34 +237,34 @@ def test_the_radius_at_an_arcs_end_must_be_larger_than_the_tools(start: float, e
 
 
 def test_entry_corner_and_exit_by_hand() -> None:
-    done = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
+    run = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
     wanted = [("line", 1, 0.25), ("line", 1.75, 0.25), ("line", 1.75, 1), ("line", 5, 5)]
-    assert same(shape(done), wanted)
+    assert same(shape(run), wanted)
 
 
 def test_the_unit_may_change_under_compensation() -> None:
-    done = ran("G20 F9\nG41 D1\nG1 X2\nX4\nG21\nX152.4\nG40\nG1 Y25.4\nM2\n", "linuxcnc", t1=0.5)
-    assert same(shape(done), [("line", 2, 0.25), ("line", 4, 0.25), ("line", 6, 0.25), ("line", 6, 1)])
+    run = ran("G20 F9\nG41 D1\nG1 X2\nX4\nG21\nX152.4\nG40\nG1 Y25.4\nM2\n", "linuxcnc", t1=0.5)
+    assert same(shape(run), [("line", 2, 0.25), ("line", 4, 0.25), ("line", 6, 0.25), ("line", 6, 1)])
 
 
 def test_subprograms_that_call_themselves_are_stopped() -> None:
-    done = ran("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
-    assert done.stopped_at == told(done, "SUBPROGRAM")[0].line == 9
+    run = ran("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
+    assert run.stopped_at == findings_of(run, "SUBPROGRAM")[0].line == 9
 
 
 def test_endless_repeats_are_given_up() -> None:
     text = "G20 F9\nM98 P1 L9999999\nM2\nO1\nS1\nM99\n"
-    assert told(ran(text, "linuxcnc"), "LIMIT")
+    assert findings_of(ran(text, "linuxcnc"), "LIMIT")
 
 
 def test_the_feed_of_a_block_counts_in_the_unit_before() -> None:
-    done = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
-    assert [from_mm(move.feed, Unit.IN) for move in list(done.moves)[1:]] == pytest.approx([20 / 25.4, 20])
+    run = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
+    assert [from_mm(move.feed, Unit.IN) for move in list(run.moves)[1:]] == pytest.approx([20 / 25.4, 20])
 
 
 def test_a_stretch_knows_what_was_programmed() -> None:
-    done = ran("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
-    (stretch,) = done.stretches
+    run = ran("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
+    (stretch,) = run.stretches
     assert (stretch.plane, stretch.entry, stretch.exit) == (Plane.XY, 1, 0)
     points = [(0, -1, 0), (0, 0, 0), (4, 0, 0), (4, 4, 0)]
     assert np.allclose(stretch.programmed.points / 25.4, points)

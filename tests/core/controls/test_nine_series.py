@@ -7,7 +7,7 @@ from math import sqrt, tan
 import pytest
 
 from core.units import Unit, from_mm
-from tests.core.controls.hand import ran, same, sample, shape, told
+from tests.core.controls.hand import findings_of, ran, same, sample, shape
 
 ROOT = sqrt(0.5)
 
@@ -30,16 +30,18 @@ def test_d_may_stand_in_the_motion_block_after_g41() -> None:
 
 @pytest.mark.parametrize("body", ["G41 X1 Y1;\nD1;", "G41 X1 Y1; D1;", "G41;\nX1 Y1;\nS9\nD1;", "G41 X1 Y1\nZ0\nD1"])
 def test_d_on_a_line_of_its_own_after_the_entry_counts_for_the_entry(body: str) -> None:
-    done = ran(f"G20 G17 G1 F10\n{body}\nX3\n", "nine-series:a", t1=0.5)
-    assert shape(done)[0][1:] == (1, 1.25)
-    assert same(shape(done)[-1:], [("line", 3, 1.25)])
-    assert not told(done, "RADIUS0")
-    assert [round(from_mm(stretch.radius, Unit.IN), 9) for stretch in done.stretches] == [0.25]
+    run = ran(f"G20 G17 G1 F10\n{body}\nX3\n", "nine-series:a", t1=0.5)
+    assert shape(run)[0][1:] == (1, 1.25)
+    assert same(shape(run)[-1:], [("line", 3, 1.25)])
+    assert not findings_of(run, "RADIUS0")
+    assert [round(from_mm(stretch.radius, Unit.IN), 9) for stretch in run.stretches] == [0.25]
 
 
 @pytest.mark.parametrize("rest", ["X3", "X3\nD1\nX5", "G40\nX3", "M2"])
 def test_an_entry_without_d_is_reported(rest: str) -> None:
-    assert [one.line for one in told(ran(f"G20 G1 F10\nG41 X1 Y1\n{rest}\n", "nine-series", t1=0.5), "RADIUS0")] == [2]
+    assert [
+        one.line for one in findings_of(ran(f"G20 G1 F10\nG41 X1 Y1\n{rest}\n", "nine-series", t1=0.5), "RADIUS0")
+    ] == [2]
 
 
 def test_type_a_goes_straight_to_the_square_start() -> None:
@@ -137,14 +139,14 @@ def test_a_vector_along_the_path_shifts_against_itself() -> None:
 
 
 def test_the_side_changes_square_to_both() -> None:
-    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 X4 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
-    assert same(shape(done)[1:4], [("line", 4, 1.25), ("line", 4.25, 1), ("line", 4.25, 4)])
-    assert "cutcomp assumes" in told(done, "CHANGE")[0].text
+    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 X4 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    assert same(shape(run)[1:4], [("line", 4, 1.25), ("line", 4.25, 1), ("line", 4.25, 4)])
+    assert "cutcomp assumes" in findings_of(run, "CHANGE")[0].text
 
 
 def test_the_side_may_change_in_an_arc_block() -> None:
-    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 G3 X5 Y2 I0 J1\nG40 G1 X0 Y9", "nine-series", t1=0.5)
-    assert done.stopped_at is None
+    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 G3 X5 Y2 I0 J1\nG40 G1 X0 Y9", "nine-series", t1=0.5)
+    assert run.stopped_at is None
 
 
 def test_a_new_radius_counts_from_the_start_of_its_block() -> None:
@@ -158,23 +160,23 @@ def test_d0_goes_on_with_radius_0() -> None:
 
 
 def test_inside_arcs_keep_the_surface_s_feed() -> None:
-    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG3 X5 Y2 I0 J1\nG1 Y4\nG40 X0", "nine-series", t1=0.5)
-    (arc,) = [move for move in done.moves if move.turn]
-    assert from_mm(arc.feed, done.unit) == pytest.approx(7.5)
+    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG3 X5 Y2 I0 J1\nG1 Y4\nG40 X0", "nine-series", t1=0.5)
+    (arc,) = [move for move in run.moves if move.turn]
+    assert from_mm(arc.feed, run.unit) == pytest.approx(7.5)
 
 
 def test_too_many_blocks_without_motion_end_the_move_square() -> None:
     quiet = "S100\n" * 11
-    done = ran(f"G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\n{quiet}X4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
-    assert same(shape(done)[1:3], [("line", 4, 1.25), ("line", 4, 4.25)])
+    run = ran(f"G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\n{quiet}X4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    assert same(shape(run)[1:3], [("line", 4, 1.25), ("line", 4, 4.25)])
     few = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nS100\nX4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
     assert same(shape(few)[1:2], [("line", 3.75, 1.25)])
 
 
 def test_a_change_of_origin_leaves_and_enters_again() -> None:
-    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nX4 Y4\nG55\nX8 Y4\nX8 Y9\nG40 X0 Y9", "nine-series", t1=0.5)
+    run = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nX4 Y4\nG55\nX8 Y4\nX8 Y9\nG40 X0 Y9", "nine-series", t1=0.5)
     wanted = [("line", 4, 1.25), ("line", 4, 4), ("line", 7.75, 4), ("line", 7.75, 9), ("line", 0, 9)]
-    assert same(shape(done)[1:], wanted)
+    assert same(shape(run)[1:], wanted)
 
 
 def test_m800_lets_a_backwards_move_run() -> None:
@@ -186,13 +188,13 @@ def test_m800_lets_a_backwards_move_run() -> None:
 
 def test_corner_words_are_not_followed_and_no_alarm() -> None:
     """Its manual of the lathe has `,C` and `,R`; how they meet compensation is not stated."""
-    done = ran("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
-    assert [(finding.code, finding.line, finding.column) for finding in done.findings][-1] == ("BEYOND", 2, 12)
+    run = ran("G21 F100\nG1 X10. Y0 ,R2.\nX10. Y20.\nM2\n", "nine-series:a", t1=10.0)
+    assert [(finding.code, finding.line, finding.column) for finding in run.findings][-1] == ("BEYOND", 2, 12)
 
 
 def test_rotation_mirror_image_scaling_and_polar_words_are_not_followed() -> None:
     for code in ("G68", "G51.1 X0", "G14.1", "G16"):
-        (finding,) = told(ran(f"G21 G0 X0 Y0\n{code}\nX1\nM2\n", "allen-bradley:a"), "BEYOND")
+        (finding,) = findings_of(ran(f"G21 G0 X0 Y0\n{code}\nX1\nM2\n", "allen-bradley:a"), "BEYOND")
         assert finding.line == 2
     off = ran("G21 G14 G15 G50.1 G69 G0 X0 Y0\nX1\nM2\n", "allen-bradley:a")
     assert (off.stopped_at, off.findings) == (None, ())
@@ -200,5 +202,5 @@ def test_rotation_mirror_image_scaling_and_polar_words_are_not_followed() -> Non
 
 @pytest.mark.parametrize("code", ["G52 X0", "G92 X1", "G54", "G55", "G56", "G57", "G58", "G59"])
 def test_a_new_origin_interrupts_compensation(code: str) -> None:
-    done = ran(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
-    assert [finding.line for finding in told(done, "R7")] == [4]
+    run = ran(f"G20 G17 G1 F10\nG41 D1 X1 Y1\nX3\n{code}\nX5\nG40 X6\nM2\n", "nine-series:a", t1=0.5)
+    assert [finding.line for finding in findings_of(run, "R7")] == [4]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core.finding import Severity
-from tests.core.controls.hand import lines_and_ends, ran, told
+from tests.core.controls.hand import findings_of, lines_and_ends, ran
 
 SUB = "O5101 (PASS)\nG1 X7. F100.\nM99\n"
 MAIN = "O5100 (PART)\nG21 G90 G0 X1.\nM98 P5101\nM30\n"
@@ -13,96 +13,98 @@ MAIN = "O5100 (PART)\nG21 G90 G0 X1.\nM98 P5101\nM30\n"
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 def test_the_main_program_runs_wherever_it_stands(control: str) -> None:
-    done = ran(f"%\n{SUB}{MAIN}%\n", control)
-    assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0)]
-    (said,) = told(done, "PROGRAM")
+    run = ran(f"%\n{SUB}{MAIN}%\n", control)
+    assert lines_and_ends(run) == [(1.0, 0.0), (7.0, 0.0)]
+    (said,) = findings_of(run, "PROGRAM")
     assert (said.severity, said.line) == (Severity.INFO, 5)
     assert said.text == "cutcomp runs O5100: O5101, which stands before it, is called."
-    assert not told(ran(f"%\n{MAIN}{SUB}%\n", control), "PROGRAM")
+    assert not findings_of(ran(f"%\n{MAIN}{SUB}%\n", control), "PROGRAM")
 
 
 def test_programs_that_only_call_each_other_begin_with_the_first() -> None:
-    done = ran("O1\nG1 X1. F100.\nM98 P2\nM30\nO2\nX2.\nM98 P1\nM99\n", "fanuc:a")
-    assert lines_and_ends(done)[:2] == [(1.0, 0.0), (2.0, 0.0)]
-    assert not told(done, "PROGRAM")
+    run = ran("O1\nG1 X1. F100.\nM98 P2\nM30\nO2\nX2.\nM98 P1\nM99\n", "fanuc:a")
+    assert lines_and_ends(run)[:2] == [(1.0, 0.0), (2.0, 0.0)]
+    assert not findings_of(run, "PROGRAM")
 
 
 def test_programs_that_nothing_calls_are_named() -> None:
-    done = ran(f"{MAIN}{SUB}O2 (OTHER)\nG1 X2. F100.\nM30\n:3\nM30\n", "fanuc:a")
-    (said,) = told(done, "NOT_RUN")
+    run = ran(f"{MAIN}{SUB}O2 (OTHER)\nG1 X2. F100.\nM30\n:3\nM30\n", "fanuc:a")
+    (said,) = findings_of(run, "NOT_RUN")
     assert (said.severity, said.line) == (Severity.WARNING, 8)
     assert (
         said.text
         == "Programs that nothing in this file calls were not run: O2 (line 8), O3 (line 11). Check each by itself."
     )
-    assert not told(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
+    assert not findings_of(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
 
 
 def test_a_call_with_a_variable_hides_no_call_with_a_number() -> None:
     main = MAIN.replace("M30", "#100=5102\nM98 P#100\nM30")
-    done = ran(f"{SUB}{main}O5102\nX9.\nM99\nO3\nM30\n", "fanuc:a")
-    assert lines_and_ends(done) == [(1.0, 0.0), (7.0, 0.0), (9.0, 0.0)]
-    (said,) = told(done, "NOT_RUN")
+    run = ran(f"{SUB}{main}O5102\nX9.\nM99\nO3\nM30\n", "fanuc:a")
+    assert lines_and_ends(run) == [(1.0, 0.0), (7.0, 0.0), (9.0, 0.0)]
+    (said,) = findings_of(run, "NOT_RUN")
     assert said.text == (
         "Programs that a call with a variable may mean were not run: O3 (line 13). Check each by itself."
     )
     exponent = ran(f"{MAIN.replace('M98 P5101', 'G65 A[EXP[1]] P5101')}{SUB}O3\nM30\n", "fanuc:a")
-    assert told(exponent, "NOT_RUN")[0].text.startswith("Programs that nothing in this file calls were not run: O3")
+    assert findings_of(exponent, "NOT_RUN")[0].text.startswith(
+        "Programs that nothing in this file calls were not run: O3"
+    )
 
 
 def test_only_a_fanuc_takes_the_number_of_runs_from_p() -> None:
     text = "O2 (SUB)\nX9. M99\nO1\nG21 G90 G1 X1. F100.\nM98 P10002\nM30\n"
-    assert told(ran(text, "fanuc:a"), "PROGRAM")
-    assert not told(ran(text, "haas:a"), "PROGRAM")
+    assert findings_of(ran(text, "fanuc:a"), "PROGRAM")
+    assert not findings_of(ran(text, "haas:a"), "PROGRAM")
 
 
 def test_of_many_programs_that_were_not_run_a_few_are_named() -> None:
     many = "".join(f"O{number}\nM30\n" for number in range(100, 200))
-    (said,) = told(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
+    (said,) = findings_of(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
     assert "were not run: O100 (line 8), O101 (line 10), O102 (line 12) and 97 more." in said.text
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
 def test_lines_behind_m30_are_named_but_not_what_a_number_or_an_o_leads_to(control: str) -> None:
     text = "G21 G90 F100.\nG1 X2.\nM30\n"
-    assert told(ran(f"{text}G1 X3.\nM30\n", control), "NOT_RUN")[0].line == 4
-    assert not told(ran(f"{text}(NOTE)\nREMARK\n\x1a\n", control), "NOT_RUN")
+    assert findings_of(ran(f"{text}G1 X3.\nM30\n", control), "NOT_RUN")[0].line == 4
+    assert not findings_of(ran(f"{text}(NOTE)\nREMARK\n\x1a\n", control), "NOT_RUN")
     if control == "linuxcnc":
-        assert not told(ran(f"{text}O7 sub\nG1 X3.\nO7 endsub\n", control), "NOT_RUN")
+        assert not findings_of(ran(f"{text}O7 sub\nG1 X3.\nO7 endsub\n", control), "NOT_RUN")
     else:
-        assert not told(ran(f"{text}N900 G1 X3.\nM30\n", control), "NOT_RUN")
+        assert not findings_of(ran(f"{text}N900 G1 X3.\nM30\n", control), "NOT_RUN")
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 def test_lines_behind_a_single_percent_are_named(control: str) -> None:
-    done = ran("O1\nG21 G90 F100.\nG1 X1.\nM30\n%\nO2\nG1 X2.\nM30\n", control)
-    assert told(done, "NOT_RUN")[0].line == 6
+    run = ran("O1\nG21 G90 F100.\nG1 X1.\nM30\n%\nO2\nG1 X2.\nM30\n", control)
+    assert findings_of(run, "NOT_RUN")[0].line == 6
 
 
 def test_a_called_program_that_a_condition_leaves_out_is_no_matter() -> None:
-    done = ran(f"O1\n#1=0\nG21\nIF[#1EQ0]GOTO9\nM98 P5101\nN9 M30\n{SUB}", "fanuc:a")
-    assert not told(done, "NOT_RUN")
+    run = ran(f"O1\n#1=0\nG21\nIF[#1EQ0]GOTO9\nM98 P5101\nN9 M30\n{SUB}", "fanuc:a")
+    assert not findings_of(run, "NOT_RUN")
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
 def test_what_stands_behind_the_end_is_named(control: str) -> None:
-    done = ran("%\nG21 G1 X1. F100.\nM30\n%\n(NEXT PART)\nG1 X2. F100.\nM30\n%\n", control)
-    assert lines_and_ends(done) == [(1.0, 0.0)]
-    (said,) = told(done, "NOT_RUN")
+    run = ran("%\nG21 G1 X1. F100.\nM30\n%\n(NEXT PART)\nG1 X2. F100.\nM30\n%\n", control)
+    assert lines_and_ends(run) == [(1.0, 0.0)]
+    (said,) = findings_of(run, "NOT_RUN")
     assert (said.severity, said.line) == (Severity.WARNING, 6)
     assert said.text == "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
 def test_a_remark_behind_the_end_is_no_program(control: str) -> None:
-    assert not told(ran("%\nG21 G1 X1. F100.\nM30\n%\n(END)\n\n%\n", control), "NOT_RUN")
+    assert not findings_of(ran("%\nG21 G1 X1. F100.\nM30\n%\n(END)\n\n%\n", control), "NOT_RUN")
 
 
 def test_a_second_program_in_klartext_is_named() -> None:
     text = "BEGIN PGM A MM\nL X+1 Y+0 F100\nEND PGM A MM\n;\nBEGIN PGM B MM\nL X+2\nEND PGM B MM\n"
-    (said,) = told(ran(text, "klartext"), "NOT_RUN")
+    (said,) = findings_of(ran(text, "klartext"), "NOT_RUN")
     assert (said.severity, said.line) == (Severity.WARNING, 5)
-    assert not told(ran(text[: text.index(";")], "klartext"), "NOT_RUN")
+    assert not findings_of(ran(text[: text.index(";")], "klartext"), "NOT_RUN")
 
 
 O_WORDS = "o<prof> sub\nG1 X5 F100\no<prof> endsub\nG21 G1 X1 F100\no<prof> call\nM2\n"
@@ -111,17 +113,17 @@ O_WORDS = "o<prof> sub\nG1 X5 F100\no<prof> endsub\nG21 G1 X1 F100\no<prof> call
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 @pytest.mark.parametrize("text", [O_WORDS, O_WORDS.replace("<prof>", "100"), f"O7\n{O_WORDS}"])
 def test_words_of_linuxcnc_are_no_heads_of_programs(text: str, control: str) -> None:
-    done = ran(text, control)
-    assert done.stopped_at == (2 if text.startswith("O7") else 1)
-    assert [finding.code for finding in done.findings if finding.severity is Severity.ERROR] == ["PS0009"]
+    run = ran(text, control)
+    assert run.stopped_at == (2 if text.startswith("O7") else 1)
+    assert [finding.code for finding in run.findings if finding.severity is Severity.ERROR] == ["PS0009"]
 
 
 @pytest.mark.parametrize(
     "head", ["<PART-1>", "O<PART-1>", "O<PART-1> G21", "O1 (PART)", ":1", "O1 G21", "<PART-1> (REV B)"]
 )
 def test_heads_of_programs(head: str) -> None:
-    done = ran(f"%\n{head}\nG21 G1 X1. F100.\nM30\n%\n", "fanuc:a")
-    assert (done.stopped_at, lines_and_ends(done)) == (None, [(1.0, 0.0)])
+    run = ran(f"%\n{head}\nG21 G1 X1. F100.\nM30\n%\n", "fanuc:a")
+    assert (run.stopped_at, lines_and_ends(run)) == (None, [(1.0, 0.0)])
 
 
 def test_a_name_without_o_is_no_head_for_a_haas() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.judged_runs import judge_run
-from tests.core.controls.hand import lines_and_ends, ran, same, sample, shape, told
+from tests.core.controls.hand import findings_of, lines_and_ends, ran, same, sample, shape
 
 BEHIND_ENTRY = [
     ("ccw", 30, 3, 30, 10),
@@ -26,17 +26,17 @@ BEHIND_ENTRY = [
 
 
 def test_nist_refuses_the_inside_corner_of_the_lead_in() -> None:
-    done = sample("rosettacnc-square.ngc", "rosettacnc", t1=6)
-    assert (done.control, done.stopped_at) == ("rosettacnc:nist", 15)
-    assert told(done, "C6")[0].line == 15
+    run = sample("rosettacnc-square.ngc", "rosettacnc", t1=6)
+    assert (run.control, run.stopped_at) == ("rosettacnc:nist", 15)
+    assert findings_of(run, "C6")[0].line == 15
 
 
 def test_nist_enters_along_the_tangent_to_the_tool_where_it_stands() -> None:
-    done = ran("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20\n", "rosettacnc:nist", t1=6)
+    run = ran("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20\n", "rosettacnc:nist", t1=6)
     angle = radians(180) - acos(3 / 10)
     wanted = ("line", 10 + 3 * cos(angle), 3 * sin(angle))
-    assert same(shape(done)[1:2], [wanted])
-    assert same(shape(done)[2:], [("cw", 10, 3, 10, 0), ("line", 20, 3)])
+    assert same(shape(run)[1:2], [wanted])
+    assert same(shape(run)[2:], [("cw", 10, 3, 10, 0), ("line", 20, 3)])
 
 
 def test_nist_enters_on_the_right_as_the_mirror_image() -> None:
@@ -50,15 +50,15 @@ def test_nist_enters_on_the_right_as_the_mirror_image() -> None:
 
 
 def test_easy_enters_at_the_tangent_point_of_the_second_move() -> None:
-    done = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
-    assert done.stopped_at is None
-    assert same(shape(done)[-12:], [("line", 23, 10), *BEHIND_ENTRY])
+    run = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
+    assert run.stopped_at is None
+    assert same(shape(run)[-12:], [("line", 23, 10), *BEHIND_ENTRY])
 
 
 def test_normal_enters_as_linuxcnc_does_and_says_so() -> None:
-    done = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
-    assert same(shape(done)[-12:], [("line", 30 - sqrt(49 - 9), 7), *BEHIND_ENTRY])
-    assert "cutcomp assumes" in told(done, "ENTRY")[0].text
+    run = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
+    assert same(shape(run)[-12:], [("line", 30 - sqrt(49 - 9), 7), *BEHIND_ENTRY])
+    assert "cutcomp assumes" in findings_of(run, "ENTRY")[0].text
 
 
 @pytest.mark.parametrize("variant", ["easy", "normal"])
@@ -69,58 +69,58 @@ def test_the_square_is_clean_apart_from_its_leads(variant: str) -> None:
     assert (len(result.surface), result.leads) == (9, (15,))
 
 
-def window(done: ControlRun, first: int, second: int) -> list[tuple[float, float]]:
+def window(run: ControlRun, first: int, second: int) -> list[tuple[float, float]]:
     """The compensated window in the coordinates of its plane, in order."""
-    stretch = next(one for one in done.stretches if one.plane.axes[:2] == (first, second))
-    moves = done.moves.part(stretch.first + 1, stretch.first + 7)
+    stretch = next(one for one in run.stretches if one.plane.axes[:2] == (first, second))
+    moves = run.moves.part(stretch.first + 1, stretch.first + 7)
     return [(round(float(point[first]), 6), round(float(point[second]), 6)) for point in moves.points]
 
 
 def test_the_gothic_window_is_compensated_in_all_three_planes() -> None:
-    done = sample("rosettacnc-window.ngc", "rosettacnc:normal", t3=10)
+    run = sample("rosettacnc-window.ngc", "rosettacnc:normal", t3=10)
     wanted = [(55.0, 5.0), (95.0, 5.0), (95.0, 100.0), (5.0, 100.0), (5.0, 5.0), (50.0, 5.0)]
-    assert window(done, 0, 1) == wanted
+    assert window(run, 0, 1) == wanted
     lower = [(55.0, 155.0), (95.0, 155.0), (95.0, 250.0), (5.0, 250.0), (5.0, 155.0), (50.0, 155.0)]
-    assert window(done, 2, 0) == lower
-    assert window(done, 1, 2) == wanted
+    assert window(run, 2, 0) == lower
+    assert window(run, 1, 2) == wanted
 
 
 def test_the_windows_stand_side_by_side_by_g52() -> None:
-    done = sample("rosettacnc-window.ngc", "rosettacnc:normal", t3=10)
-    assert lines_and_ends(done, 26) == [(150.0, 0.0)]
-    assert lines_and_ends(done, 46) == [(-150.0, 0.0)]
+    run = sample("rosettacnc-window.ngc", "rosettacnc:normal", t3=10)
+    assert lines_and_ends(run, 26) == [(150.0, 0.0)]
+    assert lines_and_ends(run, 46) == [(-150.0, 0.0)]
 
 
 def test_the_window_is_refused_by_the_other_entries() -> None:
     for variant in ("nist", "easy"):
-        assert told(sample("rosettacnc-window.ngc", f"rosettacnc:{variant}", t3=10), "C6")
+        assert findings_of(sample("rosettacnc-window.ngc", f"rosettacnc:{variant}", t3=10), "C6")
 
 
 def test_a_dynamic_radius_is_taken_off_the_table_s() -> None:
-    done = ran("G21 F100\nG41 D1 I1\nG1 X10\nX20 Y-5\n", "rosettacnc:easy", t1=6)
-    assert done.stretches[0].radius == pytest.approx(2)
+    run = ran("G21 F100\nG41 D1 I1\nG1 X10\nX20 Y-5\n", "rosettacnc:easy", t1=6)
+    assert run.stretches[0].radius == pytest.approx(2)
 
 
 def test_g41_1_takes_a_diameter() -> None:
-    done = ran("G21 F100\nG42.1 D4\nG1 X10\nX20\n", "rosettacnc:easy")
-    assert same(shape(done), [("line", 10, -2), ("line", 20, -2)])
+    run = ran("G21 F100\nG42.1 D4\nG1 X10\nX20\n", "rosettacnc:easy")
+    assert same(shape(run), [("line", 10, -2), ("line", 20, -2)])
 
 
 def test_a_negative_radius_changes_the_side_and_is_reported() -> None:
-    done = ran("G21 F100\nG41 D1 I5\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
-    assert same(shape(done), [("line", 10, -2), ("line", 20, -2)])
-    assert told(done, "NEGATIVE")
+    run = ran("G21 F100\nG41 D1 I5\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
+    assert same(shape(run), [("line", 10, -2), ("line", 20, -2)])
+    assert findings_of(run, "NEGATIVE")
 
 
 def test_lower_case_and_comments_of_both_kinds_are_read() -> None:
-    done = ran("g21 (millimeters) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
-    assert same(shape(done), [("line", 10, -0.5)])
+    run = ran("g21 (millimeters) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
+    assert same(shape(run), [("line", 10, -0.5)])
 
 
 @pytest.mark.parametrize("text", ["T1 M6", "M6 T1"])
 def test_the_loaded_tool_counts_without_d(text: str) -> None:
-    done = ran(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
-    assert done.stretches[0].radius == pytest.approx(3)
+    run = ran(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
+    assert run.stretches[0].radius == pytest.approx(3)
 
 
 @pytest.mark.parametrize("entry", ["nist", "easy", "normal"])
@@ -138,6 +138,6 @@ def test_no_plane_origin_or_machine_point_is_taken_under_compensation(entry: str
 
 
 def test_a_wear_in_i_without_a_tool_compensates_and_is_not_told_as_nothing() -> None:
-    done = ran("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
-    assert [stretch.radius for stretch in done.stretches] == [3.0]
-    assert not told(done, "RADIUS0")
+    run = ran("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
+    assert [stretch.radius for stretch in run.stretches] == [3.0]
+    assert not findings_of(run, "RADIUS0")

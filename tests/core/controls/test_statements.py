@@ -10,21 +10,21 @@ from collections import Counter
 
 import pytest
 
-from tests.core.controls.hand import ran, same, shape, told
+from tests.core.controls.hand import findings_of, ran, same, shape
 from tests.core.controls.statement import Row
 from tests.core.controls.statements import ROWS
 
 
 def wrong(row: Row) -> str:
     """What of a row's run is not as it must be, empty if all is."""
-    done = ran(row.text, row.control, **row.tools)
-    path = shape(done)
+    run = ran(row.text, row.control, **row.tools)
+    path = shape(run)
     if row.path is not None and not same(path, row.path):
         return f"path {path}"
-    if done.stopped_at != row.stops:
-        return f"stopped at {done.stopped_at}: {[finding.text for finding in done.findings]}"
+    if run.stopped_at != row.stops:
+        return f"stopped at {run.stopped_at}: {[finding.text for finding in run.findings]}"
     for rule, line in row.rules:
-        lines = [finding.line for finding in told(done, rule.removeprefix("-"))]
+        lines = [finding.line for finding in findings_of(run, rule.removeprefix("-"))]
         if (line in lines) == rule.startswith("-"):
             return f"{rule} told at {lines}"
     return ""

@@ -9,7 +9,7 @@ import pytest
 from core.controls.judged_runs import deepest_gouge, judge_run
 from core.finding import Severity
 from core.units import from_mm
-from tests.core.controls.hand import ran, same, sample, shape, told
+from tests.core.controls.hand import findings_of, ran, same, sample, shape
 
 HEAD = "T1\nG0G41X1.Y2.\nG1X4.Y0.F20.\n"
 
@@ -23,7 +23,7 @@ def test_the_approach_ends_square_to_the_first_line(radius: float) -> None:
 
 def test_the_misprinted_arc_is_reported_with_both_radii() -> None:
     done = sample("threeblock-arc.nc", "threeblock", t1=0.5)
-    (arc,) = told(done, "ARC")
+    (arc,) = findings_of(done, "ARC")
     assert done.stopped_at == arc.line == 4
     assert [from_mm(value, done.unit) for value in arc.lengths] == pytest.approx([sqrt(2.5**2 + 1), 2.5])
     assert same(shape(done), [("rapid", 1, 2)])
@@ -70,7 +70,7 @@ def test_outside_corners_are_arcs() -> None:
 def test_a_step_smaller_than_the_radius_gouges_without_an_alarm() -> None:
     done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
     assert done.stopped_at is None
-    assert told(done, "B17-STEP")[0].line == 5
+    assert findings_of(done, "B17-STEP")[0].line == 5
     cut, line = deepest_gouge(judge_run(done))
     assert from_mm(cut, done.unit) == pytest.approx(0.05)
     assert line == 5
@@ -132,7 +132,7 @@ def test_an_undersized_cutter_runs_on_the_other_side() -> None:
 
 def test_diameter_0_turns_nothing_on() -> None:
     done = ran(HEAD + "X8.Y3.\nX9.\nG40X9.Y5.\n", "threeblock", t1=0)
-    assert told(done, "B3-DIA0")
+    assert findings_of(done, "B3-DIA0")
     assert same(shape(done)[1:3], [("line", 4, 0), ("line", 8, 3)])
 
 
@@ -175,17 +175,17 @@ def test_corner_arcs_turn_by_the_corner() -> None:
 def test_arcs_by_radius_are_run_and_reported() -> None:
     done = ran("G0X0Y0\nG2X2.Y0R1.F10.\n", "threeblock")
     assert same(shape(done)[1:], [("cw", 2, 0, 1, 0)])
-    assert [finding.column for finding in told(done, "RADIUS")] == [8]
+    assert [finding.column for finding in findings_of(done, "RADIUS")] == [8]
 
 
 def test_g99_between_tangent_moves_is_reported_once() -> None:
     done = sample("threeblock-circle.nc", "threeblock", t1=0.5)
-    assert [finding.line for finding in told(done, "G99")] == [5]
+    assert [finding.line for finding in findings_of(done, "G99")] == [5]
 
 
 @pytest.mark.parametrize("diameter", [0.5, -0.5])
 def test_the_side_cannot_be_swapped_whatever_the_sign_of_the_diameter(diameter: float) -> None:
     swapped = ran(f"{HEAD}X4.Y3.\nG42X0.Y3.\nG40X0.Y9.\nM2\n", "threeblock", t1=diameter)
-    assert [finding.line for finding in told(swapped, "B8-SIDE")] == [swapped.stopped_at] == [5]
+    assert [finding.line for finding in findings_of(swapped, "B8-SIDE")] == [swapped.stopped_at] == [5]
     again = ran(f"{HEAD}X4.Y3.\nG41X0.Y3.\nG40X0.Y9.\nM2\n", "threeblock", t1=diameter)
-    assert [finding.severity for finding in told(again, "B8-SIDE")] == [Severity.WARNING]
+    assert [finding.severity for finding in findings_of(again, "B8-SIDE")] == [Severity.WARNING]

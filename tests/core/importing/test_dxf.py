@@ -1,4 +1,4 @@
-"""DXF in: the made table, entities, units, layers, OCS, INSERTs, and what is refused."""
+"""DXF import: the table of sample drawings, entities, units, layers, OCS, INSERTs and refusals."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from core.tolerance import JOINED
 from core.units import Unit
 from tests.core.importing.drawings import MADE, arc, block, circle, dxf, line, listed, made, square
 
-TAKEN = [case for case in MADE if "refused" not in case]
+ACCEPTED = [case for case in MADE if "refused" not in case]
 
 
 def read(data: bytes, *, damaged: bool = False) -> Drawing:
     return read_dxf(data, "test.dxf", damaged=damaged)
 
 
-@pytest.mark.parametrize("case", TAKEN, ids=lambda case: case["file"])
-def test_a_made_drawing_has_the_contours_of_its_table(case: dict[str, float]) -> None:
+@pytest.mark.parametrize("case", ACCEPTED, ids=lambda case: case["file"])
+def test_a_sample_drawing_has_the_contours_in_the_table(case: dict[str, float]) -> None:
     listed_contours = listed(made(str(case["file"])))
     closed = [contour for contour in listed_contours.contours if contour.closed]
     assert (len(closed), len(listed_contours.contours) - len(closed)) == (case["closed"], case["open"])
@@ -43,25 +43,25 @@ def test_a_made_drawing_has_the_contours_of_its_table(case: dict[str, float]) ->
 
 
 @pytest.mark.parametrize("case", [case for case in MADE if "refused" in case], ids=lambda case: case["file"])
-def test_a_made_drawing_is_refused_by_its_code(case: dict[str, str]) -> None:
+def test_a_bad_sample_drawing_is_refused_with_its_code(case: dict[str, str]) -> None:
     with pytest.raises(DrawingError) as refused:
         read(made(case["file"]))
     assert refused.value.code == case["refused"]
 
 
 @pytest.mark.parametrize(("unit", "text"), [(Unit.MM, "0.0000001"), (Unit.IN, "0.000000004")])
-def test_the_smallest_gap_is_told_with_the_digits_that_show_it(unit: Unit, text: str) -> None:
+def test_a_tiny_gap_is_shown_with_enough_digits(unit: Unit, text: str) -> None:
     barely = replace(listed(made("d05-gap.dxf")), gap=1.1 * JOINED)
     assert f"largest gap {text}." in sentences(barely, unit)
 
 
-def test_progress_is_told_every_hundred_entities() -> None:
+def test_progress_is_reported_every_hundred_entities() -> None:
     calls: list[tuple[str, int, int]] = []
     read_dxf(dxf(*(line((k, 0), (k, 5)) for k in range(250))), "test.dxf", progress=lambda *call: calls.append(call))
     assert calls == [("reading", 0, 1), ("reading", 0, 250), ("reading", 100, 250), ("reading", 200, 250)]
 
 
-def test_a_gap_is_closed_within_the_tolerance_and_told() -> None:
+def test_a_gap_within_the_tolerance_is_closed_and_reported() -> None:
     assert listed(made("d05-gap.dxf")).gap == pytest.approx(0.008)
     still_open = listed(made("d06-gap-open.dxf")).contours[0]
     assert still_open.open_gap == pytest.approx(0.05)
@@ -69,7 +69,7 @@ def test_a_gap_is_closed_within_the_tolerance_and_told() -> None:
     assert listed(made("d06-gap-open.dxf"), tolerance=0.1).contours[0].closed
 
 
-def test_the_end_of_a_line_and_the_end_of_the_file_are_named_where_it_breaks_off() -> None:
+def test_a_file_that_breaks_off_is_refused_with_its_last_line() -> None:
     data = made("d19-cut-off.dxf")
     with pytest.raises(DrawingError) as refused:
         read(data)
@@ -80,7 +80,7 @@ def test_the_end_of_a_line_and_the_end_of_the_file_are_named_where_it_breaks_off
     assert taken.notes == ("The file breaks off at line 40: what comes after it is missing.",)
 
 
-def test_sentences_of_refusal() -> None:
+def test_refusals_name_the_reason() -> None:
     for name, text in (
         ("d20-not-dxf.dxf", "test.dxf is no DXF file."),
         (
@@ -102,33 +102,33 @@ def test_the_circle_of_3000_lines_becomes_one_arc() -> None:
 @pytest.mark.parametrize(
     ("code", "unit"), [(1, "IN"), (2, "FT"), (4, "MM"), (5, "CM"), (6, "M"), (0, None), (9, None), (None, None)]
 )
-def test_insunits_names_the_unit_or_it_is_asked(code: int | None, unit: str | None) -> None:
+def test_insunits_gives_the_unit_or_none(code: int | None, unit: str | None) -> None:
     drawing = read(dxf(*square(0, 0, 1), units=code))
     assert drawing.unit == (None if unit is None else DrawingUnit[unit])
 
 
-def test_the_question_for_the_unit_has_the_size_both_ways() -> None:
+def test_the_unit_question_shows_the_size_in_both_units() -> None:
     text = unit_question(read(made("d04-nounits.dxf")))
     assert text == "The drawing names no unit. 40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000"
 
 
-def test_a_unit_that_is_not_read_is_named() -> None:
+def test_an_unsupported_unit_is_named() -> None:
     text = unit_question(read(dxf(*square(0, 0, 40), units=9)))
     assert text.startswith("The drawing has a unit that is not read (mils, $INSUNITS 9). 40 x 40: ")
 
 
-def test_a_drawing_in_feet_is_read_in_millimeters() -> None:
+def test_a_drawing_in_feet_is_converted_to_millimeters() -> None:
     assert listed(dxf(*square(0, 0, 1), units=2)).contours[0].length == pytest.approx(4 * 304.8)
 
 
-def test_a_mirrored_arc_turns_the_other_way() -> None:
+def test_a_mirrored_arc_is_mirrored() -> None:
     contour = listed(made("d12-mirrored-arc.dxf")).contours[0]
     ends = {tuple(round(value, 6) + 0.0 for value in piece.start) for piece in contour.pieces}
     assert (40.0, 10.0) in ends
     assert (50.0, 20.0) in ends
 
 
-def test_any_other_extrusion_is_refused_by_line() -> None:
+def test_a_tilted_extrusion_is_refused_with_its_line() -> None:
     tilted = [*circle((0, 0), 5), (210, 0.0), (220, 1.0), (230, 0.0)]
     drawing = read(dxf(tilted, *square(0, 0, 1, "B")))
     assert drawing.not_flat[0].text == "The CIRCLE at line 19 does not lie in the XY plane."
@@ -139,7 +139,7 @@ def test_any_other_extrusion_is_refused_by_line() -> None:
     assert len(contours_of(drawing, only_b).contours) == 1
 
 
-def test_a_slope_is_refused_and_another_height_is_told() -> None:
+def test_a_sloped_line_is_refused_and_different_heights_are_reported() -> None:
     slope = [(0, "LINE"), (8, "0"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 0), (31, 1)]
     assert len(read(dxf(slope)).not_flat) == 1
     drawing = read(dxf(line((0, 0), (1, 0)), line((1, 0), (1, 1), z=5.0)))
@@ -166,7 +166,7 @@ def insert(name: str, at: tuple[float, float], *more: tuple[int, object]) -> lis
     return [(0, "INSERT"), (8, "PARTS"), (2, name), (10, at[0]), (20, at[1]), (30, 0), *more]
 
 
-def test_an_insert_is_its_block_transformed_on_its_own_layer() -> None:
+def test_an_insert_transforms_its_block_onto_the_layer_of_the_insert() -> None:
     data = dxf(insert("B", (100, 0), (41, 2.0), (42, 2.0), (50, 90.0)), more=block("B", *square(0, 0, 10)))
     contour = listed(data).contours[0]
     assert contour.layer == "PARTS"
@@ -174,7 +174,7 @@ def test_an_insert_is_its_block_transformed_on_its_own_layer() -> None:
     assert min(piece.start[0] for piece in contour.pieces) == pytest.approx(80.0)
 
 
-def test_an_insert_that_mirrors_and_stretches_makes_ellipses() -> None:
+def test_an_insert_that_mirrors_and_stretches_a_circle_makes_an_ellipse() -> None:
     data = dxf(insert("B", (0, 0), (41, -2.0), (42, 1.0)), more=block("B", circle((10, 0), 5)))
     contour = listed(data).contours[0]
     assert contour.closed
@@ -182,37 +182,37 @@ def test_an_insert_that_mirrors_and_stretches_makes_ellipses() -> None:
     assert contour.size == pytest.approx((20.0, 10.0), abs=0.01)
 
 
-def test_rows_of_inserts_are_all_taken() -> None:
+def test_every_copy_of_an_insert_array_is_read() -> None:
     data = dxf(insert("B", (0, 0), (70, 3), (71, 2), (44, 20.0), (45, 20.0)), more=block("B", *square(0, 0, 10)))
     assert len(listed(data).contours) == 6
 
 
-def test_a_million_inserted_lines_are_refused_with_the_limit() -> None:
+def test_more_than_a_million_inserted_lines_are_refused_with_the_limit() -> None:
     data = dxf(insert("B", (0, 0), (70, 3000), (71, 3000), (44, 20.0), (45, 20.0)), more=block("B", *square(0, 0, 10)))
     with pytest.raises(DrawingError, match="36,000,000 lines and curves: at most 1,000,000"):
         read(data)
 
 
-def test_blocks_that_hold_themselves_are_refused() -> None:
+def test_blocks_that_contain_themselves_are_refused() -> None:
     data = dxf(insert("B", (0, 0)), more=block("B", insert("B", (0, 0))))
     with pytest.raises(DrawingError, match="deeper than 8"):
         read(data)
 
 
-def test_an_insert_of_a_block_that_is_missing_is_told() -> None:
+def test_an_insert_of_a_missing_block_is_reported() -> None:
     drawing = read(dxf(insert("GONE", (0, 0)), *square(0, 0, 1)))
     assert drawing.skipped == {"INSERT": 1}
     assert "'GONE', which the file does not have" in drawing.notes[0]
 
 
-def test_what_is_skipped_is_counted_by_kind() -> None:
+def test_skipped_entities_are_counted_by_kind() -> None:
     text = [(0, "TEXT"), (8, "0"), (10, 0), (20, 0), (30, 0), (40, 5), (1, "PART")]
     point = [(0, "POINT"), (8, "0"), (10, 0), (20, 0), (30, 0)]
     drawing = read(dxf(text, text, point, *square(0, 0, 1), [(0, "STRANGE"), (8, "0")]))
     assert drawing.skipped == {"TEXT": 2, "POINT": 1, "STRANGE": 1}
 
 
-def test_frozen_layers_and_layers_that_are_off_are_counted() -> None:
+def test_entities_on_frozen_and_off_layers_are_counted() -> None:
     layer = [(0, "LAYER"), (2, "F"), (70, 1), (62, 7), (6, "CONTINUOUS"), (0, "LAYER"), (2, "O"), (70, 0), (62, -7)]
     table = [(0, "SECTION"), (2, "TABLES"), (0, "TABLE"), (2, "LAYER"), (70, 2), *layer, (6, "CONTINUOUS")]
     more = "".join(f"{code}\n{value}\n" for code, value in [*table, (0, "ENDTAB"), (0, "ENDSEC")])
@@ -221,7 +221,7 @@ def test_frozen_layers_and_layers_that_are_off_are_counted() -> None:
     assert drawing.layers == ("0",)
 
 
-def test_two_entities_run_together_are_damage_and_never_one_entity() -> None:
+def test_two_merged_entities_are_damage_and_never_one_entity() -> None:
     data = dxf(*square(0, 0, 10)).replace(b"0\nLINE\n8\n0\n10\n10\n20\n0\n", b"1\nLINE\n8\n0\n10\n10\n20\n0\n")
     with pytest.raises(DrawingError) as refused:
         read(data)
@@ -229,14 +229,14 @@ def test_two_entities_run_together_are_damage_and_never_one_entity() -> None:
     assert "The LINE at line 19 has group code 10 2 times" in refused.value.text
 
 
-def test_a_number_that_is_none_names_the_damage() -> None:
+def test_an_invalid_number_is_damage() -> None:
     for wrong in (b"nan", b"1e400", b"x"):
         with pytest.raises(DrawingError) as refused:
             read(dxf(circle((0, 0), 5)).replace(b"40\n5\n", b"40\n" + wrong + b"\n"))
         assert refused.value.code == "DXF_DAMAGED"
 
 
-def test_a_circle_without_radius_is_told() -> None:
+def test_a_circle_with_zero_radius_is_skipped_and_reported() -> None:
     drawing = read(dxf(circle((0, 0), 0), *square(0, 0, 1)))
     assert drawing.notes == ("A CIRCLE has the radius 0 and is skipped.",)
 
@@ -266,7 +266,7 @@ def every_sentence(contours: ContourList) -> list[str]:
     return list(sentences(contours, Unit.MM))
 
 
-def test_what_clean_up_did_is_told() -> None:
+def test_cleanup_is_reported() -> None:
     assert every_sentence(listed(made("d07-duplicate.dxf"))) == ["2 equal pieces were dropped.", "largest gap none."]
     assert every_sentence(listed(made("d08-overlap.dxf"))) == [
         "1 overlapping piece was joined.",
@@ -280,7 +280,7 @@ def test_what_clean_up_did_is_told() -> None:
 
 
 def spline(*points: tuple[float, float], fit: bool = False, closed: bool = False) -> bytes:
-    """A drawing of R2000 with one SPLINE and a LINE, by control points or by fit points."""
+    """An R2000 drawing with one LINE and one SPLINE of control points or fit points."""
     document = ezdxf_new("R2000", units=4)
     space = document.modelspace()
     if fit:
@@ -293,7 +293,7 @@ def spline(*points: tuple[float, float], fit: bool = False, closed: bool = False
     return stream.getvalue().encode()
 
 
-def test_a_spline_of_fit_points_alone_is_calculated_and_told() -> None:
+def test_a_spline_of_fit_points_is_interpolated_and_reported() -> None:
     data = spline((0, 0), (10, 5), (20, 0), (30, 5), fit=True)
     assert read(data).notes == ("A SPLINE has fit points alone: the curve through them is calculated.",)
     curve = max(listed(data).contours, key=lambda contour: contour.length)
@@ -301,7 +301,7 @@ def test_a_spline_of_fit_points_alone_is_calculated_and_told() -> None:
     assert ends == {(0.0, 0.0), (30.0, 5.0)}
 
 
-def test_a_closed_spline_of_fit_points_alone_is_skipped_and_told() -> None:
+def test_a_closed_spline_of_fit_points_is_skipped_and_reported() -> None:
     drawing = read(spline((0, 0), (10, 5), (20, 0), (10, -5), fit=True, closed=True))
     assert drawing.notes == ("A closed SPLINE of fit points alone is skipped. Export it with control points.",)
     assert drawing.skipped == {"SPLINE": 1}
@@ -312,7 +312,7 @@ def test_a_spline_without_length_is_counted_as_too_short() -> None:
     assert (made_list.tiny, len(made_list.contours)) == (1, 1)
 
 
-def test_a_spline_in_an_insert_that_stretches_is_stretched() -> None:
+def test_an_insert_stretches_a_spline() -> None:
     document = ezdxf_new("R2000", units=4)
     part = document.blocks.new("PART")
     part.add_open_spline([(0, 0), (10, 20), (30, -10), (40, 10)])
@@ -325,21 +325,21 @@ def test_a_spline_in_an_insert_that_stretches_is_stretched() -> None:
 
 
 @pytest.mark.parametrize(("version", "encoding"), [("AC1015", "cp1252"), ("AC1027", "utf-8")])
-def test_names_are_read_in_the_encoding_of_their_version(version: str, encoding: str) -> None:
-    """Up to 2004 the code page of the header, from 2007 on UTF-8."""
+def test_layer_names_are_decoded_with_the_encoding_of_the_version(version: str, encoding: str) -> None:
+    """Versions up to 2004 use the code page of the header, later ones UTF-8."""
     text = dxf(line((0, 0), (5, 0), "Größe")).decode().replace("AC1009", f"{version}\n9\n$DWGCODEPAGE\n3\nANSI_1252")
     assert read_dxf(text.encode(encoding), "test.dxf").layers == ("Größe",)
 
 
-def test_each_step_of_the_work_is_told() -> None:
+def test_each_step_of_the_work_is_reported() -> None:
     drawing = read_dxf(dxf(*square(0, 0, 10)), "test.dxf")
-    told: list[str] = []
-    contours_of(drawing, ImportOptions.usual(DrawingUnit.MM), lambda step, *_: told.append(step))
-    assert [step for step in told if step != "fitting"] == ["cleaning", "chaining", "nesting"]
+    steps: list[str] = []
+    contours_of(drawing, ImportOptions.usual(DrawingUnit.MM), lambda step, *_: steps.append(step))
+    assert [step for step in steps if step != "fitting"] == ["cleaning", "chaining", "nesting"]
 
 
 @pytest.mark.parametrize(("closed", "count"), [(0, 3), (1, 4)])
-def test_a_polyline_runs_through_its_vertices_and_back_where_it_is_closed(closed: int, count: int) -> None:
+def test_a_closed_polyline_returns_to_its_first_vertex(closed: int, count: int) -> None:
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (0.0, 7.0)]
     vertices: list[tuple[int, object]] = []
     for x, y in corners:
@@ -369,7 +369,7 @@ def test_a_bulge_is_a_line_or_an_arc_within_fit(bulge: float, size: float) -> No
     assert block_of(contour, Program(unit=Unit.MM)).block.segments
 
 
-def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
+def test_an_arc_with_a_center_out_of_range_is_named() -> None:
     vertices = [
         tag for x, turn in ((0, 1e-4), (400, 0)) for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, 0), (42, turn))
     ]
@@ -379,12 +379,12 @@ def test_an_arc_whose_center_is_out_of_reach_is_named() -> None:
 
 
 VERSIONS = [None, "", "AC1006", "AC1009", "AC1012", "AC1015", "AC1032"]
-"""A file without a header, one without a version in it, and versions."""
+"""No header, a header without a version, and the versions."""
 MIRRORED: list[tuple[int, object]] = [(210, 0.0), (220, 0.0), (230, -1.0)]
 
 
 def of_version(version: str | None, *tags: tuple[int, object]) -> bytes:
-    """A drawing of one entity."""
+    """A drawing with one entity."""
     named = [(9, "$ACADVER"), (1, version)] if version else []
     head = [] if version is None else [(0, "SECTION"), (2, "HEADER"), *named, (9, "$INSUNITS"), (70, 4), (0, "ENDSEC")]
     every = [*head, (0, "SECTION"), (2, "ENTITIES"), *tags, (0, "ENDSEC"), (0, "EOF")]
@@ -394,25 +394,25 @@ def of_version(version: str | None, *tags: tuple[int, object]) -> bytes:
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("marked", [True, False])
 @pytest.mark.parametrize("mirrored", [False, True])
-def test_a_polyline_is_read_whole_whatever_version_and_markers_say(
+def test_a_polyline_is_read_whole_in_every_version_with_or_without_markers(
     version: str | None, marked: bool, mirrored: bool
 ) -> None:
     markers: list[tuple[int, object]] = [(100, "AcDbEntity"), (100, "AcDbPolyline")] if marked else []
     corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0), (10, 0.0), (20, 30.0)]
-    own: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *(MIRRORED if mirrored else [])]
-    tags = [(0, "LWPOLYLINE"), (5, "1A"), *markers[:1], (8, "CUT"), *markers[1:], *own]
+    data_tags: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *(MIRRORED if mirrored else [])]
+    tags = [(0, "LWPOLYLINE"), (5, "1A"), *markers[:1], (8, "CUT"), *markers[1:], *data_tags]
     data = of_version(version, *tags)
     (contour,) = listed(data).contours
-    across = [piece.start[0] for piece in contour.pieces]
+    x_values = [piece.start[0] for piece in contour.pieces]
     assert contour.closed
     assert contour.length == pytest.approx(160.0)
-    assert (min(across), max(across)) == ((-50.0, 0.0) if mirrored else (0.0, 50.0))
+    assert (min(x_values), max(x_values)) == ((-50.0, 0.0) if mirrored else (0.0, 50.0))
     assert read(data).layers == ("CUT",)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
-    # a Bezier parabola: without its degree of 2 it would need another number of knots
+    # a Bezier parabola: with a degree other than 2 its number of knots would be wrong
     knots = [(40, knot) for knot in (0, 0, 0, 1, 1, 1)]
     points = [tag for x, y in ((0, 0), (10, 20), (20, 0)) for tag in ((10, x), (20, y), (30, 0))]
     markers = (0, "SPLINE"), (5, "1A"), (100, "AcDbEntity"), (8, "CUT"), (100, "AcDbSpline")
@@ -424,7 +424,7 @@ def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
     )
 
 
-def test_a_polyline_whose_layer_comes_late_is_refused_and_not_put_on_another() -> None:
+def test_a_polyline_with_a_late_layer_is_refused() -> None:
     tags = [(0, "LWPOLYLINE"), (90, 2), (70, 0), (10, 0.0), (20, 0.0), (10, 5.0), (20, 0.0), (8, "CUT")]
     with pytest.raises(DrawingError) as refused:
         read(of_version("AC1015", *tags))

@@ -1,4 +1,4 @@
-"""Programs posted for controls that compensate by themselves, read back and measured."""
+"""Programs posted for compensating controls are read back and measured."""
 
 from __future__ import annotations
 
@@ -52,51 +52,51 @@ def derived(*blocks: Block, parameters: ProgramParameters = BLENDS) -> Derived:
     return derive(program(*blocks, parameters=parameters))
 
 
-def posted(found: Derived, control: str) -> Posted:
-    result = post_control_program(found, name="PART", control=control)
+def posted(part: Derived, control: str) -> Posted:
+    result = post_control_program(part, name="PART", control=control)
     assert isinstance(result, Posted), result
     return result
 
 
-def table(of: Program, text: str) -> ToolTable:
-    """The program's tools, and the offsets its header tells."""
-    told = {tool.number: tool.diameter.value for tool in of.tools if isinstance(tool.diameter, Number)}
+def table(part: Program, text: str) -> ToolTable:
+    """The tools of the program and the offsets in its header."""
+    diameters = {tool.number: tool.diameter.value for tool in part.tools if isinstance(tool.diameter, Number)}
     for line in text.splitlines():
         if line.startswith("(OFFSET D"):
             words = line.split()
-            told[int(words[1][1:])] = 2 * float(words[3].strip(",)"))
-    return end_mills(told, of.unit)
+            diameters[int(words[1][1:])] = 2 * float(words[3].strip(",)"))
+    return end_mills(diameters, part.unit)
 
 
-def apart(one: Line, other: Line) -> float:
-    """How far the ends and middles of a path's pieces are from another path at most."""
-    pieces, onto = piece_arrays(one), piece_arrays(other)
+def apart(first: Line, second: Line) -> float:
+    """The largest distance of the ends and middles of one path's pieces from another path."""
+    pieces, onto = piece_arrays(first), piece_arrays(second)
     places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.5, 1.0)])
     return max(float(distance(onto, np.full(len(onto), place)).min()) for place in places)
 
 
 def runs_of(text: str, control: str, tools: ToolTable, unit: Unit) -> list[Line]:
-    """The paths of a program's compensated runs, without the moves into them and out of them."""
+    """The paths of a program's compensated runs without their entry and exit moves."""
     made = run(text.encode(), control, tools, unit)
     assert isinstance(made, ControlRun)
     assert made.stopped_at is None, made.findings
-    paths = [made.moves.part(one.first, one.last).path() for one in made.stretches]
+    paths = [made.moves.part(stretch.first, stretch.last).path() for stretch in made.stretches]
     return paths if control == "klartext" else [path.part(1, len(path) - 1) for path in paths]
 
 
 @pytest.mark.parametrize("control", names())
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
-def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -> None:
-    found = derive(load(example))
-    result = post_control_program(found, name=example.stem, control=control)
+def test_every_example_reads_back_or_is_refused_with_a_reason(example: Path, control: str) -> None:
+    part = derive(load(example))
+    result = post_control_program(part, name=example.stem, control=control)
     if isinstance(result, Refusal):
         assert example.stem in ("notch", "overrun-square", "pocket")
         assert all(finding.segment is not None for finding in result.findings)
         return
-    unit = found.program.unit
-    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
-    wanted = [one.compensated.whole for each in found.blocks for one in each.paths.rough]
-    wanted += [each.paths.compensated.whole for each in found.blocks]
+    unit = part.program.unit
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(part.program, result.text)
+    wanted = [one.compensated.whole for each in part.blocks for one in each.paths.rough]
+    wanted += [each.paths.compensated.whole for each in part.blocks]
     allowed = 0.006 + sum(note.lengths[0] for note in result.notes if note.code == "DIFFERS")
     for path in runs_of(result.text, control, tools, unit):
         assert min(max(apart(path, one), apart(one, path)) for one in wanted) <= allowed
@@ -104,14 +104,14 @@ def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -
 
 @pytest.mark.parametrize("control", names())
 @pytest.mark.parametrize("side", [CutterComp.LEFT, CutterComp.PROFILE_LEFT])
-def test_a_square_that_starts_at_its_corner_is_clean_to_the_judge(side: CutterComp, control: str) -> None:
-    """Both arcs of its blend begin and end at one point."""
+def test_the_judge_finds_a_square_that_starts_at_its_corner_clean(side: CutterComp, control: str) -> None:
+    """Both blend arcs begin and end at one point."""
     corners = ((0.0, 0.0), (0.0, 3.0), (5.0, 3.0), (5.0, 0.0), (0.0, 0.0))
-    found = derived(replace(block(corners, side), peck_depth=Number(0.1)))
-    result = post_control_program(found, name="PART", control=control)
+    part = derived(replace(block(corners, side), peck_depth=Number(0.1)))
+    result = post_control_program(part, name="PART", control=control)
     assert isinstance(result, Posted), result
-    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
-    made = run(result.text.encode(), control, tools, found.program.unit)
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(part.program, result.text)
+    made = run(result.text.encode(), control, tools, part.program.unit)
     assert isinstance(made, ControlRun)
     results = judge_run(made)
     assert results
@@ -119,15 +119,15 @@ def test_a_square_that_starts_at_its_corner_is_clean_to_the_judge(side: CutterCo
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "klartext"])
-def test_a_program_without_its_deleted_segments_says_so(control: str) -> None:
-    """A chamfer shorter than the cutter can reach: the program has a sharp corner, which a smaller tool would cut."""
+def test_the_header_lists_deleted_segments(control: str) -> None:
+    """The cutter cannot reach a short chamfer: the program has a sharp corner, which a smaller tool would cut."""
     chamfered = ((2.0, 0.0), (3.9, 0.0), (4.0, 0.1), (4.0, 4.0), (0.0, 4.0), (0.0, 0.0), (2.0, 0.0))
     result = post_control_program(derived(block(chamfered, CutterComp.LEFT)), name="PART", control=control)
     assert isinstance(result, Posted), result
     assert "DELETED BY THE LOOK-AHEAD: SEGMENT 2" in result.text
     assert "AS TYPED" not in result.text
-    (said,) = (note for note in result.notes if note.code == "LEFT_OUT")
-    assert said.lengths == (12.7,)
+    (left_out,) = (note for note in result.notes if note.code == "LEFT_OUT")
+    assert left_out.lengths == (12.7,)
     plain = post_control_program(derived(SQUARE), name="PART", control=control)
     assert "AS TYPED" in plain.text
     assert "LEFT_OUT" not in {note.code for note in plain.notes}
@@ -150,7 +150,7 @@ def test_a_refusal_without_a_line_names_the_block() -> None:
     assert result.text.startswith("Block 1: There is no room for the straight move into the cut")
 
 
-def test_what_the_control_does_otherwise_stands_in_the_header() -> None:
+def test_the_header_notes_where_the_control_differs() -> None:
     result = posted(derived(SQUARE), "nine-series:a")
     assert [note.code for note in result.notes] == ["DIFFERS"]
     assert "(NOTE DIFFERS SEGMENT" in result.text
@@ -158,7 +158,7 @@ def test_what_the_control_does_otherwise_stands_in_the_header() -> None:
     assert "(OFFSET D1 RADIUS 0.2500 OF TOOL 1)" in result.text
 
 
-def test_pecks_are_runs_of_their_own() -> None:
+def test_each_peck_is_a_separate_compensated_run() -> None:
     result = posted(derived(SQUARE), "linuxcnc")
     assert result.text.count("G42 D1") == 3
     plunges = [line.split()[1] for line in result.text.splitlines() if line.startswith("G1 Z")]
@@ -167,11 +167,11 @@ def test_pecks_are_runs_of_their_own() -> None:
 
 
 @pytest.mark.parametrize("control", names())
-def test_a_control_s_program_never_rapids_across_the_part_below_its_top(control: str) -> None:
-    """Between pecks, on to the next block and at its end, where the tool stands at SAFE Z."""
-    found = derived(SQUARE, SQUARE)
-    text = posted(found, control).text
-    made = run(text.encode(), control, NO_TOOLS if control == "klartext" else table(found.program, text), Unit.IN)
+def test_a_program_never_rapids_across_the_part_below_its_top(control: str) -> None:
+    """This covers pecks, the move to the next block, and the end at SAFE Z."""
+    part = derived(SQUARE, SQUARE)
+    text = posted(part, control).text
+    made = run(text.encode(), control, NO_TOOLS if control == "klartext" else table(part.program, text), Unit.IN)
     assert isinstance(made, ControlRun)
     points, rapid = made.moves.points, made.moves.rapid
     across = np.any(points[1:, :2] != points[:-1, :2], axis=1) & rapid[1:]
@@ -181,8 +181,8 @@ def test_a_control_s_program_never_rapids_across_the_part_below_its_top(control:
 
 
 @pytest.mark.parametrize("control", names())
-def test_an_over_run_posted_for_a_control_reads_back_as_the_form_tells_it(control: str) -> None:
-    """The blends' arcs come before its first element and after its last one: they are leads too."""
+def test_an_over_run_posted_for_a_control_reads_back_as_an_over_run(control: str) -> None:
+    """The blend arcs before the first element and after the last one are leads too."""
     _, _, made = made_by(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT), parameters=BLENDS), control)
     results = judge_run(made)
     codes = [finding.code for finding in judged_findings(results)]
@@ -190,23 +190,23 @@ def test_an_over_run_posted_for_a_control_reads_back_as_the_form_tells_it(contro
     assert {"GOUGE", "CROSSES", "UNCUT", "WRONG-SIDE"}.isdisjoint(codes), codes
 
 
-def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
+def test_nothing_is_posted_with_an_error() -> None:
     result = post_control_program(derived(block(NOTCH, CutterComp.LEFT)), name="PART", control="threeblock")
     assert isinstance(result, Refusal)
     assert "GOUGE" in {finding.code for finding in result.findings}
 
 
-def test_heights_under_compensation_and_best_are_refused() -> None:
+def test_changing_heights_under_compensation_and_best_are_refused() -> None:
     best = derived(SQUARE, parameters=replace(BLENDS, path=PathChoice.BEST))
     climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Number(-0.1)}), *SQUARE.segments[1:]))
-    for found, word in ((best, "BEST"), (derived(climbing), "Z END")):
-        result = post_control_program(found, name="PART", control="linuxcnc")
+    for part, word in ((best, "BEST"), (derived(climbing), "Z END")):
+        result = post_control_program(part, name="PART", control="linuxcnc")
         assert isinstance(result, Refusal)
         assert any(word in finding.text for finding in result.findings), result
 
 
 def climbing() -> Block:
-    """A square without compensation whose first side climbs."""
+    """An uncompensated square whose first side climbs."""
     plain = replace(block(MID_SIDE_SQUARE, CutterComp.ON), peck_depth=Number(0.1))
     return replace(plain, segments=(changed(plain.segments[0], {"z_end": Number(-0.1)}), *plain.segments[1:]))
 
@@ -226,23 +226,23 @@ HELIX = replace(
 )
 
 
-def made_by(of: Program, control: str) -> tuple[Derived, str, ControlRun]:
-    found = derive(of)
-    text = posted(found, control).text
-    made = run(text.encode(), control, NO_TOOLS if control == "threeblock" else table(of, text), of.unit)
+def made_by(typed: Program, control: str) -> tuple[Derived, str, ControlRun]:
+    part = derive(typed)
+    text = posted(part, control).text
+    made = run(text.encode(), control, NO_TOOLS if control == "threeblock" else table(typed, text), typed.unit)
     assert isinstance(made, ControlRun)
     assert made.stopped_at is None
-    return found, text, made
+    return part, text, made
 
 
 @pytest.mark.parametrize("control", names())
 @pytest.mark.parametrize("of", [climbing(), HELIX], ids=["lines", "helices"])
 def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None:
-    found, text, made = made_by(program(of), control)
+    part, text, made = made_by(program(of), control)
     assert not {"G41", "G42", "RL", "RR"} & set(text.split())
     assert not made.stretches
     assert control == "threeblock" or "NOTHING" in text
-    wanted = [motion for job in jobs(found) for one in passes(job) for motion in one.motions if not motion.rapid]
+    wanted = [motion for job in jobs(part) for one in passes(job) for motion in one.motions if not motion.rapid]
     feeds = [move for move in made.moves if not move.rapid]
     ends = [(move.point, move.turn) for move, before in zip(feeds, [None, *feeds], strict=False) if move != before]
     assert [turn for _, turn in ends] == [int(motion.turn) for motion in wanted]
@@ -251,23 +251,23 @@ def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None
 
 
 @pytest.mark.parametrize("control", names())
-def test_on_goes_beside_blocks_with_compensation(control: str) -> None:
-    found, _, made = made_by(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
+def test_a_block_with_on_may_stand_between_blocks_with_compensation(control: str) -> None:
+    part, _, made = made_by(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
     assert len(made.stretches) == 6
-    assert [each.block.cutter_comp for each in found.blocks].count(CutterComp.ON) == 1
+    assert [each.block.cutter_comp for each in part.blocks].count(CutterComp.ON) == 1
 
 
 NEARLY = [0.0005, 0.001, 0.004, 359.9, 359.998, 359.9985, 360.0]
 
 
 def circling(sweep: float, unit: Unit, comp: CutterComp, direction: Direction) -> Program:
-    """A line, an arc of so many degrees about a center one above its end, and a line away from there."""
+    """A line and an arc of `sweep` degrees about a center one unit above the end of the line."""
     scale = 1.0 if unit is Unit.IN else 25.4
-    there = LineSegment(length=Number(2.0 * scale), angle=Number(45.0), feed=Number(8.0 * scale))
+    first = LineSegment(length=Number(2.0 * scale), angle=Number(45.0), feed=Number(8.0 * scale))
     x, y = (round(value * scale, 4) for value in (1.4142, 2.4142))
     around = ArcSegment(direction, x_center=Number(x), y_center=Number(y), sweep=Number(sweep))
     plain = changed(block(((0.0, 0.0),), comp), {"z_bottom": Number(-0.25 * scale), "plunge_feed": Number(5.0 * scale)})
-    made = program(replace(plain, segments=(there, around)), parameters=ProgramParameters(blend_offset=Number(0.0)))
+    made = program(replace(plain, segments=(first, around)), parameters=ProgramParameters(blend_offset=Number(0.0)))
     return replace(made, unit=unit, tools=(replace(made.tools[0], diameter=Number(0.5 * scale)),))
 
 
@@ -275,20 +275,20 @@ def circling(sweep: float, unit: Unit, comp: CutterComp, direction: Direction) -
 @pytest.mark.parametrize("direction", list(Direction))
 @pytest.mark.parametrize("unit", list(Unit))
 @pytest.mark.parametrize("sweep", NEARLY)
-def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
+def test_an_arc_that_ends_near_its_start_keeps_its_length_on_every_control(
     sweep: float, unit: Unit, direction: Direction, control: str
 ) -> None:
-    """As a full circle it may be read only where it is one; the read-back measures what the control runs."""
-    found = derive(circling(sweep, unit, CutterComp.ON, direction))
-    result = post_control_program(found, name="PART", control=control)
+    """Only a full circle may be read as one; the read-back measures the path that the control runs."""
+    part = derive(circling(sweep, unit, CutterComp.ON, direction))
+    result = post_control_program(part, name="PART", control=control)
     assert isinstance(result, Posted), result
-    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(part.program, result.text)
     made = run(result.text.encode(), control, tools, unit)
     assert isinstance(made, ControlRun)
     assert made.stopped_at is None
     path = made.moves.path()
     fed = np.isin(path.numbers, made.moves.lines[~made.moves.rapid])
-    assert path.lengths[fed].sum() == pytest.approx(found.blocks[0].paths.surface.lengths.sum(), abs=0.01)
+    assert path.lengths[fed].sum() == pytest.approx(part.blocks[0].paths.surface.lengths.sum(), abs=0.01)
     circles = (path.turns != 0) & (path.points[:-1] == path.points[1:]).all(axis=1)
     assert circles.sum() == (sweep == 360.0)
 
@@ -299,10 +299,10 @@ def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
     [(Unit.IN, (CutterComp.LEFT, Direction.CCW)), (Unit.MM, (CutterComp.RIGHT, Direction.CW))],
 )
 @pytest.mark.parametrize("sweep", [0.0005, 0.001, 0.004, 359.998])
-def test_no_control_is_told_to_compensate_an_arc_that_ends_beside_its_start(
+def test_no_program_compensates_an_arc_that_ends_near_its_start(
     sweep: float, side: tuple[CutterComp, Direction], unit: Unit, control: str
 ) -> None:
-    """What is left of one is a line, or nothing is written."""
+    """Such an arc becomes a line, or nothing is posted."""
     result = post_control_program(derive(circling(sweep, unit, *side)), name="PART", control=control)
     if isinstance(result, Posted):
         assert re.search(r"G0?[23][XYIJ ]| C [XY]", result.text) is None
@@ -310,20 +310,20 @@ def test_no_control_is_told_to_compensate_an_arc_that_ends_beside_its_start(
 
 @pytest.mark.parametrize("control", ["threeblock", "nine-series:a"])
 @pytest.mark.parametrize("unit", list(Unit))
-def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
+def test_an_arc_that_a_control_runs_as_a_full_circle_is_refused(
     unit: Unit, control: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The program is read back, so that it does not matter how the arc came into it."""
+    """The read-back finds the arc however it got into the program."""
     monkeypatch.setattr(
         post, "_travels", lambda motions: [CenterMove(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
     )
-    found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
-    result = post_control_program(found, name="PART", control=control)
+    part = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
+    result = post_control_program(part, name="PART", control=control)
     assert isinstance(result, Refusal)
     assert f"{shown_name(control)} ends line" in result.text
 
 
-def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
+def test_a_work_offset_that_cannot_be_written_is_reported() -> None:
     plain = program(SQUARE, parameters=BLENDS)
     moved = derive(replace(plain, setup=replace(plain.setup, work_offset=Number(55))))
     assert "G55" in posted(moved, "linuxcnc").text.split("\n(")[-1]
@@ -331,15 +331,15 @@ def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
 
 
 @pytest.mark.parametrize("example", [path for path in EXAMPLES if path.stem in ("flange", "plate-mm")], ids=str)
-def test_linuxcnc_itself_runs_what_is_written_for_it(example: Path, tmp_path: Path) -> None:
-    found = derive(load(example))
-    result = posted(found, "linuxcnc")
-    unit = found.program.unit
+def test_linuxcnc_runs_its_posted_program_as_cutcomp_does(example: Path, tmp_path: Path) -> None:
+    part = derive(load(example))
+    result = posted(part, "linuxcnc")
+    unit = part.program.unit
     scale = 1.0 if unit is Unit.IN else 25.4
-    tools = {tool.number: tool.diameter.value / scale for tool in found.program.tools}
+    tools = {tool.number: tool.diameter.value / scale for tool in part.program.tools}
     witness = rs274.run(result.text, tools, tmp_path)
     assert witness.accepted, witness.said
-    ours = run(result.text.encode(), "linuxcnc", table(found.program, result.text), unit)
+    ours = run(result.text.encode(), "linuxcnc", table(part.program, result.text), unit)
     assert isinstance(ours, ControlRun)
     wanted = [[from_mm(value, unit) for value in point] for point in ours.moves.points[1:].tolist()]
     made = [list(move[1:4]) for move in witness.moves]
@@ -347,7 +347,7 @@ def test_linuxcnc_itself_runs_what_is_written_for_it(example: Path, tmp_path: Pa
 
 
 def _distinct(points: list[list[float]]) -> np.ndarray:
-    """Points without those that are the one before them, and without the first, which nobody knows."""
+    """The points without repetitions and without the first two, which are unknown."""
     kept = [points[0]]
     for point in points[1:]:
         if max(abs(a - b) for a, b in zip(point, kept[-1], strict=True)) > 2e-4:
@@ -356,27 +356,27 @@ def _distinct(points: list[list[float]]) -> np.ndarray:
 
 
 @pytest.mark.parametrize("control", names())
-def test_the_part_name_stands_at_the_head_of_every_controls_program(control: str) -> None:
-    """Read back with it, and the same blocks as without; where the text holds no comments, that is said."""
+def test_every_program_starts_with_the_part_name(control: str) -> None:
+    """The other blocks stay the same; a control whose text holds no comments gets a note."""
     plain = program(SQUARE, SQUARE, parameters=BLENDS)
     named = derive(replace(plain, setup=replace(plain.setup, name="Teil ö) ; M30 (7")))
-    found, nameless = posted(named, control), posted(derive(plain), control)
-    lines, others = found.text.splitlines(), nameless.text.splitlines()
-    told = [note.code for note in found.notes if note.code == "PART_NAME"]
+    with_name, without_name = posted(named, control), posted(derive(plain), control)
+    lines, lines_without_name = with_name.text.splitlines(), without_name.text.splitlines()
+    codes = [note.code for note in with_name.notes if note.code == "PART_NAME"]
     if control == "threeblock":
-        assert (lines, told) == (others, ["PART_NAME"])
+        assert (lines, codes) == (lines_without_name, ["PART_NAME"])
         return
     at = 3 if control.startswith(("fanuc", "haas")) else 2 if control == "klartext" else 1
-    said = "PART Teil ?] , M30 [7"
-    assert lines[at] == (f"{at} ; {said}" if control == "klartext" else f"({said})")
-    assert told == []
+    comment = "PART Teil ?] , M30 [7"
+    assert lines[at] == (f"{at} ; {comment}" if control == "klartext" else f"({comment})")
+    assert codes == []
     bare = [line.partition(" ")[2] if control == "klartext" else line for line in lines]
     assert [*bare[:at], *bare[at + 1 :]] == [
-        line.partition(" ")[2] if control == "klartext" else line for line in others
+        line.partition(" ")[2] if control == "klartext" else line for line in lines_without_name
     ]
 
 
-def test_a_name_that_no_control_takes_is_changed() -> None:
+def test_a_name_that_no_control_accepts_is_changed() -> None:
     result = post_control_program(derive(program(SQUARE, parameters=BLENDS)), name="Teil 7 ;) ö", control="klartext")
     assert isinstance(result, Posted)
     assert result.text.startswith("0 BEGIN PGM Teil-7----- INCH\n")

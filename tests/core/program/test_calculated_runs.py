@@ -1,4 +1,4 @@
-"""Runs of segments calculated together: the golden cases, and what is said where there is no answer."""
+"""Runs of segments calculated together: the golden cases, and the messages where there is no answer."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def case_of(*segments: dict[str, Any], start: tuple[float, float] = (0.0, 0.0)) 
     return {"start": list(start), "segments": list(segments)}
 
 
-def said(case: dict[str, Any]) -> list[str]:
+def texts_of(case: dict[str, Any]) -> list[str]:
     return [sentence(finding, Unit.MM) for segment in solved(case).segments for finding in segment.findings]
 
 
@@ -64,7 +64,7 @@ def said(case: dict[str, Any]) -> list[str]:
 
 
 @pytest.mark.parametrize("case", SOLVED, ids=name)
-def test_every_golden_answer_comes_in_its_order(case: dict[str, Any]) -> None:
+def test_golden_answers_come_in_their_order(case: dict[str, Any]) -> None:
     answers = [[{}]] if not (runs := document(case)["runs"]) else [run["solutions"] for run in runs]
     count = 1
     for solutions in answers:
@@ -72,16 +72,16 @@ def test_every_golden_answer_comes_in_its_order(case: dict[str, Any]) -> None:
     assert count == len(case["solutions"])
     for index, expected in enumerate(case["solutions"]):
         choices = {run["first"]: run["solutions"][index]["choice"] for run in runs if len(run["solutions"]) > 1}
-        found = document(case, choices)
-        assert [run["solution"] for run in found["runs"]] == [0 if len(r["solutions"]) == 1 else index for r in runs]
-        for segment, wanted in zip(found["segments"], expected["segments"], strict=True):
+        result = document(case, choices)
+        assert [run["solution"] for run in result["runs"]] == [0 if len(r["solutions"]) == 1 else index for r in runs]
+        for segment, wanted in zip(result["segments"], expected["segments"], strict=True):
             for field in wanted.keys() - {"kind"}:
                 assert segment[field]["value"] == pytest.approx(wanted[field], abs=1.5e-6), (segment["segment"], field)
 
 
 @pytest.mark.parametrize("degrees", [40, 110, 200, 290])
-def test_a_picked_answer_turns_with_the_drawing(degrees: int) -> None:
-    """No answer is counted by where it lies on the sheet: the number that picks it stays when everything is turned."""
+def test_answer_numbers_stay_when_the_drawing_is_rotated(degrees: int) -> None:
+    """The number of an answer does not depend on its place on the sheet, so a rotation keeps it."""
     case = next(case for case in SOLVED if case["name"].startswith("c24"))
     picked = {round(answer["total"], 6): answer["choice"] for answer in document(case)["runs"][0]["solutions"]}
     turned = document(_turned(case, radians(degrees)))["runs"][0]["solutions"]
@@ -108,7 +108,7 @@ def test_a_golden_case_without_answer_says_why(case: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("case", SOLVED, ids=name)
-def test_what_was_typed_has_no_tag_and_what_was_calculated_has_cal(case: dict[str, Any]) -> None:
+def test_typed_fields_have_no_tag_and_calculated_fields_have_cal(case: dict[str, Any]) -> None:
     block = document(case)
     if any(run["solution"] is None for run in block["runs"]):
         block = document(case, {run["first"]: run["solutions"][0]["choice"] for run in block["runs"]})
@@ -119,7 +119,7 @@ def test_what_was_typed_has_no_tag_and_what_was_calculated_has_cal(case: dict[st
                 assert segment[field]["tag"] == tag, (segment["segment"], field)
 
 
-# what is said
+# messages
 
 
 BAD = [
@@ -177,20 +177,20 @@ BAD = [
 
 
 @pytest.mark.parametrize(("code", "text", "case"), BAD, ids=[f"{code}-{at}" for at, (code, _, _) in enumerate(BAD)])
-def test_a_run_without_answer_says_why_and_with_which_numbers(code: str, text: str, case: dict[str, Any]) -> None:
+def test_a_run_without_answer_says_why_with_numbers(code: str, text: str, case: dict[str, Any]) -> None:
     assert code in codes(solved(case))
-    assert any(text in each for each in said(case)), said(case)
+    assert any(text in each for each in texts_of(case)), texts_of(case)
 
 
 @pytest.mark.parametrize("blank", ["length", "angle"])
-def test_blanking_either_of_two_numbers_that_contradict_mends_it(blank: str) -> None:
+def test_blanking_either_of_two_contradictory_numbers_resolves_the_contradiction(blank: str) -> None:
     last = line(x_end=100, y_end=0, angle=300, length=49)
     del last[blank]
     assert "CONTRADICTION" not in codes(solved(case_of(line(angle=30), last)))
 
 
-def test_a_contradiction_names_what_the_rest_gives() -> None:
-    """A LENGTH or an XY ANGLE of a golden case's line, a little wrong: the sentence names what blanking it gives."""
+def test_a_contradiction_names_the_value_that_the_other_numbers_give() -> None:
+    """The message for a slightly wrong LENGTH or XY ANGLE of a golden case names the value that blanking it gives."""
     tested = 0
     for case in SOLVED:
         runs = document(case)["runs"]
@@ -206,9 +206,9 @@ def test_a_contradiction_names_what_the_rest_gives() -> None:
                 others = case["segments"]
                 changed = {**case, "segments": [*others[:index], surplus, *others[index + 1 :]]}
                 label = {"angle": "XY ANGLE", "length": "XY LENGTH"}[field]
-                # another number of the case may be the one that is named
+                # the message may name another number of the case
                 begin = f"{label} is {surplus[field]:.3f}, "
-                texts = [text for text in said(changed) if text.startswith(begin)]
+                texts = [text for text in texts_of(changed) if text.startswith(begin)]
                 tested += len(texts)
                 assert all(f"but {solution[field]:.3f} by " in text for text in texts), (case, field, texts)
     assert tested > 10
@@ -217,8 +217,8 @@ def test_a_contradiction_names_what_the_rest_gives() -> None:
 # corners, choices, relations
 
 
-def test_each_piece_starts_where_the_one_before_ends() -> None:
-    """Also where a short arc's end is moved onto its circle."""
+def test_each_piece_starts_at_the_end_of_the_piece_before() -> None:
+    """This includes a short arc whose end is moved onto its circle."""
     tiny = ccw(start_angle=89.9999999, y_end=0.005)
     last = line(tangent=True, angle=90, x_end=0.00254, y_end=50)
     first, second = solved(case_of(tiny, last, start=(0.001, 0))).segments
@@ -227,7 +227,7 @@ def test_each_piece_starts_where_the_one_before_ends() -> None:
     assert dist(first.piece.end, second.piece.start) <= 1e-7
 
 
-def test_a_blend_in_a_run_is_put_in_at_the_sharp_corner() -> None:
+def test_a_blend_in_a_run_is_inserted_at_the_sharp_corner() -> None:
     block = solved(case_of(line(angle=30), {"kind": "BLEND ARC", "radius": 5}, line(x_end=100, y_end=0, angle=300)))
     arc = block.segments[1].piece
     assert isinstance(arc, Arc)
@@ -239,25 +239,25 @@ def test_a_blend_in_a_run_is_put_in_at_the_sharp_corner() -> None:
 
 
 @pytest.mark.parametrize("corner", [{"kind": "BLEND ARC", "radius": 5}, {"kind": "CHAMFER", "length": 5}])
-def test_tangent_is_not_offered_where_it_would_follow_a_corner(corner: dict[str, Any]) -> None:
+def test_tangent_is_not_offered_after_a_corner_segment(corner: dict[str, Any]) -> None:
     last = line(x_end=100, y_end=0)
-    assert any("TANGENT YES on 2" in text for text in said(case_of(line(angle=30), ccw(), last)))
-    after_corner = said(case_of(line(angle=30), corner, ccw(), last))
+    assert any("TANGENT YES on 2" in text for text in texts_of(case_of(line(angle=30), ccw(), last)))
+    after_corner = texts_of(case_of(line(angle=30), corner, ccw(), last))
     assert any("more value" in text for text in after_corner)
     assert not any("TANGENT YES on 3" in text for text in after_corner)
-    first_of_run = said(case_of(line(x_end=50, y_end=0), corner, ccw(), last))
+    first_of_run = texts_of(case_of(line(x_end=50, y_end=0), corner, ccw(), last))
     assert any("more value" in text for text in first_of_run)
     assert not any("TANGENT YES on 3" in text for text in first_of_run)
 
 
 def test_parallel_to_that_contradicts_calculated_ends_does_not_ask_to_blank_an_angle() -> None:
-    texts = said(case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20)))
+    texts = texts_of(case_of(line(x_end=50, y_end=0), line(parallel=1, x_end=80, y_end=20)))
     assert "XY ANGLE comes to 33.690, but 0.000 by PARALLEL TO: correct the end, or blank PARALLEL TO." in texts
-    texts = said(case_of(line(x_end=50, y_end=0), line(parallel=1, angle=30, x_end=80)))
+    texts = texts_of(case_of(line(x_end=50, y_end=0), line(parallel=1, angle=30, x_end=80)))
     assert "XY ANGLE is 30.000, but 0.000 by PARALLEL TO: correct or blank one of them." in texts
 
 
-def test_a_chamfer_in_a_run_is_put_in_at_the_sharp_corner() -> None:
+def test_a_chamfer_in_a_run_is_inserted_at_the_sharp_corner() -> None:
     block = solved(case_of(line(angle=30), {"kind": "CHAMFER", "length": 5}, line(x_end=100, y_end=0, angle=300)))
     cut = block.segments[1].piece
     assert cut is not None
@@ -265,7 +265,7 @@ def test_a_chamfer_in_a_run_is_put_in_at_the_sharp_corner() -> None:
     assert dist(cut.end, (75.0, 43.301270)) == pytest.approx(5.0)
 
 
-def test_the_next_segment_decides_where_it_is_tangent() -> None:
+def test_a_tangent_next_segment_selects_the_solution() -> None:
     case = case_of(line(angle=30), line(length=40, x_end=70, y_end=10), line(tangent=True, length=10))
     assert [len(run.answers) for run in solved(case).runs] == [2]
     end = solved(case, {1: 0}).segments[1].end
@@ -277,7 +277,7 @@ def test_the_next_segment_decides_where_it_is_tangent() -> None:
     assert block.whole
 
 
-def test_an_arc_with_two_centers_is_decided_by_a_tangent_line_after_it() -> None:
+def test_a_tangent_line_after_an_arc_selects_one_of_two_centers() -> None:
     case = case_of(ccw(x_end=20, y_end=0, radius=10.0001), line(tangent=True, x_end=20, y_end=30))
     assert codes(solved(case)) == ["CONTRADICTION"] or solved(case).whole
     exact = case_of(ccw(x_end=10, y_end=10, radius=10), line(tangent=True, x_end=10, y_end=30))
@@ -287,15 +287,15 @@ def test_an_arc_with_two_centers_is_decided_by_a_tangent_line_after_it() -> None
     assert getattr(block.segments[0].piece, "center", None) == pytest.approx((0.0, 10.0))
 
 
-def test_fields_show_the_solution_of_the_run_and_not_that_of_the_segment_by_itself() -> None:
+def test_fields_show_the_solution_of_the_run_and_not_of_the_segment_alone() -> None:
     case, truth = random_case(101723)
     chains, _ = every_chain(case)
     assert any(apart(chain, truth) < 1e-6 for chain in chains)
     for choice in (0, 2):
         for segment in solved(case, {1: choice}).segments:
-            held = segment.values["y_end"]
+            value = segment.values["y_end"]
             assert segment.end is not None
-            assert getattr(held, "value", None) == pytest.approx(segment.end[1], abs=1e-9)
+            assert getattr(value, "value", None) == pytest.approx(segment.end[1], abs=1e-9)
 
 
 def test_relative_numbers_count_from_the_start_and_from_the_heading_before() -> None:
@@ -316,7 +316,7 @@ def test_relative_numbers_count_from_the_start_and_from_the_heading_before() -> 
     assert a * d - b * c > 0.0
 
 
-def test_a_line_that_keeps_a_coordinate_keeps_it_inside_a_run() -> None:
+def test_a_line_keeps_its_coordinate_inside_a_run() -> None:
     block = solved(case_of(line(angle=30), line(x_end=50), line(x_end=60, y_end=10, angle=300)))
     second = block.segments[1].piece
     assert second is not None
@@ -324,13 +324,13 @@ def test_a_line_that_keeps_a_coordinate_keeps_it_inside_a_run() -> None:
     assert str(getattr(block.segments[1].values["y_end"], "origin", "")) == "SAME"
 
 
-def test_a_line_offset_from_its_parallel_may_be_on_either_side() -> None:
+def test_a_parallel_line_with_an_offset_may_lie_on_either_side() -> None:
     case = case_of(line(x_end=60, y_end=0), line(length=65), line(parallel=1, offset=25, x_end=10))
     heights = [plain(answer)[-1]["y_end"] for answer in solved(case).runs[0].answers]
     assert heights == pytest.approx([25.0, -25.0, 25.0, -25.0])
 
 
-def test_parallel_and_point_at_distance_have_all_their_answers() -> None:
+def test_a_line_at_a_distance_from_a_point_has_both_answers() -> None:
     case = case_of(line(point_x=50, point_y=20, point_dist=10, x_end=-90))
     for answer in solved(case).runs[0].answers:
         assert walk(case, plain(answer)) < 1e-7
@@ -338,24 +338,24 @@ def test_parallel_and_point_at_distance_have_all_their_answers() -> None:
 
 
 @pytest.mark.parametrize(("make", "side"), [(ccw, 1.0), (cw, -1.0)])
-def test_a_relative_center_gives_radius_and_heading_where_the_start_is_not_known(make: Any, side: float) -> None:
+def test_a_relative_center_gives_radius_and_heading_when_the_start_is_unknown(make: Any, side: float) -> None:
     arc = make(x_center_inc=0, y_center_inc=10 * side, x_end=60, y_end=10 * side)
-    # the other one turns through 270 degrees to the same end
+    # the other answer turns through 270 degrees to the same end
     answer, _ = solved(case_of(line(angle=0), arc)).runs[0].answers
     first, second = plain(answer)
     assert (first["x_end"], first["y_end"]) == pytest.approx((50.0, 0.0))
     assert (second["x_center"], second["y_center"]) == pytest.approx((50.0, 10.0 * side))
 
 
-def test_tangent_is_not_offered_between_two_headings_that_are_typed() -> None:
+def test_tangent_is_offered_only_where_a_heading_is_open() -> None:
     sides = line(x_end=100, y_end=0), line(x_end=100, y_end=60), line(angle=180), line(angle=240)
-    told = said(case_of(*sides, cw(x_center=40, y_center=30, radius=6), line(angle=60)))
-    assert any("or TANGENT YES on 5." in text for text in told), told
+    texts = texts_of(case_of(*sides, cw(x_center=40, y_center=30, radius=6), line(angle=60)))
+    assert any("or TANGENT YES on 5." in text for text in texts), texts
 
 
-def test_a_radius_that_follows_from_start_and_center_is_not_asked_for() -> None:
-    told = said(case_of(ccw(x_center=0, y_center=20), cw(radius=30, tangent=True)))
-    assert any("2 more values: SWEEP ANGLE of 1, or an end" in text for text in told), told
+def test_a_radius_that_follows_from_start_and_center_is_not_requested() -> None:
+    texts = texts_of(case_of(ccw(x_center=0, y_center=20), cw(radius=30, tangent=True)))
+    assert any("2 more values: SWEEP ANGLE of 1, or an end" in text for text in texts), texts
 
 
 def test_a_full_circle_may_be_tangent() -> None:
@@ -365,7 +365,7 @@ def test_a_full_circle_may_be_tangent() -> None:
     assert block.segments[1].piece.length == pytest.approx(radians(360) * 10)
 
 
-def test_a_picked_answer_that_vanishes_is_asked_about_again() -> None:
+def test_a_picked_answer_that_vanishes_must_be_picked_again() -> None:
     case = case_of(line(angle=30), line(length=40, x_end=70, y_end=10))
     assert solved(case, {1: 1}).runs[0].taken == 1
     case["segments"][1]["x_end"] = 10.0
@@ -377,32 +377,32 @@ def test_a_picked_answer_that_vanishes_is_asked_about_again() -> None:
 
 
 def test_the_picked_answer_never_jumps_under_small_edits() -> None:
-    pick = random.Random(7)
-    moved = 0
+    rng = random.Random(7)
+    steps = 0
     for case in (each for each in SOLVED if len(each["solutions"]) > 1):
         for answer in solved(case).runs[0].answers:
             choices = {solved(case).runs[0].first: answer.choice or 0}
             before = solved(case, choices)
             for _ in range(12):
-                step = pick.uniform(-0.01, 0.01)
+                step = rng.uniform(-0.01, 0.01)
                 case = {**case, "start": [case["start"][0] + step, case["start"][1] + step / 2.0]}
                 after = solved(case, choices)
                 if after.runs[-1].taken is None:
                     assert "PICK_SOLUTION" in codes(after) or not after.runs[-1].answers
                     break
-                for one, other in zip(before.segments, after.segments, strict=True):
-                    assert one.end is not None
-                    assert other.end is not None
-                    assert dist(one.end, other.end) <= 100.0 * abs(step) + 1e-9
-                moved += 1
+                for old, new in zip(before.segments, after.segments, strict=True):
+                    assert old.end is not None
+                    assert new.end is not None
+                    assert dist(old.end, new.end) <= 100.0 * abs(step) + 1e-9
+                steps += 1
                 before = after
-    assert moved > 200
+    assert steps > 200
 
 
-# what a screen and a drawing take from it
+# what screens and drawings use
 
 
-def test_solution_steps_through_the_answers_the_shortest_first() -> None:
+def test_the_solution_field_lists_the_shortest_answer_first() -> None:
     case = next(each for each in SOLVED if name(each).startswith("c24"))
     program = program_of(case)
     asked = solution_at(solve_block(program.blocks[0], program), 2)
@@ -419,7 +419,7 @@ def test_solution_steps_through_the_answers_the_shortest_first() -> None:
     assert first.end == pytest.approx((18.413365, 12.193081), abs=1e-6)
 
 
-def test_typing_another_field_of_a_run_drops_the_picked_solution_and_another_number_keeps_it() -> None:
+def test_the_picked_solution_survives_a_new_number_but_no_new_field() -> None:
     case = case_of(line(angle=30), line(x_end=70, y_end=10, length=40))
     program = program_of(case, {1: 1})
     again = type_field(program, FormPlace(1, 2), "length", Number(41.0))
@@ -430,7 +430,7 @@ def test_typing_another_field_of_a_run_drops_the_picked_solution_and_another_num
     assert other.blocks[0].segments[0].choice is None
 
 
-def test_parallel_to_follows_its_segment_when_others_are_put_in_or_taken_out() -> None:
+def test_parallel_to_follows_its_segment_when_segments_are_inserted_or_deleted() -> None:
     program = program_of(case_of(line(x_end=60, y_end=0), line(angle=70), line(parallel=1, offset=25, x_end=10)))
     longer = insert_segment(program, FormPlace(1, 1), LineSegment(Number(5.0), Number(-5.0)))
     assert isinstance(longer, Program)
@@ -440,7 +440,7 @@ def test_parallel_to_follows_its_segment_when_others_are_put_in_or_taken_out() -
     assert shorter.blocks[0].segments[1].parallel == Unread("1", "Segment 1 was deleted.")
 
 
-def test_a_run_that_lacks_data_is_sketched_as_far_as_it_is_known() -> None:
+def test_an_incomplete_run_is_sketched_as_far_as_it_is_known() -> None:
     block = solved(case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40)))
     (run,) = block.runs
     assert (run.first, run.last, run.missing, run.taken) == (1, 3, 1, None)
@@ -459,7 +459,7 @@ def test_a_run_that_lacks_data_is_sketched_as_far_as_it_is_known() -> None:
 PICKED = case_of(line(length=40), ccw(tangent=True, x_end=60, y_end=20, sweep=90))
 
 
-def test_a_pick_takes_the_nearest_answer_of_a_run_the_steps_do_not_solve() -> None:
+def test_a_pick_takes_the_nearest_answer_of_a_run_that_the_steps_cannot_solve() -> None:
     first = solved(case_of(line(length=40, pick_x=30, pick_y=-10), *PICKED["segments"][1:])).runs[0]
     assert first.taken is not None
     for answer in first.answers:
@@ -477,7 +477,7 @@ def test_a_pick_far_from_every_answer_takes_none() -> None:
     assert set(codes(block)) & {"PICK_SOLUTION", "NOT_YET"}
 
 
-def test_a_pick_takes_no_answer_that_only_comes_near_to_data_of_which_none_is_surplus() -> None:
+def test_a_pick_takes_no_answer_that_only_approximates_the_data() -> None:
     case = case_of(
         ccw(x_center=-51.99792541693032, sweep=134.28928966594114),
         cw(y_center=-13.852276233289533, x_end=5.536180196084601),
@@ -501,7 +501,7 @@ def test_a_pick_takes_no_answer_that_only_comes_near_to_data_of_which_none_is_su
 
 
 @pytest.mark.parametrize("points", [False, True])
-def test_a_sample_of_random_runs_is_solved_and_proved(points: bool) -> None:
+def test_random_runs_are_solved_and_every_answer_meets_the_data(points: bool) -> None:
     count = right = 0
     for seed in range(9000, 9120):
         case, truth = random_case(seed, points=points)
@@ -522,7 +522,7 @@ def test_a_sample_of_random_runs_is_solved_and_proved(points: bool) -> None:
 
 
 @pytest.mark.parametrize("seed", [9001, 9013, 9030, 9046, 9063, 9078])
-def test_brute_force_has_the_same_answers(seed: int) -> None:
+def test_brute_force_finds_the_same_answers(seed: int) -> None:
     while True:
         case, truth = random_case(seed, 2, 3)
         if (
@@ -532,15 +532,15 @@ def test_brute_force_has_the_same_answers(seed: int) -> None:
         ):
             break
         seed += 1000
-    others = BruteForce(case).answers(600)
-    assert all(any(apart(chain, other) < 1e-3 for other in others) for chain in chains), seed
-    assert all(any(apart(chain, other) < 1e-3 for chain in chains) for other in others), seed
+    expected = BruteForce(case).answers(600)
+    assert all(any(apart(chain, other) < 1e-3 for other in expected) for chain in chains), seed
+    assert all(any(apart(chain, other) < 1e-3 for chain in chains) for other in expected), seed
 
 
 # the file
 
 
-def test_the_new_keys_come_back_from_a_file_and_make_it_format_2() -> None:
+def test_the_new_keys_survive_a_file_and_make_it_format_2() -> None:
     for case, choice in product(GOLDEN, (None, 3)):
         program = program_of(case, None if choice is None else {1: choice})
         assert loads(dumps(program), "again") == program
@@ -557,7 +557,7 @@ def test_the_new_keys_come_back_from_a_file_and_make_it_format_2() -> None:
         (line(length_inc=3), "length_inc is not a key of"),
     ],
 )
-def test_keys_that_cannot_be_are_refused_by_name(segment: dict[str, Any], text: str) -> None:
+def test_invalid_keys_are_refused_by_name(segment: dict[str, Any], text: str) -> None:
     with pytest.raises(StoreError) as refused:
         loads(text_of(case_of(segment)), "x.toml")
     assert text in refused.value.text
@@ -579,8 +579,8 @@ def in_inches(segment: dict[str, Any]) -> dict[str, Any]:
     return {key: value / 25.4 if key in lengths else value for key, value in segment.items()}
 
 
-def test_random_runs_with_relative_numbers_have_their_original_among_answers_that_meet_every_number() -> None:
-    met = ties = 0
+def test_random_runs_with_relative_numbers_have_the_original_among_their_answers() -> None:
+    solved_runs = relative_runs = 0
     for seed in range(300000, 300120):
         case, truth = random_case(seed, 2, 4, relative=True)
         if keeps_coordinate(case):
@@ -590,18 +590,18 @@ def test_random_runs_with_relative_numbers_have_their_original_among_answers_tha
             assert walk(case, chain) < 1e-6, seed
         if chains and not waits:
             assert min(apart(chain, truth) for chain in chains) < 1e-5, seed
-            met += 1
-            ties += any(name.endswith("_inc") for segment in case["segments"] for name in segment)
-    assert met > 20
-    assert ties > 15
+            solved_runs += 1
+            relative_runs += any(name.endswith("_inc") for segment in case["segments"] for name in segment)
+    assert solved_runs > 20
+    assert relative_runs > 15
 
 
-def test_an_end_coordinate_that_the_angle_holds_anyway_is_no_second_value() -> None:
-    """From (100, 60) along 180 degrees Y stays 60, typed or not: what is missing is the same."""
+def test_an_end_coordinate_that_the_angle_implies_adds_no_value() -> None:
+    """From (100, 60) along 180 degrees Y stays 60, typed or not, so the missing data are the same."""
     rest = (cw(radius=6, tangent=True), ccw(radius=15, x_center=50, y_center=60, tangent=True))
-    told = []
+    texts = []
     for first in (line(angle=180), line(y_end=60, angle=180)):
         case = case_of(first, *rest, cw(radius=6, tangent=True), line(x_end=0, y_end=60), start=(100.0, 60.0))
-        told.append(said(case))
-    assert told[0] == told[1]
-    assert "2 more values" in told[0][0]
+        texts.append(texts_of(case))
+    assert texts[0] == texts[1]
+    assert "2 more values" in texts[0][0]

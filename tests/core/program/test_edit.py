@@ -35,24 +35,24 @@ from tests.core.program.parts import BLOCK, arc, blend, line, program, programs
 SQUARE = program(line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0), line(x_end=0.0, y_end=0.0))
 
 
-def made(edited: edit.Edited) -> Program:
-    """The program of an edit that is not refused."""
+def accepted(edited: edit.Edited) -> Program:
+    """The program of an accepted edit."""
     assert isinstance(edited, Program)
     return edited
 
 
-def test_typing_into_start_and_into_a_segment():
-    typed = made(edit.type_field(SQUARE, FormPlace(1), "x_start", Number(-1.0)))
+def test_type_field_changes_start_and_segments():
+    typed = accepted(edit.type_field(SQUARE, FormPlace(1), "x_start", Number(-1.0)))
     assert typed.blocks[0] == replace(SQUARE.blocks[0], x_start=Number(-1.0))
-    typed = made(edit.type_field(SQUARE, FormPlace(1, 2), "feed", Number(10.0)))
+    typed = accepted(edit.type_field(SQUARE, FormPlace(1, 2), "feed", Number(10.0)))
     assert typed.blocks[0].segments[1] == line(x_end=2.0, y_end=2.0, feed=10.0)
     assert typed.blocks[0].segments[::2] == SQUARE.blocks[0].segments[::2]
 
 
 def test_a_blank_and_unreadable_text_are_kept():
-    assert made(edit.type_field(SQUARE, FormPlace(1), "x_start", None)).blocks[0].x_start is None
+    assert accepted(edit.type_field(SQUARE, FormPlace(1), "x_start", None)).blocks[0].x_start is None
     unread = Unread("x", "why")
-    first = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread)).blocks[0].segments[0]
+    first = accepted(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread)).blocks[0].segments[0]
     assert first == LineSegment(x_end=unread, y_end=Number(0.0))
 
 
@@ -68,50 +68,52 @@ def test_a_blank_and_unreadable_text_are_kept():
         (FormPlace(0), "speed", 1.0, "Block 0 does not exist; the last is 1."),
     ],
 )
-def test_typing_is_refused(where, name, value, text):
+def test_type_field_refuses_wrong_values_and_places(where, name, value, text):
     assert edit.type_field(SQUARE, where, name, Number(value)) == Refused(text)
 
 
-def test_there_is_no_block_in_an_empty_program():
+def test_type_field_finds_no_block_in_an_empty_program():
     assert edit.type_field(Program(), FormPlace(1), "speed", None) == Refused(
         "Block 1 does not exist; no block is typed yet."
     )
 
 
-def test_lookahead_is_typed_and_calculated_again():
-    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
+def test_a_typed_lookahead_stays_until_it_is_recalculated():
+    user = accepted(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
     assert user.blocks[0].lookahead == Number(4.0)
-    moved = made(edit.type_field(user, FormPlace(1, 1), "x_end", Number(3.0)))
+    moved = accepted(edit.type_field(user, FormPlace(1, 1), "x_end", Number(3.0)))
     assert moved.blocks[0].lookahead == Number(4.0)
-    hidden = made(edit.choose(user, FormPlace(1), "cutter_comp", "ON"))
+    hidden = accepted(edit.choose(user, FormPlace(1), "cutter_comp", "ON"))
     assert hidden.blocks[0].lookahead == Number(4.0)
-    assert made(edit.recalculate_lookahead(user, 1)) == SQUARE
+    assert accepted(edit.recalculate_lookahead(user, 1)) == SQUARE
     assert edit.recalculate_lookahead(user, 2) == Refused("Block 2 does not exist; the last is 1.")
 
 
 @pytest.mark.parametrize("typed", [Number(0.0), Number(21.0), Number(2.5), Unread("x", "why"), None])
-def test_another_lookahead_is_refused_with_the_range(typed):
-    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
+def test_a_wrong_lookahead_is_refused_with_the_range(typed):
+    user = accepted(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
     refused = edit.type_field(user, FormPlace(1), "lookahead", typed)
     assert isinstance(refused, Refused)
     assert refused.text.startswith("CUTCOMP LOOKAHEAD must be a whole number from 1 to 20.")
 
 
-def test_leaving_a_calculated_lookahead_blank_changes_nothing():
+def test_a_blank_keeps_the_lookahead_calculated():
     assert edit.type_field(SQUARE, FormPlace(1), "lookahead", None) == SQUARE
 
 
-def test_choose():
-    right = made(edit.choose(SQUARE, FormPlace(1), "cutter_comp", "PROFILE RIGHT"))
+def test_choose_sets_choice_fields():
+    right = accepted(edit.choose(SQUARE, FormPlace(1), "cutter_comp", "PROFILE RIGHT"))
     assert right.blocks[0].cutter_comp is CutterComp.PROFILE_RIGHT
     curved = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0))
-    turned = made(edit.choose(curved, FormPlace(1, 1), "direction", "CCW")).blocks[0].segments[0]
+    turned = accepted(edit.choose(curved, FormPlace(1, 1), "direction", "CCW")).blocks[0].segments[0]
     assert isinstance(turned, ArcSegment)
     assert turned.direction is Direction.CCW
-    picked = made(edit.choose(curved, FormPlace(1, 1), "choice", 1)).blocks[0].segments[0]
+    picked = accepted(edit.choose(curved, FormPlace(1, 1), "choice", 1)).blocks[0].segments[0]
     assert picked == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1)
     assert (
-        made(edit.choose(made(edit.choose(curved, FormPlace(1, 1), "choice", 1)), FormPlace(1, 1), "choice", None))
+        accepted(
+            edit.choose(accepted(edit.choose(curved, FormPlace(1, 1), "choice", 1)), FormPlace(1, 1), "choice", None)
+        )
         == curved
     )
 
@@ -125,27 +127,27 @@ def test_choose():
         (FormPlace(1, 9), "choice", 0, "Segment 9 does not exist; the last is 3."),
     ],
 )
-def test_choosing_is_refused(where, name, value, text):
+def test_choose_refuses_wrong_values_and_places(where, name, value, text):
     assert edit.choose(SQUARE, where, name, value) == Refused(text)
 
 
-def test_a_picked_solution_is_dropped_when_other_fields_decide():
+def test_a_picked_solution_is_dropped_when_other_fields_are_filled():
     picked = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1))
-    kept = made(edit.type_field(picked, FormPlace(1, 1), "radius", Number(4.0))).blocks[0].segments[0]
+    kept = accepted(edit.type_field(picked, FormPlace(1, 1), "radius", Number(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=4.0, choice=1)
-    kept = made(edit.type_field(picked, FormPlace(1, 1), "feed", Number(4.0))).blocks[0].segments[0]
+    kept = accepted(edit.type_field(picked, FormPlace(1, 1), "feed", Number(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, feed=4.0, choice=1)
-    dropped = made(edit.type_field(picked, FormPlace(1, 1), "x_end", None)).blocks[0].segments[0]
+    dropped = accepted(edit.type_field(picked, FormPlace(1, 1), "x_end", None)).blocks[0].segments[0]
     assert dropped == arc("CW", y_end=1.0, radius=3.0)
 
 
-def test_insert_segment():
+def test_insert_segment_inserts_before_the_place():
     new = line(x_end=9.0, y_end=9.0)
     first, second, third = SQUARE.blocks[0].segments
-    assert made(edit.insert_segment(SQUARE, FormPlace(1, 1), new)).blocks[0].segments == (new, first, second, third)
-    assert made(edit.insert_segment(SQUARE, FormPlace(1, 3), new)).blocks[0].segments == (first, second, new, third)
-    assert made(edit.insert_segment(SQUARE, FormPlace(1, 4), new)).blocks[0].segments == (first, second, third, new)
-    assert made(edit.insert_segment(SQUARE, FormPlace(1, 4), blend(0.1))).blocks[0].segments[3] == blend(0.1)
+    assert accepted(edit.insert_segment(SQUARE, FormPlace(1, 1), new)).blocks[0].segments == (new, first, second, third)
+    assert accepted(edit.insert_segment(SQUARE, FormPlace(1, 3), new)).blocks[0].segments == (first, second, new, third)
+    assert accepted(edit.insert_segment(SQUARE, FormPlace(1, 4), new)).blocks[0].segments == (first, second, third, new)
+    assert accepted(edit.insert_segment(SQUARE, FormPlace(1, 4), blend(0.1))).blocks[0].segments[3] == blend(0.1)
 
 
 @pytest.mark.parametrize(
@@ -158,30 +160,30 @@ def test_insert_segment():
         (FormPlace(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it stands between two others."),
     ],
 )
-def test_inserting_is_refused(where, segment, text):
+def test_insert_segment_refuses_wrong_places(where, segment, text):
     assert edit.insert_segment(SQUARE, where, segment) == Refused(text)
 
 
 @pytest.mark.parametrize("at", [2, 3])
-def test_two_blends_never_meet(at):
+def test_two_blends_cannot_be_neighbors(at):
     blended = program(line(x_end=1.0, y_end=0.0), blend(0.1), line(x_end=1.0, y_end=1.0))
     refused = Refused("A BLEND ARC cannot be next to another BLEND ARC.")
     assert edit.insert_segment(blended, FormPlace(1, at), BlendSegment()) == refused
 
 
-def test_delete_segment():
+def test_delete_segment_deletes_all_but_start():
     first, _, third = SQUARE.blocks[0].segments
-    assert made(edit.delete_segment(SQUARE, FormPlace(1, 2))).blocks[0].segments == (first, third)
+    assert accepted(edit.delete_segment(SQUARE, FormPlace(1, 2))).blocks[0].segments == (first, third)
     assert edit.delete_segment(SQUARE, FormPlace(1, 0)) == Refused("START cannot be deleted.")
     assert edit.delete_segment(SQUARE, FormPlace(1, 4)) == Refused("Segment 4 does not exist; the last is 3.")
     alone = program(line(x_end=1.0, y_end=0.0))
-    assert made(edit.delete_segment(alone, FormPlace(1, 1))).blocks[0].segments == ()
+    assert accepted(edit.delete_segment(alone, FormPlace(1, 1))).blocks[0].segments == ()
     assert edit.delete_segment(program(), FormPlace(1, 1)) == Refused(
         "Segment 1 does not exist; no segment is typed yet."
     )
 
 
-def test_new_block():
+def test_a_new_block_has_few_values():
     block = edit.new_block(Program())
     assert block.tool == Number(1.0)
     assert block.cutter_comp is CutterComp.ON
@@ -190,24 +192,36 @@ def test_new_block():
     assert (block.plunge_feed, block.speed, block.coolant) == (None,) * 3
 
 
-def test_insert_block_takes_the_tool_of_the_block_before():
-    two = Program(blocks=(replace(BLOCK, tool=Number(7.0)), replace(BLOCK, tool=Number(8.0))))
-    assert [block.tool for block in made(edit.insert_block(two, 2)).blocks] == [Number(7.0), Number(7.0), Number(8.0)]
-    assert [block.tool for block in made(edit.insert_block(two, 1)).blocks] == [Number(1.0), Number(7.0), Number(8.0)]
-    assert [block.tool for block in made(edit.insert_block(two, 3)).blocks] == [Number(7.0), Number(8.0), Number(8.0)]
-    assert edit.insert_block(two, 4) == Refused("Block 4 does not exist; the last is 2.")
-    assert edit.insert_block(two, 0) == Refused("Block 0 does not exist; the last is 2.")
+def test_insert_block_copies_the_tool_of_the_block_before():
+    part = Program(blocks=(replace(BLOCK, tool=Number(7.0)), replace(BLOCK, tool=Number(8.0))))
+    assert [block.tool for block in accepted(edit.insert_block(part, 2)).blocks] == [
+        Number(7.0),
+        Number(7.0),
+        Number(8.0),
+    ]
+    assert [block.tool for block in accepted(edit.insert_block(part, 1)).blocks] == [
+        Number(1.0),
+        Number(7.0),
+        Number(8.0),
+    ]
+    assert [block.tool for block in accepted(edit.insert_block(part, 3)).blocks] == [
+        Number(7.0),
+        Number(8.0),
+        Number(8.0),
+    ]
+    assert edit.insert_block(part, 4) == Refused("Block 4 does not exist; the last is 2.")
+    assert edit.insert_block(part, 0) == Refused("Block 0 does not exist; the last is 2.")
 
 
-def test_copy_move_and_delete_blocks():
+def test_blocks_are_copied_moved_and_deleted():
     one, two, three = (replace(BLOCK, tool=Number(tool)) for tool in (1.0, 2.0, 3.0))
     given = Program(blocks=(one, two, three))
-    assert made(edit.copy_block(given, 1)).blocks == (one, one, two, three)
-    assert made(edit.copy_block(given, 3)).blocks == (one, two, three, three)
-    assert made(edit.move_block(given, 1, 3)).blocks == (two, three, one)
-    assert made(edit.move_block(given, 3, 1)).blocks == (three, one, two)
-    assert made(edit.move_block(given, 2, 2)) == given
-    assert made(edit.delete_block(given, 2)).blocks == (one, three)
+    assert accepted(edit.copy_block(given, 1)).blocks == (one, one, two, three)
+    assert accepted(edit.copy_block(given, 3)).blocks == (one, two, three, three)
+    assert accepted(edit.move_block(given, 1, 3)).blocks == (two, three, one)
+    assert accepted(edit.move_block(given, 3, 1)).blocks == (three, one, two)
+    assert accepted(edit.move_block(given, 2, 2)) == given
+    assert accepted(edit.delete_block(given, 2)).blocks == (one, three)
     absent = Refused("Block 4 does not exist; the last is 3.")
     assert edit.copy_block(given, 4) == edit.move_block(given, 4, 1) == edit.move_block(given, 1, 4) == absent
     assert edit.delete_block(given, 4) == absent
@@ -215,13 +229,13 @@ def test_copy_move_and_delete_blocks():
     assert edit.delete_block(Program(blocks=(one,)), 1) == last
 
 
-def test_the_tool_table():
+def test_tools_are_set_and_deleted_in_the_table():
     three, two = Tool(3, "BALL MILL", Number(0.25)), Tool(2, diameter=Number(1.0))
-    both = made(edit.set_tool(made(edit.set_tool(Program(), three)), two))
+    both = accepted(edit.set_tool(accepted(edit.set_tool(Program(), three)), two))
     assert both.tools == (two, three)
     larger = Tool(2, diameter=Number(2.0))
-    assert made(edit.set_tool(both, larger)).tools == (larger, three)
-    assert made(edit.delete_tool(both, 2)).tools == (three,)
+    assert accepted(edit.set_tool(both, larger)).tools == (larger, three)
+    assert accepted(edit.delete_tool(both, 2)).tools == (three,)
     assert edit.delete_tool(both, 9) == Refused("Tool 9 is not in the tool table.")
     wrong = Refused("TOOL DIAMETER must be above 0, at most 10000.")
     assert edit.set_tool(both, Tool(1, diameter=Number(0.0))) == wrong
@@ -229,13 +243,13 @@ def test_the_tool_table():
     assert edit.set_tool(both, Tool(0)) == Refused("TOOL must be a whole number from 1 to 9999.")
 
 
-def test_parameters_and_setup():
-    assert made(edit.set_parameter(SQUARE, "max_offset", Number(0.5))).parameters.max_offset == Number(0.5)
+def test_parameters_and_setup_are_set_or_refused():
+    assert accepted(edit.set_parameter(SQUARE, "max_offset", Number(0.5))).parameters.max_offset == Number(0.5)
     refused = Refused("POCKET OVERLAP must be from 0 to 99.")
     assert edit.set_parameter(SQUARE, "pocket_overlap", Number(100.0)) == refused
     assert edit.set_path_choice(SQUARE, PathChoice.BEST).parameters.path is PathChoice.BEST
-    assert made(edit.set_setup(SQUARE, "name", "COVER 7")).setup.name == "COVER 7"
-    assert made(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
+    assert accepted(edit.set_setup(SQUARE, "name", "COVER 7")).setup.name == "COVER 7"
+    assert accepted(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
     refused = Refused("WORK OFFSET must be a whole number from 54 to 59.")
     assert edit.set_setup(SQUARE, "work_offset", Number(60.0)) == refused
     refused = Refused("PART NAME: character 6 (U+00A0) cannot be displayed. Type the text again without it.")
@@ -243,7 +257,7 @@ def test_parameters_and_setup():
     assert isinstance(edit.set_setup(SQUARE, "name", "two\nlines"), Refused)
 
 
-def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
+def test_set_unit_converts_lengths_and_feeds_only():
     given = program(
         line(length=1.0, angle=30.0, feed=10.0), arc("CW", radius=0.5, sweep=90.0), blend(0.125), unit=Unit.IN, x=-1.0
     )
@@ -266,9 +280,9 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
     assert back == given
 
 
-def test_set_unit_keeps_what_could_not_be_read():
+def test_set_unit_keeps_unreadable_text():
     unread = Unread("1,5", unread_reason("1,5", field_of(Form.LINE, "x_end"), Unit.IN))
-    given = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread))
+    given = accepted(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread))
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Number(0.0))
 
 
@@ -279,8 +293,8 @@ def test_set_unit_loses_no_field(given_program):
     converted = edit.set_unit(given_program, other)
     assert edit.set_unit(given_program, given_program.unit) is given_program
     for before, after in zip(given_program.blocks, converted.blocks, strict=True):
-        for one, other_one in zip(before.segments, after.segments, strict=True):
-            assert type(one.feed) is type(other_one.feed)
+        for old, new in zip(before.segments, after.segments, strict=True):
+            assert type(old.feed) is type(new.feed)
         assert (before.speed, before.lookahead, before.tool) == (after.speed, after.lookahead, after.tool)
 
 
@@ -288,24 +302,24 @@ SEGMENTS: dict[Form, Segment] = {Form.LINE: LineSegment(), Form.ARC: ArcSegment(
 
 
 def expected(kind: Kind) -> Number:
-    """What 2 inches, or 2 of anything else, is in a metric program."""
+    """The value of 2 inches, or of 2 of another kind, in a metric program."""
     return Number(50.8) if kind in (Kind.LENGTH, Kind.FEED) else Number(2.0)
 
 
 def numbers(form: Form) -> list[tuple[str, Kind]]:
-    return [(one.name, one.kind) for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    return [(field.name, field.kind) for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.START))
-def test_start(name, kind):
+def test_set_unit_converts_start_fields(name, kind):
     part = set_unit(Program(Unit.IN, blocks=(changed(Block(), {name: Number(2.0)}),)), Unit.MM)
     assert getattr(part.blocks[0], name) == expected(kind)
-    others = [one.name for one in START if one.kind is not Kind.CHOICE and one.name != name]
+    others = [field.name for field in START if field.kind is not Kind.CHOICE and field.name != name]
     assert all(getattr(part.blocks[0], other) is None for other in others)
 
 
 @pytest.mark.parametrize("form", SEGMENTS)
-def test_segments(form):
+def test_set_unit_converts_segment_fields(form):
     for name, kind in numbers(form):
         segment = changed(SEGMENTS[form], {name: Number(2.0)})
         part = set_unit(Program(Unit.IN, blocks=(Block(segments=(segment,)),)), Unit.MM)
@@ -313,7 +327,7 @@ def test_segments(form):
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.PARAMETERS))
-def test_parameters(name, kind):
+def test_set_unit_converts_parameters(name, kind):
     part = set_unit(Program(Unit.IN, changed(ProgramParameters(), {name: Number(2.0)})), Unit.MM)
     usual = {
         "blend_offset": Number(3.175),
@@ -326,43 +340,43 @@ def test_parameters(name, kind):
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.SETUP))
-def test_setup(name, kind):
+def test_set_unit_converts_part_setup(name, kind):
     part = set_unit(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Number(2.0)})), Unit.MM)
     assert part.setup == changed(PartSetup("A"), {"safe_z": Number(25.4)} | {name: expected(kind)})
     assert len(numbers(Form.SETUP)) == len(SETUP) - 1
 
 
-def test_tools():
+def test_set_unit_converts_tool_diameters():
     part = set_unit(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Number(2.0)), Tool(3))), Unit.MM)
     assert part.tools == (Tool(2, "BALL MILL", Number(50.8)), Tool(3))
 
 
-def test_what_the_blanks_stood_for_is_blank_again_on_the_way_back():
+def test_blanks_are_blank_again_after_converting_there_and_back():
     part = Program(Unit.IN, changed(ProgramParameters(), {"blend_offset": Number(0.25)}))
-    there = set_unit(part, Unit.MM)
-    assert there.parameters.blend_overlap == Number(3.175)
-    assert there.setup.safe_z == Number(25.4)
-    assert set_unit(there, Unit.IN) == part
+    metric = set_unit(part, Unit.MM)
+    assert metric.parameters.blend_overlap == Number(3.175)
+    assert metric.setup.safe_z == Number(25.4)
+    assert set_unit(metric, Unit.IN) == part
     assert set_unit(set_unit(Program(Unit.MM), Unit.IN), Unit.MM) == Program(Unit.MM)
 
 
-def test_a_typed_zero_stays_typed():
+def test_set_unit_keeps_a_typed_zero():
     part = Program(Unit.IN, changed(ProgramParameters(), {"blend_offset": Number(0.0), "finish_xy": Number(0.0)}))
-    there = set_unit(part, Unit.MM).parameters
-    assert (there.blend_offset, there.finish_xy) == (Number(0.0), Number(0.0))
+    metric = set_unit(part, Unit.MM).parameters
+    assert (metric.blend_offset, metric.finish_xy) == (Number(0.0), Number(0.0))
     assert set_unit(set_unit(part, Unit.MM), Unit.IN) == part
 
 
-def test_the_same_unit_is_the_same_program():
+def test_set_unit_with_the_same_unit_returns_the_same_program():
     part = Program(Unit.MM)
     assert set_unit(part, Unit.MM) is part
 
 
-def test_what_is_against_a_text_is_said_in_the_new_unit() -> None:
+def test_set_unit_rewrites_the_reason_of_unreadable_text() -> None:
     feed = Unread("0", "FEED must be above 0, at most 10000, not 0.")
     plain = Program(blocks=(Block(segments=(LineSegment(feed=feed),)),))
-    there = set_unit(plain, Unit.MM)
-    (segment,) = there.blocks[0].segments
+    metric = set_unit(plain, Unit.MM)
+    (segment,) = metric.blocks[0].segments
     assert segment.feed == Unread("0", "FEED must be above 0, at most 254000, not 0.")
-    assert loads(dumps(there), "part") == there
-    assert set_unit(there, Unit.IN).blocks == plain.blocks
+    assert loads(dumps(metric), "part") == metric
+    assert set_unit(metric, Unit.IN).blocks == plain.blocks

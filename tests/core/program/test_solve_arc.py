@@ -1,4 +1,4 @@
-"""An ARC from what is typed of it; one whose end reads like its start is never silently another than was meant."""
+"""An ARC is solved from the typed fields; an end that reads like the start never silently gives the wrong arc."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def text(segment: SolvedSegment) -> str:
 
 
 QUARTER = Arc((5.0, 0.0), (0.0, 5.0), (0.0, 0.0), Turn.CCW)
-"""From X 5 a quarter turn about the origin."""
+"""A quarter turn about the origin from X 5."""
 
 
 @pytest.mark.parametrize(
@@ -55,42 +55,42 @@ QUARTER = Arc((5.0, 0.0), (0.0, 5.0), (0.0, 0.0), Turn.CCW)
         {"radius": 5.0, "sweep": 90.0, "y_end": 5.0, "choice": 1},
     ],
 )
-def test_solves(typed):
-    found = solved(arc("CCW", **typed), 5.0, 0.0)
-    assert found.findings == ()
-    assert isinstance(found.piece, Arc)
-    assert dist(found.piece.end, QUARTER.end) < 1e-9
-    assert dist(found.piece.center, QUARTER.center) < 1e-9
-    assert found.piece.turn is Turn.CCW
-    assert number(found, "radius") == pytest.approx(5.0)
-    assert number(found, "sweep") == pytest.approx(90.0)
+def test_enough_data_determine_the_arc(typed):
+    result = solved(arc("CCW", **typed), 5.0, 0.0)
+    assert result.findings == ()
+    assert isinstance(result.piece, Arc)
+    assert dist(result.piece.end, QUARTER.end) < 1e-9
+    assert dist(result.piece.center, QUARTER.center) < 1e-9
+    assert result.piece.turn is Turn.CCW
+    assert number(result, "radius") == pytest.approx(5.0)
+    assert number(result, "sweep") == pytest.approx(90.0)
 
 
-def test_what_was_typed_and_what_was_calculated():
-    found = solved(arc("CCW", x_end=0.0, y_end=5.0, x_center=0.0, y_center=0.0), 5.0, 0.0)
-    calculated = {name for name, tag in tags(found).items() if tag == "CAL"}
+def test_calculated_fields_are_tagged_cal():
+    result = solved(arc("CCW", x_end=0.0, y_end=5.0, x_center=0.0, y_center=0.0), 5.0, 0.0)
+    calculated = {name for name, tag in tags(result).items() if tag == "CAL"}
     assert calculated == {"z_end", "radius", "sweep", "start_angle", "feed"}
 
 
-def test_the_other_way_round_is_the_long_way():
-    found = solved(arc("CW", x_end=0.0, y_end=5.0, x_center=0.0, y_center=0.0), 5.0, 0.0)
-    assert number(found, "sweep") == pytest.approx(270.0)
+def test_the_opposite_direction_takes_the_long_way():
+    result = solved(arc("CW", x_end=0.0, y_end=5.0, x_center=0.0, y_center=0.0), 5.0, 0.0)
+    assert number(result, "sweep") == pytest.approx(270.0)
 
 
 @pytest.mark.parametrize("direction", ["CW", "CCW"])
 def test_end_and_radius_offer_the_shorter_arc_first(direction):
-    found = solved(arc(direction, x_end=0.0, y_end=5.0, radius=5.0), 5.0, 0.0)
-    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one on SOLUTION."
-    assert [abs(piece.sweep) for piece in found.choices if isinstance(piece, Arc)] == [
+    result = solved(arc(direction, x_end=0.0, y_end=5.0, radius=5.0), 5.0, 0.0)
+    assert text(result) == "PICK_SOLUTION choice: Two solutions fit: pick one on SOLUTION."
+    assert [abs(piece.sweep) for piece in result.choices if isinstance(piece, Arc)] == [
         pytest.approx(tau / 4),
         pytest.approx(tau * 3 / 4),
     ]
-    assert found.sketch == found.choices[0]
+    assert result.sketch == result.choices[0]
     long = solved(arc(direction, x_end=0.0, y_end=5.0, radius=5.0, choice=1), 5.0, 0.0)
-    assert long.piece == found.choices[1]
+    assert long.piece == result.choices[1]
 
 
-def test_a_typed_sweep_picks():
+def test_a_typed_sweep_selects_the_arc():
     short = solved(arc("CW", x_end=0.0, y_end=5.0, radius=5.0, sweep=90.0), 5.0, 0.0)
     long = solved(arc("CW", x_end=0.0, y_end=5.0, radius=5.0, sweep=270.0), 5.0, 0.0)
     assert isinstance(short.piece, Arc)
@@ -99,10 +99,10 @@ def test_a_typed_sweep_picks():
     assert dist(long.piece.center, (0.0, 0.0)) < 1e-9
 
 
-def test_a_half_circle_needs_no_picking():
-    found = solved(arc("CW", x_end=10.0, y_end=0.0, radius=5.0))
-    assert found.findings == ()
-    assert found.piece == Arc((0.0, 0.0), (10.0, 0.0), (5.0, 0.0), Turn.CW)
+def test_a_half_circle_needs_no_choice():
+    result = solved(arc("CW", x_end=10.0, y_end=0.0, radius=5.0))
+    assert result.findings == ()
+    assert result.piece == Arc((0.0, 0.0), (10.0, 0.0), (5.0, 0.0), Turn.CW)
 
 
 @pytest.mark.parametrize(
@@ -114,58 +114,58 @@ def test_a_half_circle_needs_no_picking():
         {"radius": 5.0, "x_center": 0.0, "sweep": 360.0},
     ],
 )
-def test_a_full_circle(typed):
-    found = solved(arc("CW", **typed), 5.0, 0.0)
-    assert found.findings == ()
-    assert isinstance(found.piece, Arc)
-    assert found.piece.end == found.piece.start == (5.0, 0.0)
-    assert found.piece.sweep == -tau
-    assert number(found, "sweep") == 360.0
+def test_data_of_a_full_circle_make_one(typed):
+    result = solved(arc("CW", **typed), 5.0, 0.0)
+    assert result.findings == ()
+    assert isinstance(result.piece, Arc)
+    assert result.piece.end == result.piece.start == (5.0, 0.0)
+    assert result.piece.sweep == -tau
+    assert number(result, "sweep") == 360.0
 
 
-def test_radii_that_differ_are_refused_with_both():
-    found = solved(arc("CCW", x_end=0.0, y_end=5.01, x_center=0.0, y_center=0.0), 5.0, 0.0)
+def test_different_radii_are_refused_with_both_values():
+    result = solved(arc("CCW", x_end=0.0, y_end=5.01, x_center=0.0, y_center=0.0), 5.0, 0.0)
     words = "The arc's radius is 5.000 at its start and 5.010 at its end: correct the end or the center."
-    assert text(found) == f"RADII_DIFFER x_center: {words}"
-    assert found.piece is None
-    assert found.end is None
+    assert text(result) == f"RADII_DIFFER x_center: {words}"
+    assert result.piece is None
+    assert result.end is None
 
 
-def test_radii_that_differ_at_the_limit_are_shown_with_the_digits_that_differ():
-    found = solved(arc("CCW", x_end=0.0, y_end=5.00264, x_center=0.0, y_center=0.0), 5.0, 0.0)
-    assert text(found).split(": ")[1] == "The arc's radius is 5.0000 at its start and 5.0026 at its end"
+def test_radii_that_differ_at_the_limit_are_shown_with_enough_digits():
+    result = solved(arc("CCW", x_end=0.0, y_end=5.00264, x_center=0.0, y_center=0.0), 5.0, 0.0)
+    assert text(result).split(": ")[1] == "The arc's radius is 5.0000 at its start and 5.0026 at its end"
 
 
-def test_radii_that_differ_by_rounding_give_an_exact_arc_and_are_told():
-    found = solved(arc("CCW", x_end=0.0, y_end=5.0025, x_center=0.0, y_center=0.0), 5.0, 0.0)
-    assert text(found) == "ARC_ADJUSTED None: Radius 5.0000 at start, 5.0025 at end: the arc is fitted to both."
-    assert found.findings[0].severity is Severity.INFO
-    assert isinstance(found.piece, Arc)
-    assert dist(found.piece.center, found.piece.start) == pytest.approx(dist(found.piece.center, found.piece.end))
-    assert number(found, "x_center") == 0.0
+def test_radii_that_differ_by_rounding_give_an_exact_arc_and_a_message():
+    result = solved(arc("CCW", x_end=0.0, y_end=5.0025, x_center=0.0, y_center=0.0), 5.0, 0.0)
+    assert text(result) == "ARC_ADJUSTED None: Radius 5.0000 at start, 5.0025 at end: the arc is fitted to both."
+    assert result.findings[0].severity is Severity.INFO
+    assert isinstance(result.piece, Arc)
+    assert dist(result.piece.center, result.piece.start) == pytest.approx(dist(result.piece.center, result.piece.end))
+    assert number(result, "x_center") == 0.0
 
 
-def test_a_radius_that_does_not_fit_the_end_by_rounding_is_told():
-    found = solved(arc("CCW", x_end=-5.0, y_end=0.0, radius=4.999), 5.0, 0.0)
-    assert text(found) == "ARC_ADJUSTED None: RADIUS 4.999 does not fit the other numbers: 5.000 is used."
-    assert isinstance(found.piece, Arc)
-    assert found.piece.radius == 5.0
+def test_a_radius_that_misses_the_end_by_rounding_is_reported():
+    result = solved(arc("CCW", x_end=-5.0, y_end=0.0, radius=4.999), 5.0, 0.0)
+    assert text(result) == "ARC_ADJUSTED None: RADIUS 4.999 does not fit the other numbers: 5.000 is used."
+    assert isinstance(result.piece, Arc)
+    assert result.piece.radius == 5.0
 
 
-def test_arcs_that_are_fitted_are_told_once_where_the_numbers_differ_most():
+def test_fitted_arcs_are_reported_once_at_the_largest_difference():
     ends = [(0.0, 5.0001), (-5.0, 0.02), (0.0, -5.0)]
     arcs = [arc("CCW", x_end=x, y_end=y, x_center=0.0, y_center=0.0) for x, y in ends]
     part = program(*arcs, x=5.0)
     findings = solve_block(part.blocks[0], part).every_finding
-    assert [(one.code, one.segment) for one in findings] == [("ARC_ADJUSTED", 1)]
+    assert [(finding.code, finding.segment) for finding in findings] == [("ARC_ADJUSTED", 1)]
     assert sentence(findings[0], Unit.MM) == (
         "Radius 5.0000 at start, 5.0001 at end: the arc is fitted to both. 2 more arcs differ by less."
     )
 
 
-def test_exact_arcs_are_fitted_to_nothing():
-    found = solved(arc("CCW", x_end=3.0, y_end=4.0, x_center=0.0, y_center=0.0, radius=5.0, sweep=53.130102), 5.0, 0.0)
-    assert found.findings == ()
+def test_exact_arcs_are_not_adjusted():
+    result = solved(arc("CCW", x_end=3.0, y_end=4.0, x_center=0.0, y_center=0.0, radius=5.0, sweep=53.130102), 5.0, 0.0)
+    assert result.findings == ()
 
 
 @pytest.mark.parametrize(
@@ -209,9 +209,9 @@ def test_exact_arcs_are_fitted_to_nothing():
     ],
 )
 def test_contradictions_name_both_sides(typed, words):
-    found = solved(arc("CCW", **typed), 5.0, 0.0)
-    assert found.piece is None
-    assert text(found) == f"CONTRADICTION {words}"
+    result = solved(arc("CCW", **typed), 5.0, 0.0)
+    assert result.piece is None
+    assert text(result) == f"CONTRADICTION {words}"
 
 
 @pytest.mark.parametrize(
@@ -237,11 +237,11 @@ def test_contradictions_name_both_sides(typed, words):
         ),
     ],
 )
-def test_says_what_is_missing(typed, missing, words):
-    found = solved(arc("CCW", **typed), 5.0, 0.0)
-    assert found.piece is None
-    assert found.missing == missing
-    assert text(found) == f"MISSING {missing[0]}: More data needed: {words}"
+def test_missing_data_are_named(typed, missing, words):
+    result = solved(arc("CCW", **typed), 5.0, 0.0)
+    assert result.piece is None
+    assert result.missing == missing
+    assert text(result) == f"MISSING {missing[0]}: More data needed: {words}"
 
 
 coordinates = st.floats(-50, 50).map(lambda value: round(value, 4))
@@ -269,39 +269,43 @@ def test_calculated_fields_give_the_arc_again(start, center, sweep, direction):
     assert isinstance(whole.piece, Arc)
     assert abs(whole.piece.sweep) == pytest.approx(radians(sweep))
     for names in GIVEN:
-        found = solved(arc(direction, **{name: number(whole, name) for name in names}), *start)
-        candidates = found.choices or (found.piece,)
-        assert found.findings == () or len(found.choices) == 2
+        result = solved(arc(direction, **{name: number(whole, name) for name in names}), *start)
+        candidates = result.choices or (result.piece,)
+        assert result.findings == () or len(result.choices) == 2
         assert any(
-            isinstance(one, Arc)
-            and dist(one.end, whole.piece.end) < 1e-4
-            and dist(one.center, whole.piece.center) < 1e-4
-            for one in candidates
+            isinstance(piece, Arc)
+            and dist(piece.end, whole.piece.end) < 1e-4
+            and dist(piece.center, whole.piece.center) < 1e-4
+            for piece in candidates
         )
 
 
 INCH = 25.4
 SHOWN = {Unit.IN: (1.4142, 1.4142, 2.4142), Unit.MM: (1.414, 1.414, 2.414)}
-"""X and Y of the end of a line of 2 at 45 degrees as a field shows them, and Y one above."""
+"""The end of a line of 2 at 45 degrees as a field shows it, X and Y, and the Y one above."""
 
 UNITS = pytest.mark.parametrize("unit", list(Unit))
 DIRECTIONS = pytest.mark.parametrize("direction", ["CW", "CCW"])
 
 
 def second(segment: ArcSegment, unit: Unit) -> tuple[SolvedBlock, SolvedSegment]:
-    """The segment behind a line of 2 at 45 degrees."""
+    """The block and its second segment, which follows a line of 2 at 45 degrees."""
     given_program = program(line(length=2.0, angle=45.0, feed=5.0), segment, unit=unit)
     block = solve_block(given_program.blocks[0], given_program)
     return block, block.segments[1]
 
 
-def told(found: SolvedSegment, unit: Unit) -> list[tuple[Severity, str, str]]:
-    """What is said of the segment, but for a radius that was typed with few digits."""
-    return [(one.severity, one.code, sentence(one, unit)) for one in found.findings if one.code != "ARC_ADJUSTED"]
+def messages(result: SolvedSegment, unit: Unit) -> list[tuple[Severity, str, str]]:
+    """The messages of the segment, except that of a radius typed with few digits."""
+    return [
+        (finding.severity, finding.code, sentence(finding, unit))
+        for finding in result.findings
+        if finding.code != "ARC_ADJUSTED"
+    ]
 
 
-def is_full(found: SolvedSegment) -> bool:
-    return isinstance(found.piece, Arc) and found.piece.start == found.piece.end and abs(found.piece.sweep) == tau
+def is_full(result: SolvedSegment) -> bool:
+    return isinstance(result.piece, Arc) and result.piece.start == result.piece.end and abs(result.piece.sweep) == tau
 
 
 READS = "X END and Y END read like the arc's start: it is the full circle, and ends where it starts. "
@@ -321,37 +325,37 @@ def test_an_end_typed_as_the_screen_shows_the_start_is_the_full_circle(unit, dir
         typed["choice"] = 1
     if radius:
         typed["radius"] = 1.0
-    block, found = second(arc(direction, **typed), unit)
-    assert is_full(found)
-    assert found.end == found.start == block.segments[0].end
-    assert number(found, "sweep") == 360.0
+    block, result = second(arc(direction, **typed), unit)
+    assert is_full(result)
+    assert result.end == result.start == block.segments[0].end
+    assert number(result, "sweep") == 360.0
     fields = {"xy": "X END and Y END read", "x": "X END reads", "y": "Y END reads"}[axes]
     blank = {"xy": "X END and Y END", "x": "X END", "y": "Y END"}[axes]
     words = READS.replace("X END and Y END read", fields) + LESS.replace("X END and Y END", blank)
-    assert told(found, unit) == [(Severity.INFO, "FULL_CIRCLE", words)]
+    assert messages(result, unit) == [(Severity.INFO, "FULL_CIRCLE", words)]
 
 
 @UNITS
 @DIRECTIONS
-def test_with_sweep_angle_360_there_is_nothing_to_tell(unit, direction):
+def test_sweep_angle_360_makes_a_full_circle_without_a_message(unit, direction):
     x, y, above = SHOWN[unit]
     for end in ({"x_end": x, "y_end": y}, {"y_end": y}, {}):
-        _, found = second(arc(direction, x_center=x, y_center=above, sweep=360.0, **end), unit)
-        assert is_full(found)
-        assert found.findings == ()
+        _, result = second(arc(direction, x_center=x, y_center=above, sweep=360.0, **end), unit)
+        assert is_full(result)
+        assert result.findings == ()
 
 
 @UNITS
 @DIRECTIONS
 @pytest.mark.parametrize("off", [1.0, -1.0])
-def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_answers(unit, direction, off):
+def test_an_end_a_digit_or_two_from_the_start_raises_a_question_that_sweep_angle_answers(unit, direction, off):
     x, y, above = SHOWN[unit]
     step = {Unit.IN: 0.00008, Unit.MM: 0.002}[unit]
     end = {"x_end": x + off * step, "y_end": y, "x_center": x, "y_center": above}
-    _, found = second(arc(direction, **end), unit)
-    assert found.piece is None
-    assert found.missing == ("sweep",)
-    ((severity, code, text),) = told(found, unit)
+    _, result = second(arc(direction, **end), unit)
+    assert result.piece is None
+    assert result.missing == ("sweep",)
+    ((severity, code, text),) = messages(result, unit)
     assert (severity, code) == (Severity.ERROR, "CIRCLE_OR_ARC")
     question = re.fullmatch(
         r"The end is (0\.\d+) from the start: full circle or (short arc|arc to that end)\? "
@@ -363,21 +367,21 @@ def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_ans
     _, full = second(arc(direction, **end, sweep=360.0), unit)
     assert is_full(full)
     assert full.end == full.start
-    ((severity, code, text),) = told(full, unit)
+    ((severity, code, text),) = messages(full, unit)
     assert (severity, code) == (Severity.INFO, "FULL_CIRCLE")
     assert re.search(r"it ends where it starts, 0\.\d+ from X END and Y END\.$", text)
     _, part = second(arc(direction, **end, sweep=float(question[3])), unit)
     assert isinstance(part.piece, Arc)
     scale = INCH if unit is Unit.IN else 1.0
-    # on the circle, where its end is as near as radii may differ
+    # the end is on the circle, as near to the typed end as radii may differ
     assert dist(part.piece.end, ((x + off * step) * scale, y * scale)) < 0.00254
-    assert [code for _, code, _ in told(part, unit)] == ["SHORT_ARC"]
+    assert [code for _, code, _ in messages(part, unit)] == ["SHORT_ARC"]
     _, neither = second(arc(direction, **end, sweep=90.0), unit)
-    assert told(neither, unit) == told(found, unit)
+    assert messages(neither, unit) == messages(result, unit)
 
 
-def behind_a_line_to(end: tuple[float, float], segment: ArcSegment) -> SolvedSegment:
-    """The segment behind a line from 0, 0 to a typed end."""
+def after_line_to(end: tuple[float, float], segment: ArcSegment) -> SolvedSegment:
+    """The segment after a line from 0, 0 to a typed end."""
     given_program = program(line(x_end=end[0], y_end=end[1]), segment)
     return solve_block(given_program.blocks[0], given_program).segments[1]
 
@@ -386,48 +390,48 @@ X_NEAR_START = {"x_end": 17.321, "x_center": 0.0, "y_center": 0.0}
 """From 17.3205, 10 two ends on the circle of 20 have this X: one a micrometer from the start, one at 60 degrees."""
 
 
-def test_a_typed_sweep_picks_the_other_end_where_one_is_close_to_the_start():
-    found = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=60.0))
-    assert found.findings == ()
-    assert isinstance(found.piece, Arc)
-    assert dist(found.piece.end, (17.321, -9.9991)) < 1e-4
-    full = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=360.0))
+def test_a_typed_sweep_selects_the_other_end_when_one_is_close_to_the_start():
+    result = after_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=60.0))
+    assert result.findings == ()
+    assert isinstance(result.piece, Arc)
+    assert dist(result.piece.end, (17.321, -9.9991)) < 1e-4
+    full = after_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=360.0))
     assert is_full(full)
-    short = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=0.003))
+    short = after_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=0.003))
     assert isinstance(short.piece, Arc)
     assert dist(short.piece.end, (17.321, 9.9991)) < 1e-4
 
 
 @pytest.mark.parametrize("typed", [{}, {"choice": 0}, {"sweep": 90.0}])
 def test_the_question_names_the_sweep_angle_of_the_other_end_too(typed):
-    found = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, **typed))
-    assert found.piece is None
-    assert text(found) == (
+    result = after_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, **typed))
+    assert result.piece is None
+    assert text(result) == (
         "CIRCLE_OR_ARC sweep: The end is 0.001 from the start: full circle, short arc or arc to the other end? "
         "Type SWEEP ANGLE 360, 0.003 or 59.997."
     )
 
 
 def test_the_full_circle_says_that_it_does_not_end_at_its_typed_end():
-    found = solved(arc("CW", x_end=0.001, y_end=0.0, x_center=20.0, y_center=0.0, sweep=360.0))
-    assert is_full(found)
-    assert found.findings[0].severity is Severity.INFO
-    assert text(found) == (
+    result = solved(arc("CW", x_end=0.001, y_end=0.0, x_center=20.0, y_center=0.0, sweep=360.0))
+    assert is_full(result)
+    assert result.findings[0].severity is Severity.INFO
+    assert text(result) == (
         "FULL_CIRCLE sweep: SWEEP ANGLE 360 makes the full circle: it ends where it starts, 0.001 from X END and Y END."
     )
 
 
 @pytest.mark.parametrize(("off", "codes"), [(4e-6, []), (6e-6, ["ARC_ADJUSTED"])])
-def test_radii_that_differ_by_less_than_half_a_posted_digit_are_not_told(off, codes):
+def test_radii_that_differ_by_less_than_half_a_posted_digit_are_not_reported(off, codes):
     ends = {"x_end": 0.0, "y_end": 5.0 + off, "x_center": 0.0, "y_center": 0.0}
-    assert [one.code for one in solved(arc("CCW", **ends), 5.0, 0.0).findings] == codes
+    assert [finding.code for finding in solved(arc("CCW", **ends), 5.0, 0.0).findings] == codes
     half = {"x_end": -5.0, "y_end": 0.0, "radius": 5.0 - off}
-    assert [one.code for one in solved(arc("CCW", **half), 5.0, 0.0).findings] == codes
+    assert [finding.code for finding in solved(arc("CCW", **half), 5.0, 0.0).findings] == codes
 
 
 @pytest.mark.parametrize("end", [7.071, 7.0711, 7.07107])
-def test_a_circle_behind_a_full_circle_starts_where_that_one_started(end):
-    """Its start is calculated, whatever was typed as the end of the first circle."""
+def test_a_circle_after_a_full_circle_starts_at_the_start_of_the_first(end):
+    """The start is calculated, whatever end was typed for the first circle."""
     first = arc("CW", x_end=7.071, y_end=7.071, x_center=7.071, y_center=20.0)
     other = arc("CW", x_end=end, y_end=end, x_center=7.071, y_center=17.0)
     given_program = program(line(length=10.0, angle=45.0), first, other)
@@ -436,49 +440,49 @@ def test_a_circle_behind_a_full_circle_starts_where_that_one_started(end):
     assert segments[2].end == segments[0].end
 
 
-def test_an_arc_of_93_nanometers_is_no_circle_of_52_meters():
+def test_an_arc_of_93_nanometers_does_not_become_a_circle_of_52_meters():
     end = {"x_end": 100.000093, "y_end": 50.0, "x_center": 100.0, "y_center": 8326.0}
     given_program = program(arc("CCW", **end), x=100.0, y=50.0)
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
-    assert found.piece is None
-    ((_, code, text),) = told(found, Unit.MM)
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
+    assert result.piece is None
+    ((_, code, text),) = messages(result, Unit.MM)
     assert code == "CIRCLE_OR_ARC"
     assert text == "The end is 0.0001 from the start: full circle or short arc? Type SWEEP ANGLE 360 or 0.00000064."
     given_program = program(arc("CCW", **end, sweep=0.00000064), x=100.0, y=50.0)
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
-    assert isinstance(found.piece, Arc)
-    assert found.piece.length == pytest.approx(0.000093, rel=1e-3)
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
+    assert isinstance(result.piece, Arc)
+    assert result.piece.length == pytest.approx(0.000093, rel=1e-3)
 
 
 @UNITS
 @pytest.mark.parametrize("digit", [1e-9, 2e-7, 1e-6, 1e-5])
-def test_a_typed_end_equals_a_typed_start_to_the_last_digit_or_is_asked_about(unit, digit):
-    """What is nearer than two points can be told apart, 0.1 nm, is the start."""
+def test_a_typed_end_that_differs_from_the_typed_start_in_any_digit_raises_a_question(unit, digit):
+    """An end nearer than 0.1 nm, the limit for telling points apart, is the start."""
     for off in (digit, -digit):
         segment = arc("CW", x_end=0.5 + off, y_end=0.25, x_center=0.5, y_center=1.0)
         given_program = program(segment, unit=unit, x=0.5, y=0.25)
-        (found,) = solve_block(given_program.blocks[0], given_program).segments
+        (result,) = solve_block(given_program.blocks[0], given_program).segments
         if digit == 1e-9:
-            assert is_full(found)
-            assert found.findings == ()
+            assert is_full(result)
+            assert result.findings == ()
         else:
-            assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
+            assert [finding.code for finding in result.findings] == ["CIRCLE_OR_ARC"]
 
 
 @UNITS
-def test_more_digits_than_the_screen_shows_of_a_calculated_start_count(unit):
-    """The start is 1.41421356...: 1.41421 is the start as it would be typed with one digit more, 1.41424 is not."""
+def test_digits_beyond_those_the_screen_shows_of_a_calculated_start_count(unit):
+    """The start is 1.41421356...: 1.41421 is the start typed with one more digit, 1.41424 is not."""
     x, y, above = SHOWN[unit]
-    _, found = second(arc("CW", x_end=1.41421, y_end=1.4142136, x_center=x, y_center=above), unit)
-    assert is_full(found)
-    assert [code for _, code, _ in told(found, unit)] == ["FULL_CIRCLE"]
-    _, found = second(arc("CW", x_end=1.41424, y_end=y, x_center=x, y_center=above), unit)
-    assert [code for _, code, _ in told(found, unit)] == ["CIRCLE_OR_ARC"]
+    _, result = second(arc("CW", x_end=1.41421, y_end=1.4142136, x_center=x, y_center=above), unit)
+    assert is_full(result)
+    assert [code for _, code, _ in messages(result, unit)] == ["FULL_CIRCLE"]
+    _, result = second(arc("CW", x_end=1.41424, y_end=y, x_center=x, y_center=above), unit)
+    assert [code for _, code, _ in messages(result, unit)] == ["CIRCLE_OR_ARC"]
 
 
 @UNITS
 @DIRECTIONS
-def test_a_change_of_units_leaves_a_full_circle_one(unit, direction):
+def test_a_full_circle_stays_one_when_the_unit_changes(unit, direction):
     x, y, above = SHOWN[unit]
     segment = arc(direction, x_end=x, y_end=y, x_center=x, y_center=above)
     given_program = program(line(length=2.0, angle=45.0, feed=5.0), segment, unit=unit)
@@ -486,29 +490,29 @@ def test_a_change_of_units_leaves_a_full_circle_one(unit, direction):
     assert is_full(solve_block(turned.blocks[0], turned).segments[1])
 
 
-def test_an_end_in_x_alone_is_asked_about_too():
-    """Of an end a little beside the start only X is typed: it may be the start, or as near to it."""
+def test_an_end_near_the_start_in_x_alone_raises_a_question():
+    """Only the X of an end near the start is typed: the end may be the start or a point near it."""
     given_program = program(arc("CW", x_end=0.001, x_center=3.0, y_center=4.0))
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
-    assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
+    assert [finding.code for finding in result.findings] == ["CIRCLE_OR_ARC"]
 
 
 @UNITS
 @DIRECTIONS
 @pytest.mark.parametrize("sweep", [0.001, 0.0005, 359.9994, 359.998])
-def test_a_tiny_arc_is_typed_by_its_sweep_angle_and_told(unit, direction, sweep):
+def test_a_tiny_arc_typed_by_sweep_angle_is_reported(unit, direction, sweep):
     x, y, above = SHOWN[unit]
     for end in ({}, {"x_end": x, "y_end": y}):
-        _, found = second(arc(direction, x_center=x, y_center=above, sweep=sweep, **end), unit)
-        ((severity, code, text),) = told(found, unit)
+        _, result = second(arc(direction, x_center=x, y_center=above, sweep=sweep, **end), unit)
+        ((severity, code, text),) = messages(result, unit)
         assert severity is Severity.WARNING
         if sweep == 359.9994:
-            # it shows as 359.999, and ends on the start as far as any digit shows
-            assert is_full(found)
+            # it shows as 359.999, and no visible digit separates its end from the start
+            assert is_full(result)
             assert code == "FULL_CIRCLE"
             continue
-        assert isinstance(found.piece, Arc)
-        assert abs(found.piece.sweep) == pytest.approx(radians(sweep), abs=3e-4)
+        assert isinstance(result.piece, Arc)
+        assert abs(result.piece.sweep) == pytest.approx(radians(sweep), abs=3e-4)
         assert code == "SHORT_ARC"
         assert text.endswith("Enter SWEEP ANGLE 360 if the full circle is meant.")
 
@@ -533,46 +537,46 @@ def test_a_tiny_arc_is_typed_by_its_sweep_angle_and_told(unit, direction, sweep)
     ],
 )
 def test_an_end_at_the_start_needs_the_center(unit, direction, typed, off):
-    """Without both coordinates of the center the rounding of the end would decide where the arc lies."""
+    """Without both center coordinates, the rounding of the end would decide where the arc lies."""
     block, _ = second(arc(direction), unit)
     x, y, _ = SHOWN[unit]
     exact = [value / (INCH if unit is Unit.IN else 1.0) for value in block.segments[0].end]
     end = {"x_end": x, "y_end": y} if off else {"x_end": exact[0], "y_end": exact[1]}
-    _, found = second(arc(direction, **end, **typed), unit)
-    assert found.piece is None
-    ((severity, code, text),) = told(found, unit)
+    _, result = second(arc(direction, **end, **typed), unit)
+    assert result.piece is None
+    ((severity, code, text),) = messages(result, unit)
     assert (severity, code) == (Severity.ERROR, "MISSING")
     blank = [label for name, label in (("x_center", "X CENTER"), ("y_center", "Y CENTER")) if name not in typed]
     assert text == (
         f"More data needed: the end is at the start. For the full circle type {' and '.join(blank)}; for a shorter "
         "arc the center and SWEEP ANGLE, with X END and Y END blank."
     )
-    assert set(found.missing) == {label.lower().replace(" ", "_") for label in blank}
+    assert set(result.missing) == {label.lower().replace(" ", "_") for label in blank}
 
 
 @UNITS
 @DIRECTIONS
 @pytest.mark.parametrize("sweep", [0.0005, 359.9995])
 @pytest.mark.parametrize("name", ["x_end", "y_end"])
-def test_one_coordinate_of_an_end_at_the_start_with_radius_and_sweep_says_nothing(unit, direction, sweep, name):
+def test_one_end_coordinate_at_the_start_with_radius_and_sweep_is_not_enough(unit, direction, sweep, name):
     x, _, _ = SHOWN[unit]
-    _, found = second(arc(direction, radius=1.0, sweep=sweep, **{name: x}), unit)
-    assert found.piece is None
-    assert [one.code for one in found.findings] == ["MISSING"]
+    _, result = second(arc(direction, radius=1.0, sweep=sweep, **{name: x}), unit)
+    assert result.piece is None
+    assert [finding.code for finding in result.findings] == ["MISSING"]
 
 
-def test_radius_sweep_and_one_center_coordinate_still_make_a_full_circle_that_ends_where_it_starts():
+def test_an_end_at_the_start_with_radius_and_a_sweep_of_360_makes_a_full_circle():
     x, y, above = SHOWN[Unit.IN]
     end = {"x_end": x, "y_end": y}
-    _, found = second(arc("CW", radius=1.0, sweep=360.0, y_center=above, x_center=x, **end), Unit.IN)
-    assert is_full(found)
+    _, result = second(arc("CW", radius=1.0, sweep=360.0, y_center=above, x_center=x, **end), Unit.IN)
+    assert is_full(result)
     given_program = program(arc("CW", radius=1.0, sweep=360.0, x_center=1.0, x_end=0.0, y_end=0.0))
     (segment,) = solve_block(given_program.blocks[0], given_program).segments
     assert is_full(segment)
 
 
 @UNITS
-def test_an_end_of_exactly_the_start_is_the_full_circle_as_ever(unit):
+def test_an_end_exactly_at_the_start_makes_a_full_circle(unit):
     given_program = program(arc("CW", x_end=0.0, y_end=0.0, x_center=1.0, y_center=0.0), unit=unit)
     block = solve_block(given_program.blocks[0], given_program)
     assert is_full(block.segments[0])
@@ -581,18 +585,18 @@ def test_an_end_of_exactly_the_start_is_the_full_circle_as_ever(unit):
 
 
 def test_a_sweep_that_shows_360_but_leaves_a_gap_is_no_full_circle():
-    _, found = second(arc("CW", x_center=1.4142, y_center=101.4142, sweep=359.999), Unit.IN)
-    assert isinstance(found.piece, Arc)
-    assert dist(found.piece.start, found.piece.end) > 0.04
-    assert abs(found.piece.sweep) == pytest.approx(radians(359.999))
+    _, result = second(arc("CW", x_center=1.4142, y_center=101.4142, sweep=359.999), Unit.IN)
+    assert isinstance(result.piece, Arc)
+    assert dist(result.piece.start, result.piece.end) > 0.04
+    assert abs(result.piece.sweep) == pytest.approx(radians(359.999))
 
 
-def test_an_end_that_misses_the_start_by_little_more_is_told_too():
-    """A few digits beside the start it may still be the full circle that was meant."""
+def test_an_end_that_misses_the_start_by_slightly_more_is_reported():
+    """An end a few digits from the start may still mean the full circle."""
     start = 2.0 / 2.0**0.5
-    _, found = second(arc("CW", x_end=start - 0.0005, y_end=start, x_center=start, y_center=start + 1.0), Unit.IN)
-    assert isinstance(found.piece, Arc)
-    ((severity, code, text),) = told(found, Unit.IN)
+    _, result = second(arc("CW", x_end=start - 0.0005, y_end=start, x_center=start, y_center=start + 1.0), Unit.IN)
+    assert isinstance(result.piece, Arc)
+    ((severity, code, text),) = messages(result, Unit.IN)
     assert (severity, code) == (Severity.WARNING, "SHORT_ARC")
     assert text == (
         "The arc ends only 0.0005 from its start and turns 0.029 degrees. Enter SWEEP ANGLE 360 if the full circle is "
@@ -601,12 +605,12 @@ def test_an_end_that_misses_the_start_by_little_more_is_told_too():
 
 
 @UNITS
-def test_the_other_coordinate_of_an_end_that_touches_the_circle_is_no_choice_between_two_nothings(unit):
-    """At the circle's own extreme an end in X alone is the start itself, and not two arcs of no length."""
+def test_an_end_coordinate_at_the_extreme_of_the_circle_leaves_no_choice(unit):
+    """At the extreme of the circle an end in X alone is the start itself, not a choice of two zero-length arcs."""
     given_program = program(arc("CW", x_end=1e-13, x_center=1.0, y_center=0.0), unit=unit)
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
-    assert is_full(found)
-    assert found.choices == ()
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
+    assert is_full(result)
+    assert result.choices == ()
 
 
 @settings(derandomize=True, max_examples=300, deadline=None)
@@ -618,37 +622,37 @@ def test_the_other_coordinate_of_an_end_that_touches_the_circle_is_no_choice_bet
     st.sampled_from(["CW", "CCW"]),
     st.sampled_from(list(Unit)),
 )
-def test_no_arc_whose_end_reads_like_its_start_is_silent(angle, radius, dx, dy, direction, unit):
-    """Whatever is typed near the start: a full circle, or something that is told."""
+def test_no_arc_that_ends_near_its_start_goes_unreported(angle, radius, dx, dy, direction, unit):
+    """An end typed near the start makes an exact full circle or raises a finding."""
     places = 4 if unit is Unit.IN else 3
     digit = 10.0**-places
     start = (radius * cos(angle), radius * sin(angle))
     end = (round(start[0] + dx * digit, places), round(start[1] + dy * digit, places))
     typed = {"x_end": end[0], "y_end": end[1], "x_center": 0.0, "y_center": 0.0}
     given_program = program(arc(direction, **typed), x=start[0], y=start[1], unit=unit)
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
     same = all(show(a, Kind.LENGTH, unit) == show(b, Kind.LENGTH, unit) for a, b in zip(start, end, strict=True))
-    if is_full(found):
+    if is_full(result):
         exact = hypot(start[0] - end[0], start[1] - end[1]) * (INCH if unit is Unit.IN else 1.0) <= 1e-7
-        assert exact or [one.code for one in found.findings] == ["FULL_CIRCLE"]
+        assert exact or [finding.code for finding in result.findings] == ["FULL_CIRCLE"]
     else:
-        assert found.findings != ()
-        assert not same or any(one.severity is Severity.ERROR for one in found.findings)
+        assert result.findings != ()
+        assert not same or any(finding.severity is Severity.ERROR for finding in result.findings)
 
 
 @settings(derandomize=True, max_examples=200, deadline=None)
 @given(st.floats(0.0, tau), st.floats(0.001, 500.0), st.floats(1e-4, 360.0), st.sampled_from(list(Unit)), st.booleans())
-def test_a_typed_sweep_is_what_the_arc_turns(angle, radius, sweep, unit, near):
-    """And where it ends beside its start that is told."""
+def test_the_arc_turns_through_the_typed_sweep(angle, radius, sweep, unit, near):
+    """An arc that ends near its start is reported."""
     turned = 360.0 - sweep / 1000.0 if near else sweep
     start = (radius * cos(angle), radius * sin(angle))
     segment = arc("CCW", x_center=0.0, y_center=0.0, sweep=turned)
     given_program = program(segment, x=start[0], y=start[1], unit=unit)
-    (found,) = solve_block(given_program.blocks[0], given_program).segments
-    if isinstance(found.piece, Arc):
-        off = abs(abs(found.piece.sweep) - radians(turned)) * found.piece.radius
+    (result,) = solve_block(given_program.blocks[0], given_program).segments
+    if isinstance(result.piece, Arc):
+        off = abs(abs(result.piece.sweep) - radians(turned)) * result.piece.radius
         assert off <= 0.00254 + 1e-6
-        beside = dist(found.piece.start, found.piece.end) <= 0.00254
-        assert bool(found.findings) is (beside and turned != 360.0)
+        beside = dist(result.piece.start, result.piece.end) <= 0.00254
+        assert bool(result.findings) is (beside and turned != 360.0)
     else:
-        assert found.findings != ()
+        assert result.findings != ()

@@ -1,4 +1,4 @@
-"""A block solved: START, what every block shares, and what carries over from segment to segment."""
+"""A solved block: START, the settings that blocks share, and the values carried from segment to segment."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ POCKET = program(
 )
 
 
-def test_a_pocket():
+def test_a_pocket_is_solved_whole():
     block = solved(POCKET)
     assert block.postable
     assert block.closed
@@ -79,11 +79,11 @@ def test_a_pocket():
 
 def test_pieces_join_end_to_start():
     pieces = [piece for _, piece in solved(POCKET).pieces]
-    for before, behind in pairwise(pieces):
-        assert before.end == behind.start
+    for before, after in pairwise(pieces):
+        assert before.end == after.start
 
 
-def test_neighbors_of_a_blend_show_what_was_programmed():
+def test_neighbors_of_a_blend_show_the_programmed_values():
     third = solved(POCKET).segments[2]
     assert number(third, "y_end") == 3.5
     assert number(third, "length") == pytest.approx(2.5)
@@ -116,15 +116,15 @@ def test_inch_values_are_millimeters_inside_and_inches_on_the_form():
     assert (block.z_bottom, block.plunge_feed, block.speed, block.tool_diameter) == (-6.35, 508.0, 300.0, 12.7)
 
 
-def test_an_edit_upstream_recalculates():
+def test_an_edit_recalculates_the_segments_after_it():
     before = solved(program(line(x_end=1.0, y_end=0.0), line(length=2.0, angle=90.0)))
-    behind = solved(program(line(x_end=5.0, y_end=0.0), line(length=2.0, angle=90.0)))
+    after = solved(program(line(x_end=5.0, y_end=0.0), line(length=2.0, angle=90.0)))
     assert number(before.segments[1], "x_end") == pytest.approx(1.0)
-    assert number(behind.segments[1], "x_end") == pytest.approx(5.0)
-    assert tags(behind.segments[1])["x_end"] == "CAL"
+    assert number(after.segments[1], "x_end") == pytest.approx(5.0)
+    assert tags(after.segments[1])["x_end"] == "CAL"
 
 
-def test_a_gap_stops_what_is_determined_and_later_segments_go_on_from_what_is_typed():
+def test_later_segments_continue_from_typed_values_after_a_gap():
     block = solved(
         program(
             line(x_end=1.0, y_end=0.0),
@@ -144,7 +144,7 @@ def test_a_gap_stops_what_is_determined_and_later_segments_go_on_from_what_is_ty
     assert block.segments[3].piece == Line((3.0, 3.0), (0.0, 3.0))
 
 
-def test_a_contradiction_is_not_determined_although_its_end_is_typed():
+def test_a_contradictory_segment_is_not_determined_although_its_end_is_typed():
     block = solved(program(line(x_end=1.0, y_end=0.0, length=9.0), line(x_end=3.0, y_end=3.0)))
     assert block.determined == 0
     assert block.pieces == ()
@@ -154,12 +154,12 @@ def test_a_contradiction_is_not_determined_although_its_end_is_typed():
 @pytest.mark.parametrize(
     ("off", "closed"), [(0.0, True), (0.00253, True), (0.00255, False), (-0.00253, True), (1.0, False)]
 )
-def test_closed(off, closed):
+def test_a_contour_is_closed_within_the_tolerance(off, closed):
     corners = (line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0), line(x_end=off, y_end=0.0))
     assert solved(program(*corners)).closed is closed
 
 
-def test_no_length_is_not_closed():
+def test_a_contour_without_length_is_not_closed():
     block = solved(program(line(x_end=0.0, y_end=0.0)))
     assert not block.closed
     assert block.determined == 1
@@ -167,14 +167,14 @@ def test_no_length_is_not_closed():
     assert codes(block) == [("ZERO_LENGTH", 1)]
 
 
-def test_a_segment_without_length_is_passed_over():
+def test_a_segment_without_length_is_skipped():
     block = solved(program(line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0)))
     assert block.determined == 3
     assert [number_ for number_, _ in block.pieces] == [1, 3]
     assert block.postable
 
 
-def test_unreadable_text_blocks_posting_and_is_said_once():
+def test_unreadable_text_blocks_posting_and_is_reported_once():
     block = solved(program(LineSegment(x_end=Unread("1,5", "Type a point."), y_end=Number(0.0))))
     (finding,) = block.every_finding
     assert (finding.code, finding.segment, finding.field) == ("UNREADABLE", 1, "x_end")
@@ -199,7 +199,7 @@ def test_a_number_out_of_its_range_is_not_used():
 
 
 @pytest.mark.parametrize("name", ["x_start", "y_start"])
-def test_without_a_start_nothing_is_determined(name):
+def test_nothing_is_determined_without_a_start(name):
     block = solved(program(line(x_end=1.0, y_end=0.0), line(x_end=1.0, y_end=1.0), start={name: None}))
     assert block.determined == 0
     assert codes(block) == [("MISSING", 0)]
@@ -210,21 +210,21 @@ def test_without_a_start_nothing_is_determined(name):
 @given(programs)
 def test_any_program_is_solved_without_raising(given_program):
     for block in given_program.blocks:
-        found = solve_block(block, given_program)
-        assert len(found.segments) == len(block.segments)
-        for typed, one in zip(block.segments, found.segments, strict=True):
-            for name, value in one.values.items():
+        solution = solve_block(block, given_program)
+        assert len(solution.segments) == len(block.segments)
+        for typed, solved_segment in zip(block.segments, solution.segments, strict=True):
+            for name, value in solved_segment.values.items():
                 entered = getattr(typed, name)
                 assert value == entered if entered is not None else not isinstance(value, Number | Unread)
-        for finding in found.every_finding:
+        for finding in solution.every_finding:
             assert sentence(finding, given_program.unit).endswith((".", "?", "!"))
-        for segment in found.segments:
+        for segment in solution.segments:
             assert all(finding.segment == segment.number for finding in segment.findings)
-        assert all(finding.segment == 0 for finding in found.findings)
-        assert found.determined == len(found.segments) or not found.postable
+        assert all(finding.segment == 0 for finding in solution.findings)
+        assert solution.determined == len(solution.segments) or not solution.postable
 
 
-def test_typing_a_part_in_from_nothing_always_says_what_is_next():
+def test_an_empty_segment_is_reported_as_the_next_to_complete():
     segments: tuple[LineSegment | ArcSegment | BlendSegment, ...] = (LineSegment(), ArcSegment(), BlendSegment())
     for segment in segments:
         block = solved(program(line(x_end=1.0, y_end=0.0), segment))
@@ -233,22 +233,22 @@ def test_typing_a_part_in_from_nothing_always_says_what_is_next():
         assert next(finding.segment for finding in block.every_finding) == 2
 
 
-def test_blocks_do_not_share_tools():
-    two = replace(POCKET, tools=())
-    assert codes(solved(two)) == [("TOOL_MISSING", 0)]
-    assert solved(two).determined == 11
+def test_a_contour_is_determined_although_its_tool_is_missing():
+    toolless = replace(POCKET, tools=())
+    assert codes(solved(toolless)) == [("TOOL_MISSING", 0)]
+    assert solved(toolless).determined == 11
 
 
-def test_no_numpy_is_loaded():
-    """The first screen is painted before the heavy packages are there."""
+def test_solving_does_not_load_numpy():
+    """The first screen appears before the heavy packages are loaded."""
     names = ("edit", "fields", "history", "model", "tools", "solve.block", "file.read", "file.write")
     imports = ", ".join(f"core.program.{name}" for name in names)
     script = f"import {imports}, core.units, core.geometry.corner, sys; print('numpy' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "False"
 
 
-def test_a_segment_that_leads_too_far_is_refused():
+def test_a_segment_that_ends_out_of_range_is_refused():
     far = [line(length=4e3, angle=0.0) for _ in range(5)]
     block = solved(program(*far, unit=Unit.IN))
     assert codes(block) == [("OUT_OF_RANGE", 3)]
@@ -257,7 +257,7 @@ def test_a_segment_that_leads_too_far_is_refused():
     assert codes(flat) == [("OUT_OF_RANGE", 1)]
 
 
-def test_text_in_a_message_moves_no_cursor():
+def test_control_characters_in_a_message_are_replaced():
     block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Number(0.0))))
     assert block.every_finding[0].text == "X END: ?[2J cannot be read. why."
 
@@ -267,11 +267,13 @@ ALONG = line(x_end=1.0, y_end=0.0)
 
 def findings(**start: object) -> list[str]:
     given = program(ALONG, unit=Unit.IN, start=start)
-    found = solve_block(given.blocks[0], given).findings
-    return [f"{one.code} {one.severity} {one.field}: {sentence(one, Unit.IN)}" for one in found]
+    start_findings = solve_block(given.blocks[0], given).findings
+    return [
+        f"{finding.code} {finding.severity} {finding.field}: {sentence(finding, Unit.IN)}" for finding in start_findings
+    ]
 
 
-def test_nothing_is_wrong_with_a_whole_start():
+def test_a_complete_start_has_no_findings():
     assert findings() == []
 
 
@@ -282,9 +284,9 @@ def test_blanks_are_named(name):
     assert text.endswith(" is blank: enter it on START.")
 
 
-def test_a_wrong_tool_comes_before_what_is_still_blank():
-    found = findings(tool=Number(7.0), finish_tool=Number(8.0), x_start=None, y_start=None)
-    assert [text.split(":")[0] for text in found] == [
+def test_a_missing_tool_is_reported_before_blank_fields():
+    texts = findings(tool=Number(7.0), finish_tool=Number(8.0), x_start=None, y_start=None)
+    assert [text.split(":")[0] for text in texts] == [
         "TOOL_MISSING error tool",
         "TOOL_MISSING error finish_tool",
         "MISSING error x_start",
@@ -292,7 +294,7 @@ def test_a_wrong_tool_comes_before_what_is_still_blank():
     ]
 
 
-def test_blanks_that_stand_for_zero_are_calculated():
+def test_blank_fields_that_mean_zero_are_filled_in():
     given = program(ALONG, start={"finish_tool": None, "peck_depth": None})
     block = solve_block(given.blocks[0], given)
     assert (block.values["finish_tool"], block.values["peck_depth"]) == (Solved(0.0, Origin.USUAL),) * 2
@@ -315,11 +317,11 @@ def test_blanks_that_stand_for_zero_are_calculated():
         ({"z_bottom": Number(0.0)}, "Z_ORDER warning z_bottom: Z BOTTOM is at Z START: nothing is cut."),
     ],
 )
-def test_trouble_of_start(start, text):
+def test_wrong_start_values_are_reported(start, text):
     assert findings(**start)[0].startswith(text)
 
 
-def test_no_segments():
+def test_a_block_without_segments_is_not_postable():
     given = program()
     block = solve_block(given.blocks[0], given)
     (finding,) = block.findings
@@ -330,7 +332,7 @@ def test_no_segments():
 
 @pytest.mark.parametrize("diameter", [None, Number(0.0), Number(-0.5)])
 @pytest.mark.parametrize(("comp", "severity"), [(CutterComp.RIGHT, Severity.ERROR), (CutterComp.ON, Severity.WARNING)])
-def test_a_tool_without_size_matters_less_on_the_contour(diameter, comp, severity):
+def test_a_tool_without_a_diameter_is_only_a_warning_on_the_contour(diameter, comp, severity):
     given = replace(program(ALONG, start={"cutter_comp": comp}), tools=(Tool(1, diameter=diameter),))
     block = solve_block(given.blocks[0], given)
     (finding,) = block.findings
@@ -338,7 +340,7 @@ def test_a_tool_without_size_matters_less_on_the_contour(diameter, comp, severit
     assert block.tool_diameter is None
 
 
-def test_both_tools():
+def test_a_block_knows_both_of_its_tools():
     given = program(ALONG, start={"finish_tool": Number(2.0)})
     given = replace(given, tools=(*given.tools, Tool(2, "FINISHER", Number(0.25))))
     block = solve_block(given.blocks[0], given)
@@ -353,11 +355,11 @@ def test_lengths_feeds_and_angles_are_converted_and_counts_are_not():
     assert reading.values["y_end"] is None
 
 
-def test_faults_are_told_and_not_known():
+def test_faulty_values_are_reported_and_not_known():
     segment = LineSegment(x_end=Unread("1,5", "Type a point."), length=Number(-2.0), y_end=Number(float("inf")))
     reading = read_form(Form.LINE, segment, Unit.MM, 7)
     assert reading.known == {}
-    assert [(one.code, one.segment, one.field) for one in reading.findings] == [
+    assert [(finding.code, finding.segment, finding.field) for finding in reading.findings] == [
         ("UNREADABLE", 7, "x_end"),
         ("OUT_OF_RANGE", 7, "y_end"),
         ("OUT_OF_RANGE", 7, "length"),
@@ -366,7 +368,7 @@ def test_faults_are_told_and_not_known():
 
 
 @pytest.mark.parametrize("typed", [Number(1.0), Unread("x", "why")])
-def test_only_blanks_are_filled(typed):
+def test_fill_changes_blank_fields_only(typed):
     reading = read_form(Form.LINE, LineSegment(x_end=typed), Unit.IN, 1)
     for name, value in (("x_end", 3.0), ("y_end", 2.0), ("feed", None)):
         reading.fill(name, value)
@@ -388,10 +390,10 @@ PARTS: dict[Form, Any] = {
 
 @pytest.mark.parametrize("unit", Unit)
 @pytest.mark.parametrize("form", PARTS)
-def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Unit):
-    numbers = [one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+def test_a_number_is_known_exactly_when_its_field_accepts_it(form: Form, unit: Unit):
+    numbers = [field for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
     assert numbers
-    for one in numbers:
+    for field in numbers:
         edges = {
             0.0,
             1.0,
@@ -399,12 +401,12 @@ def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Un
             -3.0,
             54.0,
             1e300,
-            *(edge for edge in (*bounds(one, unit), one.above) if edge is not None),
+            *(edge for edge in (*bounds(field, unit), field.above) if edge is not None),
         }
         for value in (nan, inf, -inf, *(near for edge in edges for near in _about(edge))):
-            reading = read_form(form, changed(PARTS[form], {one.name: Number(value)}), unit, 1)
-            taken = value_refusal(one, value, unit) is None
-            assert (one.name in reading.known) is taken
+            reading = read_form(form, changed(PARTS[form], {field.name: Number(value)}), unit, 1)
+            taken = value_refusal(field, value, unit) is None
+            assert (field.name in reading.known) is taken
             assert len(reading.findings) == (not taken)
 
 
@@ -412,31 +414,31 @@ def _about(edge: float) -> tuple[float, float, float]:
     return nextafter(edge, -inf), edge, nextafter(edge, inf)
 
 
-def told(program):
-    return [(one.code, one.field, one.segment, one.text) for one in shared_findings(program)]
+def shared_messages(program):
+    return [(finding.code, finding.field, finding.segment, finding.text) for finding in shared_findings(program)]
 
 
-def test_blanks_and_usual_values_are_no_trouble():
-    assert told(Program()) == []
+def test_blanks_and_valid_values_have_no_findings():
+    assert shared_messages(Program()) == []
     part = Program(Unit.MM, parameters=changed(Program().parameters, {"blend_offset": Number(3.0)}))
-    assert told(part) == []
+    assert shared_messages(part) == []
 
 
 @pytest.mark.parametrize("one", [one for one in PARAMETERS if one.kind is not Kind.CHOICE], ids=lambda one: one.name)
 def test_unreadable_text_and_numbers_out_of_range_are_errors_of_their_screen(one):
     parameters = changed(Program().parameters, {one.name: Unread("1..2", "Two points.")})
     text = f"PROGRAM PARAMETERS: {one.label}: 1..2 cannot be read. Two points."
-    assert told(Program(parameters=parameters)) == [("UNREADABLE", one.name, None, text)]
+    assert shared_messages(Program(parameters=parameters)) == [("UNREADABLE", one.name, None, text)]
     parameters = changed(Program().parameters, {one.name: Number(-1.0)})
-    ((code, field, _, text),) = told(Program(parameters=parameters))
-    assert (code, field) == ("OUT_OF_RANGE", one.name)
+    ((code, field_name, _, text),) = shared_messages(Program(parameters=parameters))
+    assert (code, field_name) == ("OUT_OF_RANGE", one.name)
     assert text.startswith(f"PROGRAM PARAMETERS: {one.label} must be ")
 
 
-def test_part_setup_too():
+def test_faults_in_part_setup_are_reported():
     setup = replace(Program().setup, work_offset=Number(54.5), safe_z=Unread("x", "Why."))
     assert len(SETUP) == 3
-    assert told(Program(setup=setup)) == [
+    assert shared_messages(Program(setup=setup)) == [
         ("OUT_OF_RANGE", "work_offset", None, "PART SETUP: WORK OFFSET must be a whole number from 54 to 59."),
         ("UNREADABLE", "safe_z", None, "PART SETUP: SAFE Z: x cannot be read. Why."),
     ]
@@ -451,12 +453,14 @@ def test_part_setup_too():
         ({"feed": Number(600.0), "coolant": Coolant.FLOOD}, "FEED, COOLANT"),
     ],
 )
-def test_a_finish_tool_with_values_of_its_own_is_warned_of(values, labels):
+def test_a_finish_tool_with_different_values_is_a_warning(values, labels):
     tools = (
         Tool(1, diameter=Number(0.5), speed=Number(14000.0), feed=Number(500.0)),
         replace(Tool(2, diameter=Number(0.25)), **values),
     )
     given = replace(program(ALONG, start={"finish_tool": Number(2.0), "speed": None}), tools=tools)
-    found = [one for one in solve_block(given.blocks[0], given).every_finding if one.code == "FINISH_VALUES"]
-    assert [one.severity for one in found] == ([Severity.WARNING] if labels else [])
-    assert all(f"TOOL SETUP has another {labels} for it." in one.text for one in found)
+    warnings = [
+        finding for finding in solve_block(given.blocks[0], given).every_finding if finding.code == "FINISH_VALUES"
+    ]
+    assert [finding.severity for finding in warnings] == ([Severity.WARNING] if labels else [])
+    assert all(f"TOOL SETUP has another {labels} for it." in finding.text for finding in warnings)

@@ -1,4 +1,4 @@
-"""The judge against numbers worked out by hand, against dense points, and under motions of the whole drawing."""
+"""The judge against numbers calculated by hand."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MID_SIDE_PATH = lines((1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R), (1, R)
 CORNERS = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)]
 
 
-def test_over_run_square_cut_at_its_outer_corner_alone_leaves_all_of_the_square() -> None:
+def test_a_path_at_the_outer_corner_of_an_over_run_square_leaves_all_of_it_uncut() -> None:
     verdict = judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH)
     assert verdict.clean
     assert verdict.over_run_at == pytest.approx((0.0, 0.0))
@@ -51,14 +51,14 @@ def over_run_path(radius: float = R) -> Path:
     return Path.from_pieces(pieces, [1, 1.5, 2, 2.5, 3, 3.5, 4])
 
 
-def test_over_run_square_with_every_segment_kept_is_clean() -> None:
+def test_a_path_that_keeps_every_segment_of_an_over_run_square_is_clean() -> None:
     verdict = judge(OVER_RUN, Side.RIGHT, R, over_run_path())
     assert verdict.clean
     assert verdict.over_run_at == pytest.approx((0.0, 0.0))
     assert verdict.uncut == ()
 
 
-def test_a_path_too_near_to_the_square_of_an_over_run_gouges_it() -> None:
+def test_a_path_too_near_to_an_over_run_square_gouges_it() -> None:
     verdict = judge(OVER_RUN, Side.RIGHT, R, over_run_path(R - 0.01))
     assert not verdict.clean
     assert verdict.depth == pytest.approx(0.01)
@@ -72,14 +72,14 @@ def test_an_over_run_into_the_part_is_a_crossing() -> None:
     assert not verdict.clean
 
 
-def test_a_crossing_of_other_than_the_first_and_the_last_segment_is_no_over_run() -> None:
+def test_a_crossing_without_the_first_segment_is_no_over_run() -> None:
     ell = lines((-1, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4), (0, -1), (-1, -1))
     verdict = judge(ell, Side.RIGHT, R, lines((-1, -R), (-R, -R), (-R, -1)))
     assert verdict.over_run_at is None
     assert verdict.crosses_itself
 
 
-def test_an_over_run_of_arcs_is_lead_in_and_lead_out() -> None:
+def test_arcs_that_over_run_are_lead_in_and_lead_out() -> None:
     leaf = Path.from_pieces(
         [Arc((-1, -0.5), (4, 2), (0.75, 2.25), Turn.CCW), Line((4, 2), (0, 2)), Line((0, 2), (0, -2.5))]
     )
@@ -89,7 +89,7 @@ def test_an_over_run_of_arcs_is_lead_in_and_lead_out() -> None:
     assert verdict.clean
 
 
-def test_inside_square_leaves_a_corner_of_both_walls() -> None:
+def test_the_path_inside_a_square_leaves_each_corner_uncut() -> None:
     verdict = judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH)
     assert verdict.clean
     assert not verdict.crosses_itself
@@ -104,7 +104,7 @@ def test_inside_square_leaves_a_corner_of_both_walls() -> None:
         assert stretch.thickness == pytest.approx((sqrt(2) - 1) * R, abs=1e-9)
 
 
-def test_an_inside_corner_over_start_is_one_stretch() -> None:
+def test_an_uncut_inside_corner_at_the_start_is_one_stretch() -> None:
     verdict = judge(square(), Side.LEFT, R, lines((R, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R)))
     assert [(stretch.first_number, stretch.last_number) for stretch in verdict.uncut] == [
         (1, 2),
@@ -115,21 +115,21 @@ def test_an_inside_corner_over_start_is_one_stretch() -> None:
     assert verdict.uncut[-1].thickest == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
-def test_outside_square_is_clean_and_wholly_cut() -> None:
+def test_the_path_outside_a_square_is_clean_and_cuts_all_of_it() -> None:
     verdict = judge(square(), Side.RIGHT, R, around(CORNERS, R))
     assert verdict.clean
     assert verdict.uncut == ()
     assert verdict.clearance == pytest.approx(R, abs=1e-12)
 
 
-def test_the_plunge_beside_an_inside_corner_gouges_the_other_wall() -> None:
+def test_a_path_that_starts_at_an_inside_corner_gouges_the_other_wall() -> None:
     verdict = judge(square(), Side.LEFT, R, lines((0, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, 0)))
     assert [gouge.depth for gouge in verdict.gouges] == pytest.approx([R, R])
     assert sorted(gouge.surface_number for gouge in verdict.gouges) == [1, 4]
     assert verdict.wrong_side == ()
 
 
-def test_a_gouge_of_an_arc_is_told_to_the_last_digit() -> None:
+def test_the_depth_of_a_gouge_of_an_arc_is_exact() -> None:
     verdict = judge(circle((0.0, 0.0), 2.0), Side.LEFT, 0.5, circle((0.1, 0.0), 1.5))
     (gouge,) = verdict.gouges
     assert gouge.depth == pytest.approx(0.1, abs=1e-12)
@@ -142,27 +142,27 @@ def test_a_gouge_of_an_arc_is_told_to_the_last_digit() -> None:
     assert stretch.thickest == pytest.approx((-2.0, 0.0), abs=1e-3)
 
 
-def test_rounding_is_no_gouge_and_a_thousandth_of_a_micron_more_is_none_either() -> None:
+def test_a_gouge_counts_only_beyond_the_tolerance() -> None:
     wall = lines((0, 0), (10, 0))
     assert judge(wall, Side.LEFT, 1.0, lines((0, 1 - GOUGE * 0.9), (10, 1 - GOUGE * 0.9))).clean
     assert not judge(wall, Side.LEFT, 1.0, lines((0, 1 - GOUGE * 1.1), (10, 1 - GOUGE * 1.1))).clean
 
 
-def test_one_long_gouge_over_several_moves_is_one() -> None:
+def test_a_long_gouge_over_several_moves_is_one_gouge() -> None:
     verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, lines((0, 2), (2, 0.5), (4, 0.25), (6, 0.5), (8, 2)))
     (gouge,) = verdict.gouges
     assert gouge.depth == pytest.approx(0.75)
     assert gouge.at == pytest.approx((4.0, 0.25))
 
 
-def test_a_wall_between_two_moves_is_thickest_in_the_middle() -> None:
+def test_the_uncut_stretch_under_an_arc_is_thickest_in_the_middle() -> None:
     verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, Path.from_pieces([Arc((0, 1), (10, 1), (5, 1), Turn.CW)]))
     (stretch,) = verdict.uncut
     assert stretch.thickest == pytest.approx((5.0, 0.0), abs=1e-6)
     assert stretch.thickness == pytest.approx(sqrt(26) - 1, abs=1e-7)
 
 
-def test_a_path_on_the_part_is_told_however_far_it_is() -> None:
+def test_a_path_on_the_wrong_side_is_reported_at_any_distance() -> None:
     inside = lines((0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5), (0.5, 0.5))
     verdict = judge(square(), Side.RIGHT, 0.5, inside)
     assert verdict.gouges == ()
@@ -173,27 +173,27 @@ def test_a_path_on_the_part_is_told_however_far_it_is() -> None:
     assert judge(square(), Side.LEFT, 0.125, lines((4, 4), (5, 4))).wrong_side == (0,)
 
 
-def test_outside_a_sharp_point_every_direction_is_outside() -> None:
+def test_all_directions_beyond_a_sharp_point_are_outside() -> None:
     needle = lines((0, 0), (10, -0.1), (0, -0.2), (0, 0))
     for y in (-3.0, -0.1, 3.0):
         assert judge(needle, Side.LEFT, 1.0, lines((11.5, y), (13, y))).clean
         assert judge(needle, Side.RIGHT, 1.0, lines((11.5, y), (13, y))).wrong_side == (0,)
 
 
-def test_beyond_the_ends_of_an_open_contour_there_is_no_side() -> None:
+def test_an_open_contour_has_no_side_beyond_its_ends() -> None:
     wall = lines((0, 0), (10, 0))
     assert judge(wall, Side.LEFT, 1.0, lines((-3, -3), (-3, 3))).clean
     assert judge(wall, Side.LEFT, 1.0, lines((0, 1), (10, 1), (14, 1))).clean
     assert judge(wall, Side.LEFT, 1.0, lines((5, -3), (6, -3))).wrong_side == (0,)
 
 
-def test_an_over_run_has_no_side_but_its_walls_have() -> None:
+def test_the_ends_of_an_over_run_have_no_side_but_its_walls_have_one() -> None:
     beside = lines((-0.5, 0.5), (-0.5, 1.5))
     assert judge(OVER_RUN, Side.RIGHT, R, beside).clean
     assert judge(OVER_RUN, Side.RIGHT, R, lines((1.0, 0.5), (1.0, 1.5))).wrong_side == (0,)
 
 
-def test_without_a_path_everything_is_uncut() -> None:
+def test_all_is_uncut_without_a_path() -> None:
     verdict = judge(square(), Side.LEFT, R, EMPTY)
     assert verdict.clearance == inf
     assert verdict.uncut_length == pytest.approx(8.0)
@@ -201,7 +201,7 @@ def test_without_a_path_everything_is_uncut() -> None:
     assert verdict.clean
 
 
-def test_without_a_surface_there_is_nothing_to_judge() -> None:
+def test_nothing_is_found_without_a_surface() -> None:
     verdict = judge(EMPTY, Side.LEFT, R, MID_SIDE_PATH)
     assert verdict.clearance == inf
     assert verdict.uncut == ()
@@ -209,7 +209,7 @@ def test_without_a_surface_there_is_nothing_to_judge() -> None:
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf, 1e300, 1e8])
-def test_what_is_no_length_is_never_clean(bad: float) -> None:
+def test_invalid_lengths_are_never_clean(bad: float) -> None:
     for surface, radius, center in (
         (lines((0, 0), (bad, 0)), R, MID_SIDE_PATH),
         (square(), R, lines((1, 1), (1, bad))),
@@ -222,7 +222,7 @@ def test_what_is_no_length_is_never_clean(bad: float) -> None:
     assert not judge(square(), Side.LEFT, -1.0, MID_SIDE_PATH).clean
 
 
-def test_pieces_without_length_do_no_harm() -> None:
+def test_pieces_without_length_are_ignored() -> None:
     surface = lines((0, 0), (2, 0), (2, 0), (2, 2), (0, 2), (0, 0), (0, 0))
     path = lines((1, R), (1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, 1.75), (R, R), (1, R))
     verdict = judge(surface, Side.LEFT, R, path)
@@ -233,7 +233,7 @@ def test_pieces_without_length_do_no_harm() -> None:
     assert point.depth == pytest.approx(0.15)
 
 
-def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
+def test_the_tolerance_includes_the_radius_difference_of_an_uneven_arc() -> None:
     surface = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.002), (0.0, 0.0), Turn.CCW)])
     assert judge(surface, Side.LEFT, 1.0, path).clean
@@ -242,8 +242,8 @@ def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
 
 @pytest.mark.parametrize("sweep", [5.0, 45.0, 90.0, 180.0, 300.0])
 @pytest.mark.parametrize("difference", [0.002, -0.0127, 0.05])
-def test_the_difference_of_an_uneven_arc_is_granted_once_to_its_offset(sweep: float, difference: float) -> None:
-    """The offset of an uneven arc about the same center is as uneven: it is the radius away everywhere."""
+def test_an_uneven_arc_and_its_offset_share_one_radius_difference(sweep: float, difference: float) -> None:
+    """The offset of an uneven arc about its center is equally uneven: it is the radius away everywhere."""
 
     def spiral(radius: float) -> Path:
         angle, last = np.radians(sweep).item(), radius + difference
@@ -259,13 +259,13 @@ def test_the_difference_of_an_uneven_arc_is_granted_once_to_its_offset(sweep: fl
         assert deep.depth == pytest.approx(1.3 * abs(difference), rel=0.2)
 
 
-def test_uneven_arcs_about_two_centers_are_granted_the_sum_of_their_differences() -> None:
+def test_uneven_arcs_about_two_centers_add_their_radius_differences() -> None:
     wall = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.0, 0.0), (0.5, 8.501), (0.5, 0.0), Turn.CCW)])
     assert judge(wall, Side.LEFT, 1.0, path).radius_slack == pytest.approx(0.003)
 
 
-def test_an_arc_of_two_radii_is_judged_up_to_the_difference_that_is_accepted() -> None:
+def test_an_uneven_arc_is_judged_up_to_the_accepted_radius_difference() -> None:
     wall = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.0), (0.0, 0.0), Turn.CCW)])
     spiral = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.01), (0.0, 0.0), Turn.CCW)])
     refused = judge(wall, Side.LEFT, 1.0, spiral)
@@ -282,7 +282,7 @@ def test_an_arc_of_two_radii_is_judged_up_to_the_difference_that_is_accepted() -
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
 def test_an_uneven_arc_with_both_ends_on_one_ray_is_not_judged(turn: Turn) -> None:
-    """It may be empty or a full circle, which would gouge the wall; where the radii are even it is empty."""
+    """The arc may be empty or a full circle that gouges the wall; with equal radii it is empty."""
     wall = lines((-50, 12), (50, 12))
     for off, beside in ((1e-6, 0.0), (0.001, 0.0), (-0.002, 0.0), (0.001, 1e-8), (0.001, -1e-8)):
         around_it = Path.from_pieces([Arc((10.0, 0.0), (10.0 + off, beside), (0.0, 0.0), turn)])
@@ -290,15 +290,15 @@ def test_an_uneven_arc_with_both_ends_on_one_ray_is_not_judged(turn: Turn) -> No
     assert judge(wall, Side.RIGHT, 3.0, Path.from_pieces([Arc((10.0, 0.0), (10.0, 1e-10), (0.0, 0.0), turn)])).clean
 
 
-def test_far_from_the_origin_rounding_is_still_rounding() -> None:
+def test_rounding_far_from_the_origin_is_no_gouge() -> None:
     shift = (6.0e6, -3.0e6)
     verdict = judge(moved(MID_SIDE, 0.0, shift), Side.LEFT, R, moved(MID_SIDE_PATH, 0.0, shift))
     assert verdict.clean
     assert verdict.uncut_length == pytest.approx(8 * R, abs=1e-3)
 
 
-def test_a_ring_of_ten_thousand_teeth_is_as_right_as_a_small_one() -> None:
-    """Long arcs of a large radius and short ones, too many to compare all with all."""
+def test_a_ring_of_ten_thousand_pieces_is_judged_exactly() -> None:
+    """The ring has too many pieces to compare all with all."""
     teeth, radius, depth = 2500, 1000.0, 0.6
     angle = np.linspace(0.0, 2 * pi, 2 * teeth + 1)
     size = np.where(np.arange(2 * teeth) % 2, radius, radius + depth)
@@ -321,20 +321,20 @@ def test_a_ring_of_ten_thousand_teeth_is_as_right_as_a_small_one() -> None:
 
 
 def test_loops_that_are_cut_together_share_one_verdict() -> None:
-    """Two pockets' loops: each leaves the other's wall uncut alone, both together leave nothing."""
+    """Each half loop alone leaves the other half of the wall uncut; both together leave nothing."""
     ring = Path.from_pieces([Arc((0, -1), (0, -1), (0, 0), Turn.CCW)])
-    half = [
+    halves = [
         Path.from_pieces([Arc((0, -0.75), (0, 0.75), (0, 0), Turn.CCW)]),
         Path.from_pieces([Arc((0, 0.75), (0, -0.75), (0, 0), Turn.CCW)]),
     ]
-    alone = [judge(ring, Side.LEFT, 0.25, one) for one in half]
-    together = judge_together(ring, Side.LEFT, 0.25, half)
+    alone = [judge(ring, Side.LEFT, 0.25, loop) for loop in halves]
+    together = judge_together(ring, Side.LEFT, 0.25, halves)
     assert all(verdict.uncut_length == pytest.approx(pi, abs=1e-6) for verdict in alone)
     assert together.clean
     assert together.uncut == ()
 
 
-def test_a_gouge_of_the_second_loop_counts_on() -> None:
+def test_piece_numbers_of_gouges_continue_in_the_second_loop() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     loops = [Path.from_pieces([Line((0, 1), (4, 1))]), Path.from_pieces([Line((5, 0.5), (9, 0.5))], [7.0])]
     (gouge,) = judge_together(wall, Side.LEFT, 1.0, loops).gouges
@@ -343,8 +343,8 @@ def test_a_gouge_of_the_second_loop_counts_on() -> None:
 
 
 @pytest.mark.parametrize("surface", [square(20.0), lines((0, 40), (0, 0), (40, 0))])
-def test_a_gouge_at_a_loops_end_and_one_where_the_next_begins_are_two(surface: Path) -> None:
-    """The first ends 1 behind the left wall, the second begins 2.9 behind it: all of the cutter gets behind there."""
+def test_gouges_at_the_end_of_a_loop_and_the_start_of_the_next_are_two(surface: Path) -> None:
+    """The first loop ends 1 behind the left wall; the second begins 2.9 behind it, with all of the cutter."""
     first, second = lines((-6, 5), (1, 5)), lines((2.9, 12), (10, 12))
     verdict = judge_together(surface, Side.RIGHT, 3.0, (first, second))
     assert [gouge.path_piece for gouge in verdict.gouges] == [1, 0]
@@ -354,7 +354,7 @@ def test_a_gouge_at_a_loops_end_and_one_where_the_next_begins_are_two(surface: P
     assert [gouge.depth for gouge in alone.gouges] == pytest.approx([4.0])
 
 
-def test_a_gouge_over_a_loops_start_is_one_however_many_loops_there_are() -> None:
+def test_a_gouge_across_the_start_of_a_loop_is_one_gouge() -> None:
     wall = lines((-20, 0), (20, 0))
     loops = [lines((x, 0.5), (x + 2, 3), (x - 2, 3), (x, 0.5)) for x in (-8, 0, 8)]
     alone = [judge(wall, Side.LEFT, 1.0, loop).gouges for loop in loops]
@@ -364,7 +364,7 @@ def test_a_gouge_over_a_loops_start_is_one_however_many_loops_there_are() -> Non
     assert [gouge.path_piece for gouge in together] == [0, 3, 6]
 
 
-def test_no_loop_at_all_leaves_everything() -> None:
+def test_all_is_uncut_without_a_loop() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     assert judge_together(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
 
@@ -375,7 +375,7 @@ def test_loops_that_cannot_be_judged_are_never_clean() -> None:
     assert not judge_together(wall, Side.LEFT, 1.0, [Path.from_pieces([Line((0, 1), (10, 1))]), lost]).clean
 
 
-def test_pieces_of_several_loops_are_counted_with_those_that_have_no_length() -> None:
+def test_piece_numbers_of_several_loops_count_pieces_without_length() -> None:
     still = lines((1, 1), (1, 1), (1.2, 1))
     verdict = judge_together(square(), Side.LEFT, R, (still, lines((1, 1), (1, 0.1))))
     assert [gouge.path_piece for gouge in verdict.gouges] == [2]
