@@ -1,4 +1,4 @@
-"""What the fields of a block leave blank, say without effect, or put too low."""
+"""Findings on the fields of a block that are blank, without effect, or too low."""
 
 from dataclasses import replace
 
@@ -23,14 +23,14 @@ from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
 
 
-def told(part, code):
+def findings_of(part, code):
     (typed,) = part.blocks
     findings = (*shared_findings(part), *field_findings(typed, solve_block(typed, part), part))
     return [(finding, sentence(finding, part.unit)) for finding in findings if finding.code == code]
 
 
 def fed(*feeds, plunge=5.0):
-    """A contour whose segments have these feeds, None for blank."""
+    """A contour with these feeds, None for a blank one."""
     segments = tuple(
         LineSegment(x_end=Number(float(x)), y_end=Number(0.0), feed=None if feed is None else Number(feed))
         for x, feed in enumerate(feeds, 1)
@@ -40,7 +40,7 @@ def fed(*feeds, plunge=5.0):
 
 
 @pytest.mark.parametrize(
-    ("feeds", "who"),
+    ("feeds", "subject"),
     [
         ((None, None, None), "the contour is"),
         ((None,), "the contour is"),
@@ -48,50 +48,50 @@ def fed(*feeds, plunge=5.0):
         ((None, None, 8.0), "segments 1 to 2 are"),
     ],
 )
-def test_a_contour_that_is_milled_with_the_plunge_feed_is_told_so(feeds, who):
-    ((one, text),) = told(fed(*feeds), "PLUNGE_FED")
-    assert (one.severity, one.segment, one.field) == (Severity.WARNING, 1, "feed")
-    assert text == f"FEED is blank: {who} cut at PLUNGE FEED 5.0. Enter FEED."
+def test_cutting_at_the_plunge_feed_is_reported(feeds, subject):
+    ((finding, text),) = findings_of(fed(*feeds), "PLUNGE_FED")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.WARNING, 1, "feed")
+    assert text == f"FEED is blank: {subject} cut at PLUNGE FEED 5.0. Enter FEED."
 
 
-def test_the_plunge_feed_is_told_in_the_programs_unit():
-    ((_, text),) = told(replace(fed(None, plunge=500.0), unit=Unit.MM), "PLUNGE_FED")
+def test_the_plunge_feed_is_shown_in_program_units():
+    ((_, text),) = findings_of(replace(fed(None, plunge=500.0), unit=Unit.MM), "PLUNGE_FED")
     assert "PLUNGE FEED 500.0." in text
 
 
 @pytest.mark.parametrize("part", [fed(8.0, None), fed(), fed(None, plunge=None)])
-def test_nothing_is_told_of_a_typed_feed_nor_of_one_that_nothing_determines(part):
-    assert told(part, "PLUNGE_FED") == []
+def test_a_typed_or_unknown_feed_is_not_reported(part):
+    assert findings_of(part, "PLUNGE_FED") == []
 
 
 @pytest.mark.parametrize("proposed", [12.0, None])
-def test_a_blank_feed_that_the_tool_table_fills_is_no_plunge_feed(proposed):
+def test_a_blank_feed_that_the_tool_table_fills_is_not_reported(proposed):
     part = fed(None, None)
     feed = None if proposed is None else Number(proposed)
     tools = tuple(replace(tool, feed=feed) for tool in part.tools)
-    assert bool(told(replace(part, tools=tools), "PLUNGE_FED")) == (proposed is None)
+    assert bool(findings_of(replace(part, tools=tools), "PLUNGE_FED")) == (proposed is None)
 
 
-def test_a_feed_that_cannot_be_read_is_an_error_and_no_blank():
+def test_an_unreadable_feed_is_not_reported_as_blank():
     part = fed(8.0)
-    (one,) = part.blocks
-    unread = replace(one.segments[0], feed=Unread("x", "no number"))
-    assert told(replace(part, blocks=(replace(one, segments=(unread,)),)), "PLUNGE_FED") == []
+    (typed,) = part.blocks
+    unread = replace(typed.segments[0], feed=Unread("x", "no number"))
+    assert findings_of(replace(part, blocks=(replace(typed, segments=(unread,)),)), "PLUNGE_FED") == []
 
 
-def test_a_segment_that_is_still_being_typed_is_not_told_of_its_feed():
+def test_the_blank_feed_of_an_empty_segment_is_not_reported():
     part = fed(None)
-    (one,) = part.blocks
-    assert told(replace(part, blocks=(replace(one, segments=(LineSegment(),)),)), "PLUNGE_FED") == []
+    (typed,) = part.blocks
+    assert findings_of(replace(part, blocks=(replace(typed, segments=(LineSegment(),)),)), "PLUNGE_FED") == []
 
 
 @pytest.mark.parametrize(("name", "label"), [("finish_xy", "FINISH XY"), ("finish_z", "FINISH Z")])
 @pytest.mark.parametrize("number", [None, Number(0.0)])
-def test_a_finish_allowance_without_a_finish_tool_is_told(name, label, number):
+def test_a_finish_allowance_without_a_finish_tool_is_reported(name, label, number):
     parameters = changed(ProgramParameters(), {name: Number(2.6)})
     part = program(block(NOTCH, CutterComp.LEFT, finish_tool=number), parameters=parameters)
-    ((one, text),) = told(part, "NOT_LEFT")
-    assert (one.severity, one.segment, one.field) == (Severity.WARNING, 0, "finish_tool")
+    ((finding, text),) = findings_of(part, "NOT_LEFT")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.WARNING, 0, "finish_tool")
     assert text == (
         f"{label} 2.6000 has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         "on PROGRAM PARAMETERS."
@@ -101,9 +101,11 @@ def test_a_finish_allowance_without_a_finish_tool_is_told(name, label, number):
 @pytest.mark.parametrize(
     ("tool", "allowance"), [(Number(2.0), Number(0.1)), (Number(0.0), Number(0.0)), (Number(0.0), None), (None, None)]
 )
-def test_nothing_is_told_of_an_allowance_that_is_left_or_that_is_none(tool, allowance):
+def test_a_finish_allowance_is_not_reported_if_it_is_zero_or_has_a_tool(tool, allowance):
     parameters = ProgramParameters(finish_xy=allowance, finish_z=allowance)
-    assert told(program(block(NOTCH, CutterComp.LEFT, finish_tool=tool), parameters=parameters), "NOT_LEFT") == []
+    assert (
+        findings_of(program(block(NOTCH, CutterComp.LEFT, finish_tool=tool), parameters=parameters), "NOT_LEFT") == []
+    )
 
 
 def pecked(clearance, peck=0.1, unit=Unit.IN):
@@ -116,9 +118,9 @@ def pecked(clearance, peck=0.1, unit=Unit.IN):
 
 
 @pytest.mark.parametrize("clearance", [0.0, -0.0, 0.00004])
-def test_a_rapid_onto_the_floor_just_cut_is_told(clearance):
-    ((one, text),) = told(pecked(clearance), "NO_CLEARANCE")
-    assert (one.severity, one.segment, one.field) == (Severity.WARNING, None, "peck_clearance")
+def test_a_rapid_down_to_the_last_floor_is_reported(clearance):
+    ((finding, text),) = findings_of(pecked(clearance), "NO_CLEARANCE")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.WARNING, None, "peck_clearance")
     assert text == (
         "PECK CLEARANCE is 0.0000: between pecks it rapids right to the last floor. "
         "Enter PECK CLEARANCE on PROGRAM PARAMETERS."
@@ -144,14 +146,14 @@ def test_a_rapid_onto_the_floor_just_cut_is_told(clearance):
         ),
     ],
 )
-def test_nothing_is_told_where_no_rapid_comes_down_onto_a_floor(part):
-    assert told(part, "NO_CLEARANCE") == []
+def test_pecks_without_a_rapid_down_to_the_floor_are_not_reported(part):
+    assert findings_of(part, "NO_CLEARANCE") == []
 
 
-def test_a_retract_clearance_that_a_field_shows_as_nothing_is_told():
+def test_a_retract_clearance_that_shows_as_zero_is_reported():
     part = replace(pecked(0.1, unit=Unit.MM), parameters=ProgramParameters(retract_clearance=Number(0.0004)))
-    ((one, text),) = told(part, "NO_CLEARANCE")
-    assert (one.severity, one.field) == (Severity.WARNING, "retract_clearance")
+    ((finding, text),) = findings_of(part, "NO_CLEARANCE")
+    assert (finding.severity, finding.field) == (Severity.WARNING, "retract_clearance")
     assert text == (
         "RETRACT CLEARANCE is 0.000: the tool rapids right to the top of the stock. "
         "Enter RETRACT CLEARANCE on PROGRAM PARAMETERS."
@@ -159,12 +161,12 @@ def test_a_retract_clearance_that_a_field_shows_as_nothing_is_told():
 
 
 @pytest.mark.parametrize("clearance", [0.0, -0.1])
-def test_no_retract_clearance_and_one_below_zero_are_refused_in_the_same_words(clearance):
+def test_a_zero_or_negative_retract_clearance_is_an_error(clearance):
     part = replace(pecked(0.05), parameters=ProgramParameters(retract_clearance=Number(clearance)))
-    ((one, text),) = told(part, "OUT_OF_RANGE")
-    assert (one.severity, one.field) == (Severity.ERROR, "retract_clearance")
+    ((finding, text),) = findings_of(part, "OUT_OF_RANGE")
+    assert (finding.severity, finding.field) == (Severity.ERROR, "retract_clearance")
     assert text == "PROGRAM PARAMETERS: RETRACT CLEARANCE must be above 0, at most 10000."
-    assert told(part, "NO_CLEARANCE") == []
+    assert findings_of(part, "NO_CLEARANCE") == []
 
 
 def profiled(comp, offset, finish_xy=None, **changes):
@@ -174,19 +176,19 @@ def profiled(comp, offset, finish_xy=None, **changes):
 
 @pytest.mark.parametrize(("comp", "plain"), [(CutterComp.PROFILE_LEFT, "LEFT"), (CutterComp.PROFILE_RIGHT, "RIGHT")])
 @pytest.mark.parametrize("offset", [None, Number(0.0)])
-def test_a_profile_without_max_offset_is_told_to_be_one_pass(comp, plain, offset):
-    ((one, text),) = told(profiled(comp, offset), "ONE_PASS")
-    assert (one.severity, one.segment, one.field) == (Severity.WARNING, 0, "cutter_comp")
+def test_a_profile_without_max_offset_is_reported_as_one_pass(comp, plain, offset):
+    ((finding, text),) = findings_of(profiled(comp, offset), "ONE_PASS")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.WARNING, 0, "cutter_comp")
     assert text == (
         f"MAX OFFSET is 0.0000: PROFILE {plain} makes one pass, the same as {plain}. "
         f"Enter MAX OFFSET on PROGRAM PARAMETERS, or {plain} in CUTTER COMP."
     )
 
 
-def test_a_profile_whose_finish_allowance_is_all_of_max_offset_is_told():
+def test_a_max_offset_no_larger_than_finish_xy_is_reported():
     part = profiled(CutterComp.PROFILE_LEFT, Number(0.1), Number(0.1), finish_tool=Number(2))
-    ((one, text),) = told(part, "ONE_PASS")
-    assert one.severity is Severity.WARNING
+    ((finding, text),) = findings_of(part, "ONE_PASS")
+    assert finding.severity is Severity.WARNING
     assert text == (
         "MAX OFFSET 0.1000 is no more than FINISH XY 0.1000: PROFILE LEFT makes one roughing pass, the same as LEFT. "
         "Enter a larger MAX OFFSET on PROGRAM PARAMETERS, or LEFT in CUTTER COMP."
@@ -205,8 +207,8 @@ def test_a_profile_whose_finish_allowance_is_all_of_max_offset_is_told():
         profiled(CutterComp.ON, None),
     ],
 )
-def test_nothing_is_told_of_a_profile_in_several_passes_and_where_there_is_none(part):
-    assert told(part, "ONE_PASS") == []
+def test_a_profile_in_several_passes_or_no_profile_is_not_reported(part):
+    assert findings_of(part, "ONE_PASS") == []
 
 
 def alone(segment, comp=CutterComp.LEFT):
@@ -219,10 +221,10 @@ ARC = ArcSegment(x_center=Number(0.0), y_center=Number(1.0), feed=Number(8.0))
 
 @pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT])
 @pytest.mark.parametrize("segment", [LINE, replace(ARC, sweep=Number(90.0))])
-def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
-    ((one, text),) = told(alone(segment, comp), "ONE_SEGMENT")
+def test_a_contour_of_one_segment_is_reported_as_an_open_path(segment, comp):
+    ((finding, text),) = findings_of(alone(segment, comp), "ONE_SEGMENT")
     x, y = (2.0, 1.0) if segment is LINE else (-1.0, 1.0)
-    assert (one.severity, one.segment) == (Severity.INFO, 1)
+    assert (finding.severity, finding.segment) == (Severity.INFO, 1)
     assert text == (
         f"The contour is one segment: an open path from START to X {x:.4f} Y {y:.4f}. "
         "Right arrow or Page Down on SEGMENT adds the next one."
@@ -240,21 +242,21 @@ def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
         fed(),
     ],
 )
-def test_a_full_circle_is_a_closed_contour_and_what_is_not_known_yet_is_told_by_itself(part):
-    assert told(part, "ONE_SEGMENT") == []
+def test_a_closed_or_unknown_contour_is_not_reported_as_an_open_path(part):
+    assert findings_of(part, "ONE_SEGMENT") == []
 
 
-def test_a_lone_line_with_only_its_x_end_is_an_open_path_that_keeps_y():
-    ((_, text),) = told(alone(LineSegment(x_end=Number(2.0))), "ONE_SEGMENT")
+def test_a_single_line_with_only_its_x_end_is_an_open_path_that_keeps_y():
+    ((_, text),) = findings_of(alone(LineSegment(x_end=Number(2.0))), "ONE_SEGMENT")
     assert "an open path from START to X 2.0000 Y 0.0000." in text
 
 
 def test_segments_without_length_do_not_count():
     part = alone(LINE)
-    (one,) = part.blocks
-    nothing = LineSegment(x_end=Number(2.0), y_end=Number(1.0))
-    ((found, _),) = told(replace(part, blocks=(replace(one, segments=(LINE, nothing)),)), "ONE_SEGMENT")
-    assert found.segment == 1
+    (typed,) = part.blocks
+    zero = LineSegment(x_end=Number(2.0), y_end=Number(1.0))
+    ((finding, _),) = findings_of(replace(part, blocks=(replace(typed, segments=(LINE, zero)),)), "ONE_SEGMENT")
+    assert finding.segment == 1
 
 
 POINT = LineSegment(x_end=Number(0.0), y_end=Number(0.0))
@@ -264,46 +266,48 @@ POINT = LineSegment(x_end=Number(0.0), y_end=Number(0.0))
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_contour_without_any_length_is_an_error(count, comp):
     part = alone(POINT, comp)
-    (one,) = part.blocks
-    ((found, text),) = told(replace(part, blocks=(replace(one, segments=(POINT,) * count),)), "NO_LENGTH")
-    assert (found.severity, found.segment, found.field, found.at) == (Severity.ERROR, 1, "x_end", (0.0, 0.0))
+    (typed,) = part.blocks
+    ((finding, text),) = findings_of(replace(part, blocks=(replace(typed, segments=(POINT,) * count),)), "NO_LENGTH")
+    assert (finding.severity, finding.segment, finding.field, finding.at) == (Severity.ERROR, 1, "x_end", (0.0, 0.0))
     assert text == "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
 
 
 @pytest.mark.parametrize("segments", [(), (POINT, LINE), (LINE, POINT), (POINT, LineSegment(x_end=Number(1.0)))])
-def test_a_contour_that_has_a_length_or_may_get_one_is_no_point(segments):
+def test_a_contour_with_a_known_or_possible_length_is_no_error(segments):
     part = alone(POINT)
-    (one,) = part.blocks
-    assert told(replace(part, blocks=(replace(one, segments=segments),)), "NO_LENGTH") == []
+    (typed,) = part.blocks
+    assert findings_of(replace(part, blocks=(replace(typed, segments=segments),)), "NO_LENGTH") == []
 
 
-def safe_z_told(safe, *, z_start=0.0, retract=None):
-    one = replace(block(MID_SIDE_SQUARE, CutterComp.LEFT), z_start=Number(z_start))
-    part = replace(program(one), setup=PartSetup(safe_z=safe), parameters=ProgramParameters(retract_clearance=retract))
-    return [(finding.severity, finding.field, text) for finding, text in told(part, "SAFE_Z")]
+def safe_z_findings(safe, *, z_start=0.0, retract=None):
+    typed = replace(block(MID_SIDE_SQUARE, CutterComp.LEFT), z_start=Number(z_start))
+    part = replace(
+        program(typed), setup=PartSetup(safe_z=safe), parameters=ProgramParameters(retract_clearance=retract)
+    )
+    return [(finding.severity, finding.field, text) for finding, text in findings_of(part, "SAFE_Z")]
 
 
 @pytest.mark.parametrize("safe", [Number(-1.0), Number(0.0999)])
 def test_a_safe_z_in_the_part_or_below_the_clearance_is_a_warning(safe):
-    ((severity, field, text),) = safe_z_told(safe)
+    ((severity, field, text),) = safe_z_findings(safe)
     assert (severity, field) == (Severity.WARNING, "safe_z")
     assert text.startswith(f"SAFE Z {safe.value:.4f} is below Z 0.1000, RETRACT CLEARANCE 0.1000 over Z START 0.0000:")
     assert "0.1000 instead" in text
 
 
-def test_the_usual_safe_z_is_told_when_z_start_is_above_it():
-    ((severity, _, text),) = safe_z_told(None, z_start=2.0)
+def test_a_default_safe_z_below_z_start_is_reported():
+    ((severity, _, text),) = safe_z_findings(None, z_start=2.0)
     assert severity is Severity.INFO
     assert text.startswith("SAFE Z 1.0000 is below Z 2.1000")
 
 
 @pytest.mark.parametrize("safe", [None, Number(0.1), Unread("x", "no number"), Number(1e300)])
-def test_nothing_is_told_of_one_that_is_high_enough_or_refused(safe):
-    assert safe_z_told(safe) == []
+def test_a_safe_z_that_is_high_enough_or_refused_is_not_reported(safe):
+    assert safe_z_findings(safe) == []
 
 
-def test_nothing_is_told_where_the_clearance_is_refused():
-    assert safe_z_told(Number(-1.0), retract=Unread("x", "no number")) == []
+def test_safe_z_is_not_reported_if_the_clearance_is_refused():
+    assert safe_z_findings(Number(-1.0), retract=Unread("x", "no number")) == []
 
 
 @pytest.mark.parametrize(
@@ -317,38 +321,38 @@ def test_a_z_end_outside_the_block_is_an_error_that_names_the_range(height, expe
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
     steep = changed(typed.segments[1], {"z_end": Number(height)})
     part = program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))
-    ((finding, text),) = told(part, "Z_END")
+    ((finding, text),) = findings_of(part, "Z_END")
     assert (finding.severity, finding.segment, finding.field) == (Severity.ERROR, 2.0, "z_end")
     assert text == expected
 
 
-def test_z_ends_at_the_top_and_at_the_bottom_are_in_order():
+def test_z_ends_at_the_top_and_at_the_bottom_are_accepted():
     segments = tuple(
         LineSegment(x_end=Number(x), y_end=Number(0.0), z_end=Number(z)) for x, z in ((1.0, 0.0), (2.0, -0.25))
     )
-    assert told(program(replace(block(NOTCH, CutterComp.LEFT), segments=segments)), "Z_END") == []
+    assert findings_of(program(replace(block(NOTCH, CutterComp.LEFT), segments=segments)), "Z_END") == []
 
 
-def test_a_typed_look_ahead_is_told_with_the_calculated_one():
+def test_the_warning_of_a_typed_look_ahead_names_the_calculated_one():
     warning = typed_lookahead_warning(4, 8)
     assert (warning.code, warning.severity, warning.field) == ("USR_LOOKAHEAD", Severity.WARNING, "lookahead")
     assert warning.text == "USR 4 in force, CAL is 8. F3 goes back to CAL."
 
 
-def test_a_finish_tool_for_which_nothing_is_left_is_told():
+def test_a_finish_tool_without_an_allowance_is_reported():
     def part(**allowances):
         parameters = ProgramParameters(**allowances)
         return program(block(NOTCH, CutterComp.LEFT, finish_tool=Number(1)), parameters=parameters)
 
-    ((one, _),) = told(part(), "NOTHING_LEFT")
-    assert (one.severity, one.field) == (Severity.INFO, "finish_tool")
-    assert not told(part(finish_xy=Number(0.02)), "NOTHING_LEFT")
-    assert not told(part(finish_z=Number(0.02)), "NOTHING_LEFT")
-    assert not told(program(block(NOTCH, CutterComp.LEFT)), "NOTHING_LEFT")
+    ((finding, _),) = findings_of(part(), "NOTHING_LEFT")
+    assert (finding.severity, finding.field) == (Severity.INFO, "finish_tool")
+    assert not findings_of(part(finish_xy=Number(0.02)), "NOTHING_LEFT")
+    assert not findings_of(part(finish_z=Number(0.02)), "NOTHING_LEFT")
+    assert not findings_of(program(block(NOTCH, CutterComp.LEFT)), "NOTHING_LEFT")
 
 
 def test_a_smaller_finish_tool_without_allowance_still_cuts_the_corners():
     part = program(block(NOTCH, CutterComp.LEFT, finish_tool=Number(9)))
     for diameter, count in ((0.1, 0), (5.0, 1)):
         tools = (*part.tools, Tool(9, "END MILL", Number(diameter)))
-        assert len(told(replace(part, tools=tools), "NOTHING_LEFT")) == count
+        assert len(findings_of(replace(part, tools=tools), "NOTHING_LEFT")) == count

@@ -1,4 +1,4 @@
-"""LinuxCNC against its own interpreter, and its modal machine by hand."""
+"""The LinuxCNC control against the rs274 interpreter and against hand calculations."""
 
 from __future__ import annotations
 
@@ -29,32 +29,34 @@ DIAMETERS = {1: 0.5, 2: 0.25}
 
 
 @needs_witness
-def test_random_programs_run_or_are_refused_as_by_the_interpreter_itself(tmp_path: Path) -> None:
-    fared = {name: outcome(text, tmp_path) for name, text in programs(360)}
-    wrong = {name: what for name, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
+def test_random_programs_match_the_interpreter(tmp_path: Path) -> None:
+    results = {name: outcome(text, tmp_path) for name, text in programs(360)}
+    wrong = {
+        name: result for name, result in results.items() if not result[0].startswith(("same moves", "both refuse"))
+    }
     assert not wrong
-    assert sum(what[0] == "same moves" for what in fared.values()) >= 200
+    assert sum(result[0] == "same moves" for result in results.values()) >= 200
 
 
 @needs_witness
 @pytest.mark.skipif(not SAMPLES.is_dir(), reason="LinuxCNC's sample programs are not installed")
 @pytest.mark.parametrize("name", [name for name, why in COMPENSATED.items() if not why])
-def test_the_samples_of_the_distribution_run_alike(name: str, tmp_path: Path) -> None:
-    fared, apart = sample_outcome(sample(name), tmp_path)
-    assert fared.startswith(("same moves", "both refuse")), apart
+def test_the_sample_programs_of_linuxcnc_match_the_interpreter(name: str, tmp_path: Path) -> None:
+    result, apart = sample_outcome(sample(name), tmp_path)
+    assert result.startswith(("same moves", "both refuse")), apart
 
 
 @needs_witness
 @pytest.mark.skipif(not SAMPLES.is_dir(), reason="LinuxCNC's sample programs are not installed")
 @pytest.mark.parametrize("name", LIBRARY)
-def test_the_library_of_the_distribution_runs_alike(name: str, tmp_path: Path) -> None:
-    fared, apart = sample_outcome(called(name), tmp_path)
-    assert fared.startswith(("same moves", "both refuse")), apart
+def test_the_subprogram_library_of_linuxcnc_matches_the_interpreter(name: str, tmp_path: Path) -> None:
+    result, apart = sample_outcome(called(name), tmp_path)
+    assert result.startswith(("same moves", "both refuse")), apart
 
 
 @needs_witness
 @pytest.mark.parametrize("head", ["T1 M6\n", "T2 M6\n", "", "T1 M6\nT2\n"])
-def test_d0_is_the_tool_in_the_spindle(head: str, tmp_path: Path) -> None:
+def test_d0_selects_the_tool_in_the_spindle(head: str, tmp_path: Path) -> None:
     text = f"G20 F9\n{head}G0 X-1 Y-1\nG1 G41 D0 X0 Y-.6\nY2\nX2\nY-1\nG40 X4\nM2\n"
     assert outcome(text, tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
     if head:
@@ -80,7 +82,7 @@ M2
 
 @needs_witness
 @pytest.mark.parametrize("orientation", range(10))
-def test_a_lathe_tool_s_orientation_shifts_its_moves(orientation: int, tmp_path: Path) -> None:
+def test_the_orientation_of_a_lathe_tool_shifts_its_moves(orientation: int, tmp_path: Path) -> None:
     text, table = tmp_path / "p.ngc", tmp_path / "t.tbl"
     text.write_text(LATHE.format(tool=1))
     table.write_text(f"T1 P1 D.1 Z0 Q{orientation}\n")
@@ -94,7 +96,7 @@ def test_a_lathe_tool_s_orientation_shifts_its_moves(orientation: int, tmp_path:
 
 @needs_witness
 @pytest.mark.parametrize("name", MODAL)
-def test_the_modal_machine_moves_as_the_interpreter_itself(name: str, tmp_path: Path) -> None:
+def test_modal_programs_match_the_interpreter(name: str, tmp_path: Path) -> None:
     theirs = witness(MODAL[name], tmp_path, DIAMETERS, Unit.IN)
     ours = ran(MODAL[name], "linuxcnc", t1=0.5, t2=0.25)
     assert not theirs.refusal
@@ -104,37 +106,41 @@ def test_the_modal_machine_moves_as_the_interpreter_itself(name: str, tmp_path: 
 
 @needs_witness
 @pytest.mark.parametrize("frame", ["between compensated moves", "with its end"])  # the others are in compare_rs274
-def test_every_code_fares_around_compensation_as_with_the_interpreter_itself(frame: str, tmp_path: Path) -> None:
-    fared = {code: outcome(FRAMES[frame].format(code), tmp_path, DIAMETERS, Unit.IN) for code in CODES}
-    assert not {code: what for code, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
+def test_every_code_near_compensation_matches_the_interpreter(frame: str, tmp_path: Path) -> None:
+    results = {code: outcome(FRAMES[frame].format(code), tmp_path, DIAMETERS, Unit.IN) for code in CODES}
+    assert not {
+        code: result for code, result in results.items() if not result[0].startswith(("same moves", "both refuse"))
+    }
 
 
 @needs_witness
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_stops_tool_data_and_shifts_move_as_with_the_interpreter_itself(name: str, tmp_path: Path) -> None:
-    fared, apart = outcome(whole(PROGRAMS[name]), tmp_path, DIAMETERS, Unit.IN)
-    assert fared.startswith("same moves" if name != _REFUSED_TOO else "both refuse"), apart
+def test_stops_tool_data_and_shifts_match_the_interpreter(name: str, tmp_path: Path) -> None:
+    result, apart = outcome(whole(PROGRAMS[name]), tmp_path, DIAMETERS, Unit.IN)
+    assert result.startswith("same moves" if name != _REFUSED_BY_BOTH else "both refuse"), apart
 
 
 @needs_witness
-def test_random_stops_move_as_with_the_interpreter_itself_or_are_refused(tmp_path: Path) -> None:
-    fared = {seed: outcome(stopped(seed), tmp_path) for seed in range(60)}
+def test_random_stops_match_the_interpreter_or_are_refused(tmp_path: Path) -> None:
+    results = {seed: outcome(stopped(seed), tmp_path) for seed in range(60)}
     accepted = ("same moves", "both refuse")
     assert not {
-        seed: what for seed, what in fared.items() if not what[0].startswith(accepted) and what[1] != ARC_RUN_AT_STOP
+        seed: result
+        for seed, result in results.items()
+        if not result[0].startswith(accepted) and result[1] != ARC_RUN_AT_STOP
     }
-    assert sum(what[0] == "same moves" for what in fared.values()) >= 25
+    assert sum(result[0] == "same moves" for result in results.values()) >= 25
 
 
-_REFUSED_TOO = "a stop before a tangent move that is too short"
+_REFUSED_BY_BOTH = "a stop before a tangent move that is too short"
 
 
 @needs_witness
 @pytest.mark.parametrize("code", EXPLAINED)
-def test_a_difference_that_is_explained_is_one(code: str, tmp_path: Path) -> None:
-    fared, _ = outcome(FRAMES["before the entry"].format(code), tmp_path, DIAMETERS, Unit.IN)
-    other, _ = outcome(FRAMES["after compensation"].format(code), tmp_path, DIAMETERS, Unit.IN)
-    assert fared.startswith("only") or other.startswith("only")
+def test_every_explained_difference_exists(code: str, tmp_path: Path) -> None:
+    before, _ = outcome(FRAMES["before the entry"].format(code), tmp_path, DIAMETERS, Unit.IN)
+    after, _ = outcome(FRAMES["after compensation"].format(code), tmp_path, DIAMETERS, Unit.IN)
+    assert before.startswith("only") or after.startswith("only")
 
 
 WORK_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
@@ -147,7 +153,7 @@ WORK_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59
         *((code, "N-OFFSETS") for code in WORK_OFFSETS),
     ],
 )
-def test_what_compensation_refuses_names_its_rule_and_g40(code: str, rule: str) -> None:
+def test_a_code_refused_under_compensation_names_its_rule_and_g40(code: str, rule: str) -> None:
     run = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
     (finding,) = findings_of(run, rule)
     assert (finding.line, run.stopped_at) == (7, 7)
@@ -159,17 +165,17 @@ def test_a_shift_that_compensation_ignores_is_a_warning() -> None:
 
 
 def test_m61_sets_the_tool_whose_radius_counts_without_d() -> None:
-    """The interpreter alone, which has no spindle, keeps the tool before; the manual says that M61 sets it."""
+    """The stand-alone interpreter has no spindle and keeps the previous tool; the manual says that M61 sets it."""
     run = ran("G20 F9\nT1 M6\nM61 Q2\nG41\nG1 X1\nX3\nG40\nX4\nM2\n", "linuxcnc", t1=0.5, t2=0.25)
     assert same(shape(run)[:1], [("line", 1, 0.125)])
 
 
 @pytest.mark.parametrize(("line", "rule"), [("M61", "N-WORDALONE"), ("M61 Q-1", "N-WORDALONE"), ("M61 Q9", "TOOL")])
 def test_m61_without_a_tool_of_the_table_is_refused(line: str, rule: str) -> None:
-    assert [one.line for one in findings_of(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
+    assert [finding.line for finding in findings_of(ran(f"G20 F9\n{line}\nM2\n", "linuxcnc", t1=0.5), rule)] == [2]
 
 
-def test_a_machines_m_code_is_taken_as_moving_nothing_and_said() -> None:
+def test_an_m_code_of_the_machine_is_reported() -> None:
     assert findings_of(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
 
 
@@ -202,7 +208,7 @@ REFUSED = {
 
 @needs_witness
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_the_interpreter_refuses_is_refused_or_warned_of(name: str, tmp_path: Path) -> None:
+def test_a_program_that_the_interpreter_refuses_is_refused_or_reported(name: str, tmp_path: Path) -> None:
     assert witness(REFUSED[name], tmp_path, DIAMETERS, Unit.IN).refusal
     ours = ran(REFUSED[name], "linuxcnc", t1=0.5)
     assert ours.stopped_at is not None or findings_of(ours, "END")
@@ -212,31 +218,31 @@ M_PAIRS = list(combinations(["M0", "M30", "M60", "M3", "M5", "M19", "M7", "M8", 
 
 
 @needs_witness
-def test_m_codes_of_one_group_are_refused_as_by_the_interpreter_itself(tmp_path: Path) -> None:
-    blocks = [f"{one} {other}" for one, other in M_PAIRS] + ["M3 M8 M48 M62 P1", "M3 M8 M48 M62 P1 M0"]
+def test_m_codes_of_one_group_match_the_interpreter(tmp_path: Path) -> None:
+    blocks = [f"{first} {second}" for first, second in M_PAIRS] + ["M3 M8 M48 M62 P1", "M3 M8 M48 M62 P1 M0"]
     blocks += ["F-3", "S-5", "G4 P-1", "N-1"]
     refused = 0
     for block in blocks:
         text = f"G20 F9 S100\nG0 X-1 Y-1\n{block}\nM2\n"
-        fared = outcome(text, tmp_path, DIAMETERS, Unit.IN)[0]
-        assert fared.startswith(("same moves", "both refuse")), block
-        refused += fared.startswith("both refuse")
+        result = outcome(text, tmp_path, DIAMETERS, Unit.IN)[0]
+        assert result.startswith(("same moves", "both refuse")), block
+        refused += result.startswith("both refuse")
     assert 10 < refused < len(blocks) - 10
 
 
 @needs_witness
 @pytest.mark.parametrize("start", [0.49998, 0.50002, 0.5004])
 @pytest.mark.parametrize("end", [0.49998, 0.499998, 0.5004])
-def test_the_radius_at_an_arcs_end_must_be_larger_than_the_tools(start: float, end: float, tmp_path: Path) -> None:
+def test_the_radius_at_the_end_of_an_arc_must_be_larger_than_the_tool(start: float, end: float, tmp_path: Path) -> None:
     text = f"G20 F9\nT1 M6\nG0 X0 Y0\nG1 G42 D1 X1\nX2\nG2 X{2 + end:.6f} Y{-start:.6f} I0 J{-start:.6f}\n"
-    fared = outcome(f"{text}G1 Y-3\nG40 X5 Y-5\nM2\n", tmp_path, {1: 1.0}, Unit.IN)[0]
-    if fared.startswith(("same moves", "both refuse")):
+    result = outcome(f"{text}G1 Y-3\nG40 X5 Y-5\nM2\n", tmp_path, {1: 1.0}, Unit.IN)[0]
+    if result.startswith(("same moves", "both refuse")):
         return
-    # only an arc that would run from inside the tool's radius is refused here alone
+    # only cutcomp refuses an arc that starts inside the radius of the tool
     assert start < 0.5 < end
 
 
-def test_entry_corner_and_exit_by_hand() -> None:
+def test_entry_corner_and_exit_match_a_hand_calculation() -> None:
     run = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
     wanted = [("line", 1, 0.25), ("line", 1.75, 0.25), ("line", 1.75, 1), ("line", 5, 5)]
     assert same(shape(run), wanted)
@@ -247,22 +253,22 @@ def test_the_unit_may_change_under_compensation() -> None:
     assert same(shape(run), [("line", 2, 0.25), ("line", 4, 0.25), ("line", 6, 0.25), ("line", 6, 1)])
 
 
-def test_subprograms_that_call_themselves_are_stopped() -> None:
+def test_recursive_subprograms_are_stopped() -> None:
     run = ran("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
     assert run.stopped_at == findings_of(run, "SUBPROGRAM")[0].line == 9
 
 
-def test_endless_repeats_are_given_up() -> None:
+def test_endless_repeats_are_stopped() -> None:
     text = "G20 F9\nM98 P1 L9999999\nM2\nO1\nS1\nM99\n"
     assert findings_of(ran(text, "linuxcnc"), "LIMIT")
 
 
-def test_the_feed_of_a_block_counts_in_the_unit_before() -> None:
+def test_a_feed_before_g20_is_in_the_unit_in_force_before() -> None:
     run = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
     assert [from_mm(move.feed, Unit.IN) for move in list(run.moves)[1:]] == pytest.approx([20 / 25.4, 20])
 
 
-def test_a_stretch_knows_what_was_programmed() -> None:
+def test_a_stretch_knows_its_programmed_contour() -> None:
     run = ran("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
     (stretch,) = run.stretches
     assert (stretch.plane, stretch.entry, stretch.exit) == (Plane.XY, 1, 0)
@@ -294,36 +300,38 @@ def test_a_stretch_knows_what_was_programmed() -> None:
         (f"({'a' * 252})", False),
     ],
 )
-def test_what_the_interpreters_reader_refuses_is_refused(line: str, runs: bool, tmp_path: Path) -> None:
+def test_a_line_that_the_interpreter_cannot_read_is_refused(line: str, runs: bool, tmp_path: Path) -> None:
     text = f"G21 G0\n{line}\nM2\n"
-    fared, apart = outcome(text, tmp_path)
-    assert fared.startswith("same moves" if runs else "both refuse"), apart
+    result, apart = outcome(text, tmp_path)
+    assert result.startswith("same moves" if runs else "both refuse"), apart
 
 
 @pytest.mark.parametrize("start", [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"])
-def test_a_byte_order_mark_stops_the_interpreter(start: bytes) -> None:
-    """As rs274 says, Bad character '\\357' used; controls of other makers are asked nothing here."""
+def test_a_byte_order_mark_stops_the_run(start: bytes) -> None:
+    """rs274 says: Bad character '\\357' used. Other controls are not tested."""
     refused = registry.run(start + b"G21 G0 X1\nM2\n", "linuxcnc")
-    assert (refused.stopped_at, [one.code for one in refused.findings]) == (1, ["WORD"])
+    assert (refused.stopped_at, [finding.code for finding in refused.findings]) == (1, ["WORD"])
 
 
-def test_a_latin_comment_is_as_long_as_its_bytes() -> None:
+def test_the_length_of_a_latin_1_comment_is_counted_in_bytes() -> None:
     text = "(" + "\N{LATIN SMALL LETTER A WITH DIAERESIS}" * 200 + ")\nG21 G0 X1\nM2\n"
     assert ran(text.encode("latin-1"), "linuxcnc").stopped_at is None
 
 
-def test_the_column_is_that_of_the_n_at_fault() -> None:
-    (told_of,) = [one for one in ran("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if one.severity is Severity.ERROR]
-    assert (told_of.line, told_of.column) == (2, 4)
+def test_the_error_of_a_misplaced_n_has_its_column() -> None:
+    (error,) = [
+        finding for finding in ran("G21 G0\nX1 N5\nM2\n", "linuxcnc").findings if finding.severity is Severity.ERROR
+    ]
+    assert (error.line, error.column) == (2, 4)
 
 
 @needs_witness
-def test_a_move_of_what_rounding_leaves_is_a_move(tmp_path: Path) -> None:
-    """X0.3 and X[0.1+0.2] differ by 5.6e-17: LinuxCNC goes around that corner."""
+def test_a_move_as_short_as_a_rounding_error_is_a_move(tmp_path: Path) -> None:
+    """X0.3 and X[0.1+0.2] differ by 5.6e-17, and LinuxCNC goes around that corner."""
     text = "G20 G90 G17 F100\nT1 M6\nG0 X-30 Y-10\nG41 D1 G1 X0.3 Y-10\nY40\nX[0.1+0.2]\nX-40\nG40 Y0\nM2\n"
     assert outcome(text, tmp_path, {1: 6.0}, Unit.IN) == ("same moves", "")
 
 
-def test_line_ends_of_cr_alone_are_refused() -> None:
+def test_line_ends_of_cr_only_are_refused() -> None:
     assert ran(b"G21 G0 X1\rY2\nM2\n", "linuxcnc").stopped_at == 1
     assert ran(b"G21 G0 X1\r\nY2\r\nM2\r\n", "linuxcnc").stopped_at is None

@@ -63,7 +63,7 @@ SLOT_VIEW = View((4.0, 1.0), 0.5)
         (ROUND, Mode.BLOCK, [" ▄▄▀▀▄▄ ", "▄▀    ▀▄", "▀▄    ▄▀", " ▀▀▄▄▀▀ "]),
     ],
 )
-def test_small_pictures(scene, mode, expected):
+def test_small_scenes_are_drawn_exactly(scene, mode, expected):
     assert rows(scene, VIEW, 8, 4, mode) == expected
 
 
@@ -102,11 +102,11 @@ def test_small_pictures(scene, mode, expected):
         ),
     ],
 )
-def test_marks_axes_and_scale(mode, expected):
+def test_marks_axes_and_scale_are_drawn(mode, expected):
     assert rows(SLOT, SLOT_VIEW, 20, 5, mode) == expected
 
 
-def test_every_cell_has_the_style_of_what_is_last_in_it():
+def test_every_cell_has_the_style_of_the_last_item_in_it():
     styles = draw(SLOT, SLOT_VIEW, 20, 5, Mode.BRAILLE).styles
     assert styles.dtype == np.uint8
     assert styles.shape == (5, 20)
@@ -116,7 +116,7 @@ def test_every_cell_has_the_style_of_what_is_last_in_it():
     assert styles[3, 19] == Style.AXIS
 
 
-def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
+def test_the_dots_of_a_layer_stay_lit_under_a_later_layer():
     lower, upper = Layer(lines((-4, 0.3), (4, 0.3)), Style.SURFACE), Layer(lines((-4, -0.8), (4, -0.8)), Style.PATH)
     both = draw(Scene((lower, upper), axes=False), View((0.0, -1.0), 1.0), 8, 2, Mode.BRAILLE)
     assert both.rows[0] == "⣒" * 8
@@ -124,7 +124,7 @@ def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
 
 
 @pytest.mark.parametrize(("degrees", "character"), [(22, "-"), (23, "/"), (67, "/"), (68, "|")])
-def test_a_line_has_the_character_nearest_to_its_direction_counted_in_cells(degrees, character):
+def test_a_line_has_the_character_nearest_to_its_direction_in_cells(degrees, character):
     angle = degrees * tau / 360
     across, up = 3 * cos(angle), 6 * sin(angle)
     picture = rows(only(lines((-across, -up), (across, up))), VIEW, 8, 8, Mode.ASCII)
@@ -144,39 +144,39 @@ def test_a_center_path_differs_from_the_surface_without_colors(mode, expected):
 
 
 @pytest.mark.parametrize(("mode", "surface"), [(Mode.ASCII, "-"), (Mode.BLOCK, "▀")])
-def test_the_surface_shows_where_a_center_path_runs_in_its_cells(mode, surface):
+def test_the_surface_character_stays_under_a_center_path(mode, surface):
     along = lines((-4, 1.5), (4, 1.5))
     both = draw(Scene((Layer(along, Style.SURFACE), Layer(along, Style.PATH)), axes=False), VIEW, 8, 2, mode)
     assert both.rows[0] == surface * 8
     assert set(both.styles[0].tolist()) == {Style.PATH}
 
 
-def test_deleted_surface_is_a_dotted_line_where_dots_are_fine():
-    gone = Layer(lines((-4, 1.5), (4, 1.5)), Style.DELETED, dashed=True)
-    whole = Layer(gone.path, Style.SURFACE)
-    dotted, line = (draw(Scene((layer,), axes=False), VIEW, 8, 2, Mode.BRAILLE).rows[0] for layer in (gone, whole))
+def test_deleted_surface_is_a_dotted_line_in_braille():
+    deleted = Layer(lines((-4, 1.5), (4, 1.5)), Style.DELETED, dashed=True)
+    surface = Layer(deleted.path, Style.SURFACE)
+    dotted, line = (draw(Scene((layer,), axes=False), VIEW, 8, 2, Mode.BRAILLE).rows[0] for layer in (deleted, surface))
     lit = [sum((ord(cell) - 0x2800).bit_count() for cell in row if cell != " ") for row in (dotted, line)]
     assert 0 < lit[0] <= 0.6 * lit[1]
     assert " " not in dotted
 
 
 @pytest.mark.parametrize("mode", [Mode.BLOCK, Mode.ASCII])
-def test_deleted_surface_has_a_character_of_its_own_whatever_lies_over_it(mode):
+def test_deleted_surface_keeps_its_own_character_under_other_layers(mode):
     along = lines((-4, 1.5), (4, 1.5))
-    gone = Layer(lines((-2, 1.5), (2, 1.5)), Style.DELETED, dashed=True)
+    deleted = Layer(lines((-2, 1.5), (2, 1.5)), Style.DELETED, dashed=True)
     surface, uncut, current = (Layer(along, style) for style in (Style.SURFACE, Style.UNCUT, Style.CURRENT))
-    picture = draw(Scene((surface, uncut, gone), axes=False), VIEW, 8, 2, mode)
+    picture = draw(Scene((surface, uncut, deleted), axes=False), VIEW, 8, 2, mode)
     assert picture.rows[0].count("#") in (4, 5)
     assert {Style(style) for style in picture.styles[0].tolist()} == {Style.UNCUT, Style.DELETED}
     assert "#" not in "".join(draw(Scene((surface, uncut), axes=False), VIEW, 8, 2, mode).rows)
-    over = draw(Scene((surface, gone, current), axes=False), VIEW, 8, 2, mode)
+    over = draw(Scene((surface, deleted, current), axes=False), VIEW, 8, 2, mode)
     assert over.rows[0].count("#") == picture.rows[0].count("#")
     assert set(over.styles[0].tolist()) == {Style.CURRENT}
 
 
 @pytest.mark.parametrize("mode", list(Mode))
 @pytest.mark.parametrize(("style", "part"), [(Style.GOUGE_AREA, 1 / 2), (Style.UNCUT_AREA, 1 / 4)])
-def test_an_area_is_shaded_within_its_region_and_under_every_line(mode, style, part):
+def test_an_area_is_shaded_within_its_region_and_below_lines(mode, style, part):
     region = box(-2.0, -2.0, 2.0, 2.0)
     picture = draw(Scene(areas=(Area(region, style),), axes=False), VIEW, 8, 4, mode)
     shaded = [[cell != " " for cell in row] for row in picture.rows]
@@ -199,7 +199,7 @@ def test_an_uncut_wall_is_two_dots_thick():
     assert lit[1] >= 1.8 * lit[0]
 
 
-def test_a_label_stands_beside_its_point_and_never_on_a_line():
+def test_a_label_is_beside_its_point_and_never_on_a_line():
     label = Label((0.0, 0.0), "12", (0.0, 1.0))
     assert rows(Scene(labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII)[1] == "   12   "
     wall = Layer(lines((-4, 2.5), (4, 2.5)), Style.SURFACE)
@@ -210,7 +210,7 @@ def test_a_dashed_line_has_gaps():
     assert rows(only(lines((-8, 0.5), (8, 0.5)), dashed=True), VIEW, 16, 2, Mode.ASCII)[0] == "-- -- -- -- -- -"
 
 
-def test_dashes_go_on_over_the_pieces_of_a_path():
+def test_dashes_continue_across_the_pieces_of_a_path():
     whole = rows(only(lines((-8, 0.5), (8, 0.5)), dashed=True), VIEW, 16, 2, Mode.BRAILLE)
     steps = lines(*((number / 4, 0.5) for number in range(-32, 33)))
     assert rows(only(steps, dashed=True), VIEW, 16, 2, Mode.BRAILLE) == whole
@@ -219,14 +219,14 @@ def test_dashes_go_on_over_the_pieces_of_a_path():
 @pytest.mark.parametrize("mode", list(Mode))
 @pytest.mark.parametrize("columns", range(4))
 @pytest.mark.parametrize("height", range(4))
-def test_tiny_windows(mode, columns, height):
+def test_tiny_windows_have_pictures_of_their_size(mode, columns, height):
     for scene in (SLOT, Scene(), ROUND, Scene(unit=Unit.IN)):
         picture = draw(scene, View.fit(scene.bounds, columns, height), columns, height, mode)
         assert [len(row) for row in picture.rows] == [columns] * height
         assert picture.styles.shape == (height, columns)
 
 
-def test_an_empty_scene_is_blank_but_for_its_axes():
+def test_an_empty_scene_is_blank_except_for_its_axes():
     assert rows(Scene(axes=False), VIEW, 3, 2, Mode.BRAILLE) == ["   ", "   "]
     assert rows(Scene(), View((0.0, 0.5), 1.0), 9, 2, Mode.ASCII) == ["    |    ", "-   +   -"]
 
@@ -240,42 +240,42 @@ def test_axes_lie_on_lines_from_edge_to_edge(mode, x, y, scale):
     across, up = lines((x - 99, 0), (x + 99, 0)), lines((0, y + 99), (0, y - 99))
     whole = draw(Scene((Layer(across, Style.PATH), Layer(up, Style.PATH)), axes=False), view, 15, 7, mode)
     assert not (whole.styles[axes.styles == Style.AXIS] == Style.BACKGROUND).any()
-    # what is dashed lights no dot beside the line
+    # dashes light no dot beside the line
     under = Scene((Layer(across, Style.PATH), Layer(up, Style.PATH)))
     assert draw(under, view, 15, 7, mode).rows == whole.rows
 
 
 @pytest.mark.parametrize("mode", list(Mode))
 @pytest.mark.parametrize("zoom", [1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e300])
-def test_any_zoom_has_a_picture(mode, zoom):
+def test_every_zoom_has_a_picture(mode, zoom):
     view = SLOT_VIEW.zoom(zoom)
     assert [len(row) for row in rows(SLOT, view, 20, 5, mode)] == [20] * 5
 
 
 @pytest.mark.parametrize("mode", list(Mode))
 @pytest.mark.parametrize("zoom", [1.0, 5.0])
-def test_parts_of_a_layer_look_like_layers_of_their_own(mode, zoom):
+def test_parts_of_a_layer_look_like_separate_layers(mode, zoom):
     path, drawn = SLOT.layers[0].path, np.array([True, False, True, True])
     zigzag = lines((1, 1), (3, 2), (5, 0), (7, 2), (8, 0))
     layer = Layer(zigzag, Style.DELETED, dashed=True, drawn=drawn)
-    one = replace(SLOT, layers=(Layer(path, Style.PATH), layer))
-    each = (Layer(part, Style.DELETED, dashed=True) for part in layer.parts)
-    several = replace(SLOT, layers=(Layer(path, Style.PATH), *each))
-    pictures = [draw(scene, SLOT_VIEW.zoom(zoom), 20, 5, mode) for scene in (one, several)]
+    joined = replace(SLOT, layers=(Layer(path, Style.PATH), layer))
+    layers = (Layer(part, Style.DELETED, dashed=True) for part in layer.parts)
+    separate = replace(SLOT, layers=(Layer(path, Style.PATH), *layers))
+    pictures = [draw(scene, SLOT_VIEW.zoom(zoom), 20, 5, mode) for scene in (joined, separate)]
     assert pictures[0].rows == pictures[1].rows
     assert pictures[0].styles.tolist() == pictures[1].styles.tolist()
-    assert one.bounds == several.bounds
+    assert joined.bounds == separate.bounds
 
 
 def test_a_huge_arc_near_the_window_is_exact():
-    """Ten kilometers of radius: within the window it is the straight line that touches it."""
+    """Within the window an arc with a radius of ten kilometers looks like its tangent."""
     radius = 1e7
     wide = only(Path.from_pieces([Arc((0.0, -0.25), (0.0, -0.25), (0.0, radius - 0.25), Turn.CCW)]))
     straight = only(lines((-100, -0.25), (100, -0.25)))
     assert rows(wide, VIEW, 30, 6, Mode.BRAILLE) == rows(straight, VIEW, 30, 6, Mode.BRAILLE)
 
 
-def test_what_is_not_finite_is_left_out():
+def test_points_that_are_not_finite_are_left_out():
     nan = lines((-2, 0.5), (float("nan"), 0.5), (0, float("inf")), (1e300, 0.5), (2, 0.5))
     assert rows(only(nan), VIEW, 8, 2, Mode.BRAILLE) == ["        ", "        "]
     both = Scene((*only(nan).layers, *SQUARE.layers), marks=(Mark((float("nan"), 0.0), Style.START, Symbol.START),))
@@ -286,22 +286,22 @@ def test_what_is_not_finite_is_left_out():
 def test_a_line_through_the_window_has_no_gaps(mode):
     for angle in np.linspace(0.0, tau / 2, 97).tolist():
         x, y = 1e6 * cos(angle), 1e6 * sin(angle)
-        found = np.array([list(row) for row in rows(only(lines((-x, -y), (x, y))), VIEW, 31, 15, mode)]) != " "
+        lit = np.array([list(row) for row in rows(only(lines((-x, -y), (x, y))), VIEW, 31, 15, mode)]) != " "
         steep = abs(y) * 31 > abs(x) * 30
-        assert found.any(axis=1 if steep else 0).all()
+        assert lit.any(axis=1 if steep else 0).all()
 
 
 def dots(scene: Scene, view: View, columns: int, height: int) -> list[Point]:
-    """The middles of all lit braille dots, in millimeters."""
+    """The centers of all lit braille dots, in millimeters."""
     places = {0: (0, 0), 1: (0, 1), 2: (0, 2), 3: (1, 0), 4: (1, 1), 5: (1, 2), 6: (0, 3), 7: (1, 3)}
-    found = []
+    middles = []
     for row, text in enumerate(rows(scene, view, columns, height, Mode.BRAILLE)):
         for column, character in enumerate(text):
             code = 0 if character == " " else ord(character) - 0x2800
             for bit, (across, down) in places.items():
                 if code >> bit & 1:
-                    found.append(view.at(column + across / 2 + 0.25, row + down / 4 + 0.125, columns, height))
-    return found
+                    middles.append(view.at(column + across / 2 + 0.25, row + down / 4 + 0.125, columns, height))
+    return middles
 
 
 @given(
@@ -330,16 +330,16 @@ def test_every_dot_of_an_arc_lies_on_it_and_none_is_missing(radius, begin, sweep
         assert beyond * radius < 1.5
 
 
-def test_an_arc_that_passes_the_window_by_has_no_chords_in_it() -> None:
-    """Its box holds the whole window, but no part of it comes near."""
+def test_an_arc_that_misses_the_window_has_no_chords() -> None:
+    """The box of the arc contains the window, but the arc itself is not near."""
     around = Path.from_pieces([Arc((50.0, 0.0), (-50.0, 0.0), (0.0, 0.0), Turn.CCW)])
     assert not len(chords([Layer(around, Style.PATH)], View((0.0, 0.0), 1.0), 20, 10).starts)
     assert len(chords([Layer(around, Style.PATH)], View((0.0, 45.0), 1.0), 20, 10).starts)
 
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
-def test_of_an_arc_through_the_window_only_what_is_near_is_divided(turn: Turn) -> None:
-    """The window is 20 wide and 20 high; the arc of radius 500 passes its center and goes on for a quarter circle."""
+def test_only_the_part_of_an_arc_near_the_window_is_divided(turn: Turn) -> None:
+    """An arc of radius 500 passes the center of a 20 by 20 window and continues for a quarter circle."""
     around = Path.from_pieces([Arc((0.0, turn * -500.0), (0.0, turn * 500.0), (0.0, 0.0), turn)])
-    found = chords([Layer(around, Style.PATH)], View((500.0, 0.0), 1.0), 20, 10)
-    assert 20.0 < np.abs(found.runs).sum() < 40.0
+    near = chords([Layer(around, Style.PATH)], View((500.0, 0.0), 1.0), 20, 10)
+    assert 20.0 < np.abs(near.runs).sum() < 40.0

@@ -1,4 +1,4 @@
-"""Contours: clean-up, chaining, joints, nesting, start and direction, in any order of a drawing's entities."""
+"""Contours of a drawing: cleanup, chaining, joints, nesting, start and direction, in any order of entities."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ CONTOURS = 200
 
 
 def same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
-    """Whether two chains are the same pieces in the same order from the same start, to a nanometer."""
+    """Whether two chains have the same pieces in the same order, to a nanometer."""
     return len(first) == len(second) and all(
-        type(one) is type(other)
-        and one.start == pytest.approx(other.start, abs=1e-6)
-        and one.end == pytest.approx(other.end, abs=1e-6)
-        and one.point_at(0.5) == pytest.approx(other.point_at(0.5), abs=1e-6)
-        for one, other in zip(first, second, strict=True)
+        type(piece) is type(other_piece)
+        and piece.start == pytest.approx(other_piece.start, abs=1e-6)
+        and piece.end == pytest.approx(other_piece.end, abs=1e-6)
+        and piece.point_at(0.5) == pytest.approx(other_piece.point_at(0.5), abs=1e-6)
+        for piece, other_piece in zip(first, second, strict=True)
     )
 
 
@@ -51,9 +51,9 @@ def same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
 def test_shuffled_and_reversed_copies_give_the_same_chain(first_seed: int) -> None:
     for seed in range(first_seed, first_seed + 20):
         pieces = random_contour(seed)
-        chance = random.Random(f"order of {seed}")
-        copy = [reversed_piece(piece) if chance.random() < 0.5 else piece for piece in pieces]
-        chance.shuffle(copy)
+        rng = random.Random(f"order of {seed}")
+        copy = [reversed_piece(piece) if rng.random() < 0.5 else piece for piece in pieces]
+        rng.shuffle(copy)
         original, shuffled = (listed(dxf(*map(entity, each))).contours for each in (pieces, copy))
         assert len(original) == 1, seed
         assert original[0].closed, seed
@@ -62,7 +62,7 @@ def test_shuffled_and_reversed_copies_give_the_same_chain(first_seed: int) -> No
 
 
 @pytest.mark.parametrize("decimals", [3, 4, 5, 6])
-def test_a_rounded_drawing_gives_the_closed_contour(decimals: int) -> None:
+def test_a_rounded_drawing_gives_one_closed_contour(decimals: int) -> None:
     for seed in range(30):
         pieces = random_contour(seed)
         exact, rounded = (listed(dxf(*(entity(piece, count) for piece in pieces))) for count in (12, decimals))
@@ -72,7 +72,7 @@ def test_a_rounded_drawing_gives_the_closed_contour(decimals: int) -> None:
         assert rounded.contours[0].area == pytest.approx(exact.contours[0].area, abs=0.5 * 10.0 ** (3 - decimals)), seed
 
 
-def test_joints_leave_no_gap() -> None:
+def test_pieces_of_a_contour_join_exactly() -> None:
     for seed in range(30):
         contour = listed(dxf(*(entity(piece, 3) for piece in random_contour(seed)))).contours[0]
         ends = [piece.end for piece in contour.pieces]
@@ -83,21 +83,21 @@ def test_joints_leave_no_gap() -> None:
             assert abs(out) == pytest.approx(piece.radius, abs=1e-6)
 
 
-def test_a_gap_between_lines_is_closed_where_they_meet() -> None:
+def test_a_gap_between_lines_is_closed_at_their_intersection() -> None:
     entities = [line((0, 0), (9.995, 0)), line((10, 0.005), (10, 10)), line((10, 10), (0, 10)), line((0, 10), (0, 0))]
     contour = listed(dxf(*entities)).contours[0]
     corner = min(contour.pieces, key=lambda piece: abs(complex(*piece.start) - 10)).start
     assert corner == pytest.approx((10.0, 0.0))
 
 
-def test_nothing_is_bridged_beyond_the_tolerance() -> None:
+def test_a_gap_beyond_the_tolerance_stays_open() -> None:
     entities = [line((0, 0), (10, 0)), line((10, 0.02), (10, 10)), line((10, 10), (0, 10)), line((0, 10), (0, 0))]
     contours = listed(dxf(*entities)).contours
     assert [contour.closed for contour in contours] == [False]
     assert contours[0].length == pytest.approx(39.98)
 
 
-def test_holes_come_behind_what_they_lie_in_and_islands_behind_holes() -> None:
+def test_holes_follow_their_outlines_and_islands_follow_their_holes() -> None:
     squares = [*square(100, 0, 20), *square(0, 0, 80), *square(10, 10, 40), *square(20, 20, 10)]
     data = dxf(*squares, circle((70, 70), 3), circle((65, 10), 2))
     contours = listed(data).contours
@@ -116,7 +116,7 @@ def test_holes_come_behind_what_they_lie_in_and_islands_behind_holes() -> None:
         assert contour.side.value == "LEFT"
 
 
-def test_reversing_turns_left_into_right() -> None:
+def test_reversing_a_contour_changes_its_side() -> None:
     contour = listed(dxf(*square(0, 0, 10))).contours[0]
     back = reversed_contour(contour)
     assert (contour.side.value, back.side.value) == ("LEFT", "RIGHT")
@@ -124,7 +124,7 @@ def test_reversing_turns_left_into_right() -> None:
     assert back.turn is Turn.CCW
 
 
-def test_two_squares_that_touch_in_a_corner_are_two_contours() -> None:
+def test_two_squares_that_touch_at_a_corner_are_two_contours() -> None:
     contours = listed(dxf(*square(0, 0, 10), *square(10, 10, 10))).contours
     assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (True, 4)]
     assert contours[0].problems == ("touches or crosses chain 2",)
@@ -135,39 +135,39 @@ def test_a_dividing_line_stays_an_open_contour() -> None:
     assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (False, 1)]
 
 
-def test_a_contour_and_a_tail_of_lines() -> None:
+def test_a_tail_of_lines_is_separated_from_its_contour() -> None:
     tail = [line((10, 10), (15, 12)), line((15, 12), (20, 10)), line((20, 10), (25, 15))]
-    made = listed(dxf(*square(0, 0, 10), *tail))
-    assert [(contour.closed, contour.drawn) for contour in made.contours] == [(True, 4), (False, 3)]
-    assert (made.branches[0].ways, made.branches[0].contours) == (3, (2,))
+    drawing = listed(dxf(*square(0, 0, 10), *tail))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4), (False, 3)]
+    assert (drawing.branches[0].ways, drawing.branches[0].contours) == (3, (2,))
 
 
-def test_open_contours_at_a_branch_are_joined_as_the_operator_says() -> None:
-    made = listed(dxf(line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5))))
-    assert [contour.closed for contour in made.contours] == [False] * 3
-    branch = made.branches[0]
+def test_two_chosen_open_contours_at_a_branch_are_joined() -> None:
+    drawing = listed(dxf(line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5))))
+    assert [contour.closed for contour in drawing.contours] == [False] * 3
+    branch = drawing.branches[0]
     assert (branch.ways, branch.contours) == (3, (1, 2, 3))
-    flat = next(contour for contour in made.contours if contour.size[1] == 0.0)
-    other = next(contour for contour in made.contours if contour is not flat)
+    flat = next(contour for contour in drawing.contours if contour.size[1] == 0.0)
+    other = next(contour for contour in drawing.contours if contour is not flat)
     joined = joined_open(flat, other, 0.01)
     assert joined is not None
     assert joined.length == pytest.approx(flat.length + other.length)
     assert len(joined.pieces) == 2
 
 
-def test_duplicates_and_overlaps_of_arcs() -> None:
-    made = listed(dxf(arc((0, 0), 10, 0, 180), arc((0, 0), 10, 0, 180), arc((0, 0), 10, 150, 360)))
-    assert (made.duplicates, made.overlaps) == (1, 1)
-    assert made.contours[0].circle == pytest.approx(10.0)
+def test_duplicate_and_overlapping_arcs_are_joined() -> None:
+    drawing = listed(dxf(arc((0, 0), 10, 0, 180), arc((0, 0), 10, 0, 180), arc((0, 0), 10, 150, 360)))
+    assert (drawing.duplicates, drawing.overlaps) == (1, 1)
+    assert drawing.contours[0].circle == pytest.approx(10.0)
 
 
 @pytest.mark.parametrize("center", [(0.0, 0.0), (40.0, 0.0), (6.3, 7.1)])
 @pytest.mark.parametrize("arcs", [((0, 200), (180, 380)), ((0, 200), (0, 90), (190, 360)), ((10, 370), (30, 90))])
-def test_overlapping_arcs_of_one_circle_are_the_circle(
+def test_overlapping_arcs_of_one_circle_become_the_circle(
     center: tuple[float, float], arcs: tuple[tuple[float, float], ...]
 ) -> None:
-    made = listed(dxf(*(arc(center, 10, begin, end) for begin, end in arcs)))
-    (contour,) = made.contours
+    drawing = listed(dxf(*(arc(center, 10, begin, end) for begin, end in arcs)))
+    (contour,) = drawing.contours
     assert contour.circle == pytest.approx(10.0)
 
 
@@ -178,53 +178,53 @@ def test_overlapping_arcs_on_random_circles_are_joined_wherever_they_begin() -> 
         begin, middle, end = rng.uniform(0, 360), rng.uniform(20, 100), rng.uniform(110, 300)
         radius = rng.choice([4.0, 10.0, 12.0, 0.28])
         both = arc(center, radius, begin, begin + middle + 10), arc(center, radius, begin + middle, begin + end)
-        made = listed(dxf(*both))
-        assert (len(made.contours), made.overlaps) == (1, 1)
-        assert made.contours[0].length == pytest.approx(math.radians(end) * radius, abs=1e-4)
+        drawing = listed(dxf(*both))
+        assert (len(drawing.contours), drawing.overlaps) == (1, 1)
+        assert drawing.contours[0].length == pytest.approx(math.radians(end) * radius, abs=1e-4)
 
 
 @pytest.mark.parametrize("stray", [line((10, 8), (10, 15)), line((-5, 0), (15, 0)), line((4, 0), (4, 0.5))])
-def test_a_stray_line_on_an_edge_opens_no_contour(stray: list[tuple[int, object]]) -> None:
-    made = listed(dxf(*square(0, 0, 10), stray))
-    (outside,) = [contour for contour in made.contours if contour.closed]
+def test_a_stray_line_on_an_edge_leaves_the_contour_closed(stray: list[tuple[int, object]]) -> None:
+    drawing = listed(dxf(*square(0, 0, 10), stray))
+    (outside,) = [contour for contour in drawing.contours if contour.closed]
     assert outside.size == pytest.approx((10.0, 10.0))
 
 
 @pytest.mark.parametrize("stray", [line((2, 0), (7, 0)), line((0, 0), (7, 0)), line((2, 0), (10, 0))])
-def test_a_line_over_the_joint_of_two_that_go_straight_on_is_joined_with_both(stray: list[tuple[int, object]]) -> None:
+def test_a_line_over_the_joint_of_two_collinear_lines_joins_both(stray: list[tuple[int, object]]) -> None:
     _, *sides = square(0, 0, 10)
-    made = listed(dxf(line((0, 0), (5, 0)), line((5, 0), (10, 0)), *sides, stray))
-    assert [(contour.closed, contour.drawn) for contour in made.contours] == [(True, 4)]
-    assert made.overlaps == 2
+    drawing = listed(dxf(line((0, 0), (5, 0)), line((5, 0), (10, 0)), *sides, stray))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)]
+    assert drawing.overlaps == 2
 
 
-def test_copies_of_a_piece_take_no_longer_than_others() -> None:
-    made = listed(dxf(*([line((0, 0), (10, 0))] * 20_000)))
-    assert (len(made.contours), made.duplicates) == (1, 19_999)
+def test_twenty_thousand_copies_of_a_line_are_dropped() -> None:
+    drawing = listed(dxf(*([line((0, 0), (10, 0))] * 20_000)))
+    assert (len(drawing.contours), drawing.duplicates) == (1, 19_999)
 
 
 @pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])
-def test_a_line_that_lies_on_a_longer_one_to_within_the_tolerance_leaves_its_ends(begin: float, end: float) -> None:
-    made = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
-    (piece,) = made.contours[0].pieces
-    assert (made.overlaps, sorted([piece.start, piece.end])) == (1, [(0.0, 0.0), (10.0, 0.0)])
+def test_a_line_on_a_longer_one_leaves_the_ends_of_the_longer_one(begin: float, end: float) -> None:
+    drawing = listed(dxf(line((0, 0), (10, 0)), line((begin, 0), (end, 0))))
+    (piece,) = drawing.contours[0].pieces
+    assert (drawing.overlaps, sorted([piece.start, piece.end])) == (1, [(0.0, 0.0), (10.0, 0.0)])
 
 
-def test_lines_that_share_a_wall_of_two_contours_stay() -> None:
+def test_two_contours_may_share_part_of_a_wall() -> None:
     inner = [line((2, 0), (8, 0)), line((8, 0), (8, 5)), line((8, 5), (2, 5)), line((2, 5), (2, 0))]
-    made = listed(dxf(*square(0, 0, 10), *inner))
-    assert [contour.drawn for contour in made.contours if contour.closed] == [4, 4]
-    assert made.overlaps == 0
+    drawing = listed(dxf(*square(0, 0, 10), *inner))
+    assert [contour.drawn for contour in drawing.contours if contour.closed] == [4, 4]
+    assert drawing.overlaps == 0
 
 
-def test_a_curve_of_pieces_shorter_than_the_tolerance_stays() -> None:
-    made = listed(circle_of_lines(400, 0.5))
-    assert (made.tiny, [contour.drawn for contour in made.contours]) == (0, [400])
+def test_a_curve_of_pieces_shorter_than_the_tolerance_is_kept() -> None:
+    drawing = listed(circle_of_lines(400, 0.5))
+    assert (drawing.tiny, [contour.drawn for contour in drawing.contours]) == (0, [400])
     assert listed(circle_of_lines(3000), tolerance=2.0).contours[0].drawn == 3000
 
 
 def test_a_point_within_a_curve_of_short_pieces_is_dropped() -> None:
-    # as in a drawing of letters: lines shorter than the tolerance, and one without any length between them
+    # as in drawings of letters: lines shorter than the tolerance with a zero-length line between them
     corners = [(0.0, 0.0), (0.004, 0.0), (0.008, 0.001), (0.012, 0.004), (5.0, 0.0), (0.0, 5.0), (0.0, 0.0)]
     lines = [line(start, end) for start, end in itertools.pairwise(corners)]
     result = listed(dxf(*lines, line(corners[2], corners[2])))
@@ -239,7 +239,7 @@ def test_the_start_is_the_middle_of_the_longest_line() -> None:
     assert (contour.drawn, len(contour.pieces)) == (4, 5)
 
 
-def test_a_start_is_moved_to_corners_sides_and_typed_places() -> None:
+def test_the_start_can_be_moved_to_corners_sides_and_typed_places() -> None:
     contour = listed(dxf(*square(0, 0, 10))).contours[0]
     corners = [started_at_corner(contour, step).start for step in (1, 2, 3, 4)]
     assert sorted(corners) == [(0.0, 0.0), (0.0, 10.0), (10.0, 0.0), (10.0, 10.0)]
@@ -260,20 +260,20 @@ def test_a_start_is_moved_to_corners_sides_and_typed_places() -> None:
 
 
 def test_equal_circles_fold_into_one_row() -> None:
-    made = listed(dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)), circle((10, 40), 2)))
-    rows = rows_of(made.contours)
+    drawing = listed(dxf(*square(0, 0, 50), *(circle((10 + 5 * k, 10), 1) for k in range(6)), circle((10, 40), 2)))
+    rows = rows_of(drawing.contours)
     assert [len(row.contours) for row in rows] == [1, 1, 6]
-    assert len(rows_of(made.contours, folded=False)) == 8
-    assert len(matching(made.contours, "hole", Unit.MM)) == 7
+    assert len(rows_of(drawing.contours, folded=False)) == 8
+    assert len(matching(drawing.contours, "hole", Unit.MM)) == 7
 
 
-def test_fitting_keeps_corners_and_says_what_it_did() -> None:
+def test_fitting_keeps_corners() -> None:
     data = dxf(*square(0, 0, 10))
     assert fitted_contour(listed(data).contours[0], 0.005).drawn == 4
 
 
-def test_a_sampled_notch_turns_the_other_way_than_the_outline() -> None:
-    # a plate of 20 by 10 whose top edge has a half circle of radius 4 cut out, sampled by 100 lines
+def test_a_sampled_notch_becomes_one_arc() -> None:
+    # a 20 by 10 plate with a half circle of radius 4 cut out of its top edge, sampled by 100 lines
     notch = [(10 + 4 * math.cos(math.pi * k / 100), 10 - 4 * math.sin(math.pi * k / 100)) for k in range(101)]
     points = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), *notch, (0.0, 10.0), (0.0, 0.0)]
     contour = listed(dxf(*(line(p, q) for p, q in itertools.pairwise(points)))).contours[0]
@@ -284,8 +284,8 @@ def test_a_sampled_notch_turns_the_other_way_than_the_outline() -> None:
     assert arc.radius == pytest.approx(4.0, abs=0.005)
 
 
-def test_a_side_that_wavers_by_less_than_fit_is_one_line() -> None:
-    # the lower side of a square of 20, a point each 0.4, those near its ends off by half of FIT
+def test_a_side_that_wavers_by_less_than_fit_becomes_one_line() -> None:
+    # the lower side of a square of 20 with a point every 0.4, those near its ends off by half of FIT
     lower = [(0.4 * k, 0.0025 if k in (1, 2, 48, 49) else 0.0) for k in range(51)]
     points = [*lower, (20.0, 20.0), (0.0, 20.0), (0.0, 0.0)]
     contour = listed(dxf(*(line(p, q) for p, q in itertools.pairwise(points)))).contours[0]
@@ -294,8 +294,8 @@ def test_a_side_that_wavers_by_less_than_fit_is_one_line() -> None:
     assert all(isinstance(piece, Line) for piece in fitted.pieces)
 
 
-def test_lines_and_arcs_of_a_sampled_slot_come_back() -> None:
-    # a slot of two lines and two half circles, the circles sampled by 200 lines each
+def test_a_sampled_slot_becomes_lines_and_arcs_again() -> None:
+    # a slot of two lines and two half circles, each sampled by 200 lines
     ends = [(20 + 5 * math.sin(math.pi * k / 200), -5 * math.cos(math.pi * k / 200)) for k in range(201)]
     other = [(-5 * math.sin(math.pi * k / 200), 5 * math.cos(math.pi * k / 200)) for k in range(201)]
     points = [*ends, *other, ends[0]]

@@ -1,4 +1,4 @@
-"""The setup sheet against a slot one can work out by hand."""
+"""The setup sheet against a slot calculated by hand."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ SLOT = job(polyline((0, 0), (2, 0)))
 NAMES = ("slot", "Key way", "2026-01-02")
 
 
-def of(*jobs: Job, unit: Unit = Unit.IN) -> Sheet:
+def sheet_of(*jobs: Job, unit: Unit = Unit.IN) -> Sheet:
     return sheet(jobs, unit, *NAMES)
 
 
-def pairs(one: Sheet) -> dict[str, str]:
-    """What stands beside each label of the first block."""
-    return dict(one.blocks[0].pairs)
+def pairs(setup_sheet: Sheet) -> dict[str, str]:
+    """The value beside each label of the first block."""
+    return dict(setup_sheet.blocks[0].pairs)
 
 
-def test_the_head_and_the_tools():
-    one = of(SLOT)
-    head = dict(one.head)
+def test_the_head_lists_the_program_and_the_tools():
+    setup_sheet = sheet_of(SLOT)
+    head = dict(setup_sheet.head)
     assert head.pop("TIME").startswith("cut 0:37, rapid ")
     assert head == {
         "PROGRAM": "slot",
@@ -38,51 +38,51 @@ def test_the_head_and_the_tools():
         "SAFE Z": "1.0000",
         "RAPID RATE": "200.0 a minute, assumed, not typed",
     }
-    assert one.errors == ()
-    assert one.tools.table[1:] == (("1", "END MILL", "0.5000", "H1", "1"),)
+    assert setup_sheet.errors == ()
+    assert setup_sheet.tools.table[1:] == (("1", "END MILL", "0.5000", "H1", "1"),)
 
 
-def test_a_block_from_top_to_bottom():
-    said = pairs(of(SLOT))
-    assert said["CUTTER COMP."] == "ON"
-    assert said["CONTOUR START"] == "X 0.0000  Y 0.0000"
-    assert said["FIRST PLUNGE AT"] == "X 0.0000  Y 0.0000"
-    assert said["CUTTER REACHES"] == "X -0.2500 to 2.2500  Y -0.2500 to 0.2500"
-    assert said["Z START, Z BOTTOM"] == "0.0000  -0.2500"
-    assert said["PECK DEPTH"] == "0.1000"
-    assert said["SPEED"] == "300 RPM"
-    assert said["PLUNGE FEED"] == "20.0"
-    assert said["FEEDS"] == "10.0 (segment 1)"
+def test_a_block_lists_its_settings():
+    values = pairs(sheet_of(SLOT))
+    assert values["CUTTER COMP."] == "ON"
+    assert values["CONTOUR START"] == "X 0.0000  Y 0.0000"
+    assert values["FIRST PLUNGE AT"] == "X 0.0000  Y 0.0000"
+    assert values["CUTTER REACHES"] == "X -0.2500 to 2.2500  Y -0.2500 to 0.2500"
+    assert values["Z START, Z BOTTOM"] == "0.0000  -0.2500"
+    assert values["PECK DEPTH"] == "0.1000"
+    assert values["SPEED"] == "300 RPM"
+    assert values["PLUNGE FEED"] == "20.0"
+    assert values["FEEDS"] == "10.0 (segment 1)"
 
 
-def test_depths_as_they_will_be_posted():
-    assert [row[3:5] for row in of(SLOT).blocks[0].table[1:]] == [
+def test_the_passes_have_the_posted_depths():
+    assert [row[3:5] for row in sheet_of(SLOT).blocks[0].table[1:]] == [
         ("1 of 3", "-0.1000"),
         ("2 of 3", "-0.2000"),
         ("3 of 3", "-0.2500"),
     ]
 
 
-def test_the_cutter_reaches_over_the_top_of_an_arc():
+def test_the_reach_of_the_cutter_includes_the_top_of_an_arc():
     half = job(path_of(arc((1, 0), (-1, 0), (0, 0), Turn.CCW)))
-    assert pairs(of(half))["CUTTER REACHES"] == "X -1.2500 to 1.2500  Y -0.2500 to 1.2500"
+    assert pairs(sheet_of(half))["CUTTER REACHES"] == "X -1.2500 to 1.2500  Y -0.2500 to 1.2500"
 
 
-def test_a_finish_tool_has_its_own_line_and_its_own_pass():
+def test_a_finish_tool_has_its_own_line_and_passes():
     path = SLOT.finish[0].path
     both = replace(SLOT, finisher=Cutter(2, 0.25 * INCH), finish_tool=2, rough=(CenterPath(path, offset=0.01 * INCH),))
-    one = of(both)
-    assert [row[0] for row in one.tools.table[1:]] == ["1", "2"]
-    assert one.tools.table[2][4] == "1 finish"
-    rows = one.blocks[0].table[1:]
+    setup_sheet = sheet_of(both)
+    assert [row[0] for row in setup_sheet.tools.table[1:]] == ["1", "2"]
+    assert setup_sheet.tools.table[2][4] == "1 finish"
+    rows = setup_sheet.blocks[0].table[1:]
     assert [row[1] for row in rows if row[2] == "FINISH"] == ["2"] * 3
     assert {row[5] for row in rows if row[2] == "PASS"} == {"0.0100"}
 
 
-def test_millimeters():
-    one = of(SLOT, unit=Unit.MM)
-    assert pairs(one)["Z START, Z BOTTOM"] == "0.000  -6.350"
-    assert one.tools.table[1][2] == "12.700"
+def test_a_metric_sheet_is_in_millimeters():
+    setup_sheet = sheet_of(SLOT, unit=Unit.MM)
+    assert pairs(setup_sheet)["Z START, Z BOTTOM"] == "0.000  -6.350"
+    assert setup_sheet.tools.table[1][2] == "12.700"
 
 
 def gouging() -> Job:
@@ -91,27 +91,27 @@ def gouging() -> Job:
 
 
 def test_a_gouge_makes_the_sheet_say_do_not_run_and_keeps_the_depths():
-    one = of(gouging())
-    assert one.errors == ("Block 1, segment 1: gouges by 0.2500 (deep).",)
-    assert len(one.blocks[0].table) == 4
-    assert NOT_READY in as_text(one)
-    assert READY not in as_text(one)
-    assert "LOOKAHEAD          CAL 2" in as_text(one)
+    setup_sheet = sheet_of(gouging())
+    assert setup_sheet.errors == ("Block 1, segment 1: gouges by 0.2500 (deep).",)
+    assert len(setup_sheet.blocks[0].table) == 4
+    assert NOT_READY in as_text(setup_sheet)
+    assert READY not in as_text(setup_sheet)
+    assert "LOOKAHEAD          CAL 2" in as_text(setup_sheet)
 
 
-def test_what_cannot_be_cut_has_no_passes_and_says_why():
-    one = of(replace(SLOT, cutter=None))
-    assert one.blocks[0].table == ()
-    assert pairs(one)["TOOL"] == "NOT KNOWN"
-    assert any("TOOL is not in the tool table" in text for text in one.errors)
+def test_a_block_that_cannot_be_cut_has_no_passes_and_a_reason():
+    setup_sheet = sheet_of(replace(SLOT, cutter=None))
+    assert setup_sheet.blocks[0].table == ()
+    assert pairs(setup_sheet)["TOOL"] == "NOT KNOWN"
+    assert any("TOOL is not in the tool table" in text for text in setup_sheet.errors)
 
 
-def test_no_block_is_not_ready():
-    assert of().errors == ("There is no block to post.",)
-    assert NOT_READY in as_text(of())
+def test_a_program_without_blocks_is_not_ready():
+    assert sheet_of().errors == ("There is no block to post.",)
+    assert NOT_READY in as_text(sheet_of())
 
 
-def test_the_text_is_narrow_and_holds_nothing_a_printer_obeys():
+def test_the_text_fits_the_page_and_has_no_control_characters():
     wild = sheet([gouging()], Unit.IN, "a\x1b[2J\n" + "b" * 200, "\x07bell", "now")
     lines = as_text(wild).splitlines()
     assert all(line.isprintable() for line in lines)
@@ -119,16 +119,18 @@ def test_the_text_is_narrow_and_holds_nothing_a_printer_obeys():
     assert "?bell" in as_text(wild)
 
 
-def test_the_page_is_one_document_with_the_drawings_in_it():
+def test_the_page_is_one_document_with_embedded_drawings():
     drawing = '<svg xmlns="http://www.w3.org/2000/svg"><title>d</title></svg>'
-    page = as_page(of(SLOT), [drawing])
+    page = as_page(sheet_of(SLOT), [drawing])
     tree = ElementTree.fromstring(page.replace("<!DOCTYPE html>\n", "").replace('<meta charset="utf-8">', ""))
-    assert [one.tag for one in tree.iter() if one.tag.endswith("}svg")] == ["{http://www.w3.org/2000/svg}svg"]
+    assert [element.tag for element in tree.iter() if element.tag.endswith("}svg")] == [
+        "{http://www.w3.org/2000/svg}svg"
+    ]
     assert READY in page
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
 
 
-def test_names_cannot_leave_their_place_on_the_page():
+def test_names_on_the_page_are_escaped():
     page = as_page(sheet([gouging()], Unit.IN, "</title><script>x()</script>", "\x1b<b>", ""), [""])
     assert "<script" not in page
     assert "&lt;script&gt;" in page
@@ -136,8 +138,8 @@ def test_names_cannot_leave_their_place_on_the_page():
     assert NOT_READY in page
 
 
-def test_a_finding_on_the_page_has_one_mark_that_of_its_weight():
-    page = as_page(of(gouging()), [""])
+def test_a_finding_on_the_page_has_only_the_mark_of_its_severity():
+    page = as_page(sheet_of(gouging()), [""])
     assert '<ul class="marked">\n<li>!! Segment 1: gouges' in page
     assert ".marked { list-style: none" in page
 
@@ -162,8 +164,8 @@ def two_blocks() -> tuple[Job, Job]:
     return corner, job(polyline((3, 0), (4, 0)), block=2, peck_depth=0.0, safe_z=2 * INCH)
 
 
-def test_a_whole_sheet_as_text():
-    assert as_text(of(*two_blocks())).splitlines() == [
+def test_a_whole_sheet_is_written_as_text():
+    assert as_text(sheet_of(*two_blocks())).splitlines() == [
         "SETUP SHEET",
         "==============================================================================",
         "PROGRAM            slot",
@@ -233,7 +235,7 @@ def test_a_whole_sheet_as_text():
     ]
 
 
-def test_a_whole_sheet_as_a_page():
+def test_a_whole_sheet_is_written_as_a_page():
     lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
     assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:50] == [
@@ -296,36 +298,36 @@ def test_a_whole_sheet_as_a_page():
     ]
 
 
-def test_what_is_not_ready_says_why_on_the_page():
-    page = as_page(of(gouging()), [""])
+def test_a_page_that_is_not_ready_gives_the_reason():
+    page = as_page(sheet_of(gouging()), [""])
     against = f'<div class="bad">{NOT_READY}<ul>\n<li>Block 1, segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
     assert against in page
     assert READY not in page
 
 
-def test_a_finding_of_the_start_and_one_of_no_segment_name_none():
+def test_findings_of_start_or_of_no_segment_name_no_segment():
     start, general = (Finding(code, Severity.ERROR, f"{code}.", segment) for code, segment in (("A", 0), ("B", None)))
-    assert of(replace(SLOT, findings=(start, general, start))).errors == ("Block 1, START: A.", "Block 1: B.")
+    assert sheet_of(replace(SLOT, findings=(start, general, start))).errors == ("Block 1, START: A.", "Block 1: B.")
 
 
-def test_a_block_that_is_not_known_yet_shows_what_is():
+def test_an_incomplete_block_shows_its_known_values():
     empty = replace(SLOT, surface=SLOT.surface.part(0, 0), finish=(), floors=(), cutter=None, finish_tool=9)
-    said = pairs(of(empty))
-    assert (said["TOOL"], said["FINISH TOOL"], said["FEEDS"]) == ("NOT KNOWN", "NOT KNOWN", "-")
-    assert not said.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "TIME"}
+    values = pairs(sheet_of(empty))
+    assert (values["TOOL"], values["FINISH TOOL"], values["FEEDS"]) == ("NOT KNOWN", "NOT KNOWN", "-")
+    assert not values.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "TIME"}
 
 
-def test_several_segments_of_one_feed_stand_together():
+def test_consecutive_segments_with_one_feed_are_combined():
     path = polyline((0, 0), (1, 0), (1, 1), (0, 1))
-    assert pairs(of(job(path)))["FEEDS"] == "10.0 (segments 1-3)"
+    assert pairs(sheet_of(job(path)))["FEEDS"] == "10.0 (segments 1-3)"
 
 
 def test_all_work_offsets_are_listed():
-    assert dict(of(SLOT, replace(SLOT, work_offset=57)).head)["WORK OFFSET"] == "G54, G57"
-    assert dict(of().head)["WORK OFFSET"] == "-"
+    assert dict(sheet_of(SLOT, replace(SLOT, work_offset=57)).head)["WORK OFFSET"] == "G54, G57"
+    assert dict(sheet_of().head)["WORK OFFSET"] == "-"
 
 
-def test_text_next_to_a_label_is_wrapped_at_its_last_column():
+def test_text_next_to_a_label_is_wrapped_at_the_last_column():
     fits, longer = "a" * 59, "a" * 40 + " " + "b" * 19
     lines = as_text(sheet([SLOT], Unit.IN, fits, longer)).splitlines()
     assert f"PROGRAM            {fits}" in lines
@@ -333,11 +335,11 @@ def test_text_next_to_a_label_is_wrapped_at_its_last_column():
     assert lines[lines.index("PART NAME          " + "a" * 40) + 1] == " " * 19 + "b" * 19
 
 
-def test_what_the_look_ahead_deletes_stands_beside_ready_and_on_the_block():
+def test_deleted_segments_are_noted_at_ready_and_in_the_block():
     note = "DELETED BY THE LOOK-AHEAD: SEGMENT 9"
-    made = of(replace(job(polyline((0, 0), (1, 0))), notes=(note,)))
-    text = as_text(made)
+    setup_sheet = sheet_of(replace(job(polyline((0, 0), (1, 0))), notes=(note,)))
+    text = as_text(setup_sheet)
     assert "READY to post. Know before you run it:" in text
     assert f"! Block 1: {note}" in text
     assert f"NOTE               {note}" in text
-    assert f"<li>Block 1: {note}</li>" in as_page(made, [""])
+    assert f"<li>Block 1: {note}</li>" in as_page(setup_sheet, [""])

@@ -22,78 +22,78 @@ from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OV
 IN = 25.4
 
 
-def codes(found):
-    return [finding.code for finding in found.findings]
+def codes(result):
+    return [finding.code for finding in result.findings]
 
 
-def test_the_over_run_square_is_clean_at_cal_and_its_over_run_is_told():
+def test_the_over_run_square_is_clean_at_cal_and_its_over_run_is_reported():
     part = program(block(OVER_RUN_SQUARE, CutterComp.RIGHT))
-    (found,) = derive(part).blocks
-    assert (found.lookahead.value, found.lookahead.tag) == (2, Tag.CAL)
-    assert found.postable
-    assert "OVER_RUN" in codes(found)
-    assert len(found.paths.verdict.uncut) == 0
+    (result,) = derive(part).blocks
+    assert (result.lookahead.value, result.lookahead.tag) == (2, Tag.CAL)
+    assert result.postable
+    assert "OVER_RUN" in codes(result)
+    assert len(result.paths.verdict.uncut) == 0
 
     mended = replace(part, blocks=(replace(part.blocks[0], lookahead=Number(4)),))
-    (found,) = derive(mended).blocks
-    assert (found.lookahead.value, found.lookahead.tag, found.lookahead.calculated) == (4, Tag.USR, 2)
-    assert found.postable
-    np.testing.assert_allclose(found.paths.center.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9)
-    assert found.paths.verdict.uncut_length / IN == pytest.approx(8.0, abs=1e-5)
-    assert found.paths.verdict.surface_length / IN == pytest.approx(8.0, abs=1e-12)
-    assert "USR_LOOKAHEAD" in codes(found)
-    assert "OVER_RUN" in codes(found)
-    assert "CROSSES_ITSELF" not in codes(found)
+    (result,) = derive(mended).blocks
+    assert (result.lookahead.value, result.lookahead.tag, result.lookahead.calculated) == (4, Tag.USR, 2)
+    assert result.postable
+    np.testing.assert_allclose(result.paths.center.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9)
+    assert result.paths.verdict.uncut_length / IN == pytest.approx(8.0, abs=1e-5)
+    assert result.paths.verdict.surface_length / IN == pytest.approx(8.0, abs=1e-12)
+    assert "USR_LOOKAHEAD" in codes(result)
+    assert "OVER_RUN" in codes(result)
+    assert "CROSSES_ITSELF" not in codes(result)
 
 
 def test_errors_come_before_warnings_and_warnings_before_the_rest():
-    (found,) = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT))).blocks
-    order = [list(Severity).index(finding.severity) for finding in found.findings]
+    (result,) = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT))).blocks
+    order = [list(Severity).index(finding.severity) for finding in result.findings]
     assert order == sorted(order)
 
 
-def test_on_runs_on_the_contour_and_is_not_judged():
-    (found,) = derive(program(block(NOTCH, CutterComp.ON))).blocks
-    assert found.side is None
-    assert found.paths.compensated is None
-    assert found.paths.verdict is None
-    np.testing.assert_allclose(found.paths.center.points / IN, NOTCH, atol=1e-12)
+def test_a_block_with_on_follows_the_contour_and_is_not_judged():
+    (result,) = derive(program(block(NOTCH, CutterComp.ON))).blocks
+    assert result.side is None
+    assert result.paths.compensated is None
+    assert result.paths.verdict is None
+    np.testing.assert_allclose(result.paths.center.points / IN, NOTCH, atol=1e-12)
 
 
-def test_every_block_has_its_place_in_the_program_as_its_number():
+def test_blocks_are_numbered_by_their_place_in_the_program():
     first, second = block(NOTCH, CutterComp.LEFT), block(OUTSIDE_SQUARE, CutterComp.RIGHT)
     derived = derive(program(second, first))
-    assert [found.number for found in derived.blocks] == [1, 2]
+    assert [derived_block.number for derived_block in derived.blocks] == [1, 2]
     assert derived.blocks[0].solved.closed
     alone, together = derive_block(derived.program, 2), derived.block(2)
     assert alone.paths.center.points.tolist() == together.paths.center.points.tolist()
 
 
-def test_an_outline_knows_the_look_ahead_but_no_path():
-    (found,) = solve_fields(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
-    assert found.lookahead.value == 3
-    assert found.paths is None
-    assert not found.known
-    assert not found.postable
+def test_solved_fields_give_the_look_ahead_but_no_path():
+    (result,) = solve_fields(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
+    assert result.lookahead.value == 3
+    assert result.paths is None
+    assert not result.known
+    assert not result.postable
 
 
-def test_the_part_that_is_determined_is_compensated_while_the_rest_is_typed():
+def test_the_determined_part_is_compensated_while_the_rest_is_incomplete():
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
     typed = replace(typed, segments=(*typed.segments[:2], LineSegment(), *typed.segments[3:]))
-    (found,) = derive(program(typed)).blocks
-    assert len(found.paths.surface) == 2
-    assert "MISSING" in codes(found)
-    assert not found.postable
+    (result,) = derive(program(typed)).blocks
+    assert len(result.paths.surface) == 2
+    assert "MISSING" in codes(result)
+    assert not result.postable
 
 
-def test_text_that_cannot_be_read_blocks_posting():
+def test_unreadable_text_blocks_posting():
     typed = replace(block(NOTCH, CutterComp.LEFT), lookahead=Number(3), plunge_feed=Unread("2..0", "two points"))
-    (found,) = derive(program(typed)).blocks
-    assert found.paths.verdict.clean
-    assert not found.postable
+    (result,) = derive(program(typed)).blocks
+    assert result.paths.verdict.clean
+    assert not result.postable
 
 
-def test_profile_comes_in_from_the_largest_offset_and_a_finish_tool_leaves_its_stock():
+def test_profile_steps_in_from_the_largest_offset_to_the_finish_stock():
     parameters = ProgramParameters(
         blend_offset=Number(0),
         blend_overlap=Number(0),
@@ -102,75 +102,75 @@ def test_profile_comes_in_from_the_largest_offset_and_a_finish_tool_leaves_its_s
         finish_xy=Number(0.02),
     )
     typed = block(OUTSIDE_SQUARE, CutterComp.PROFILE_RIGHT, finish_tool=Number(2))
-    (found,) = derive(program(typed, parameters=parameters)).blocks
-    # 0.5 across less 20 percent steps in by 0.4: 1.0, 0.6, 0.2, then the stock of 0.02
-    assert [one.stock / IN for one in found.paths.rough] == pytest.approx([1.0, 0.6, 0.2, 0.02])
-    assert found.radius / IN == pytest.approx(0.125)
-    lowest = [float(one.loops[0].path.points[:, 1].min()) / IN for one in found.paths.rough]
+    (result,) = derive(program(typed, parameters=parameters)).blocks
+    # a diameter of 0.5 less 20 percent steps in by 0.4: 1.0, 0.6, 0.2, then the stock of 0.02
+    assert [rough.stock / IN for rough in result.paths.rough] == pytest.approx([1.0, 0.6, 0.2, 0.02])
+    assert result.radius / IN == pytest.approx(0.125)
+    lowest = [float(rough.loops[0].path.points[:, 1].min()) / IN for rough in result.paths.rough]
     assert lowest == pytest.approx([-1.25, -0.85, -0.45, -0.27])
-    assert float(found.paths.center.points[:, 1].min()) / IN == pytest.approx(-0.125)
-    assert stocks(found, derive(program(typed, parameters=parameters)).program) == tuple(
-        one.stock for one in found.paths.rough
+    assert float(result.paths.center.points[:, 1].min()) / IN == pytest.approx(-0.125)
+    assert stocks(result, derive(program(typed, parameters=parameters)).program) == tuple(
+        rough.stock for rough in result.paths.rough
     )
 
 
-def test_a_gouging_roughing_pass_is_an_error_of_its_own():
-    """The stock's larger radius does not fit into the corner notch that the small finish tool clears."""
+def test_a_gouging_roughing_pass_is_a_separate_error():
+    """The roughing tool does not fit into the notch that the small finish tool clears."""
     slot = ((0, 0), (2, 0), (2, -1), (2.3, -1), (2.3, 0), (5, 0))
     typed = block(slot, CutterComp.LEFT, finish_tool=Number(2))
-    (found,) = derive(program(typed)).blocks
-    assert found.paths.verdict.clean
-    assert [finding.code for finding in found.errors] == ["ROUGH_GOUGES"]
+    (result,) = derive(program(typed)).blocks
+    assert result.paths.verdict.clean
+    assert [finding.code for finding in result.errors] == ["ROUGH_GOUGES"]
 
 
-def test_a_roughing_pass_that_keeps_its_distance_says_nothing():
+def test_a_roughing_pass_that_leaves_its_stock_has_no_finding():
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.02))
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT, finish_tool=Number(2))
-    (found,) = derive(program(typed, parameters=parameters)).blocks
-    (rough,) = found.paths.rough
+    (result,) = derive(program(typed, parameters=parameters)).blocks
+    (rough,) = result.paths.rough
     assert rough.verdict.clearance / IN == pytest.approx(0.27)
-    assert not [code for code in codes(found) if code.startswith("ROUGH")]
+    assert not [code for code in codes(result) if code.startswith("ROUGH")]
 
 
-def test_a_roughing_pass_that_does_not_leave_its_stock_is_told_by_what_it_leaves():
-    """The start in an inside corner lets the first pass run into the last wall's stock, yet not into the part."""
+def test_a_roughing_pass_that_cuts_into_its_stock_reports_what_it_leaves():
+    """The first pass starts in an inside corner and cuts into the stock of the last wall, but not into the part."""
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.3))
     step = ((0.28, 0), (2, 0), (2, 2), (0, 2), (0, 0.5))
     typed = block(step, CutterComp.LEFT, finish_tool=Number(2))
-    (found,) = derive(program(typed, parameters=parameters)).blocks
-    (told,) = [finding for finding in found.findings if finding.code == "ROUGH_STOCK"]
-    assert told.severity is Severity.WARNING
-    assert told.segment == 4
-    assert told.value / IN == pytest.approx(0.03)
-    assert sentence(told, Unit.IN).startswith("Roughing that should leave 0.3000 leaves only 0.0300 at X 0.0000")
-    assert found.paths.verdict.clean
+    (result,) = derive(program(typed, parameters=parameters)).blocks
+    (warning,) = [finding for finding in result.findings if finding.code == "ROUGH_STOCK"]
+    assert warning.severity is Severity.WARNING
+    assert warning.segment == 4
+    assert warning.value / IN == pytest.approx(0.03)
+    assert sentence(warning, Unit.IN).startswith("Roughing that should leave 0.3000 leaves only 0.0300 at X 0.0000")
+    assert result.paths.verdict.clean
 
 
 def test_stock_is_judged_on_the_path_that_is_posted():
-    """The best path has room for its stock wherever it runs, whatever the control's path would do."""
+    """The best path leaves its stock everywhere, even where the path of the control does not."""
     parameters = ProgramParameters(
         blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.3), path=PathChoice.BEST
     )
     step = ((0.28, 0), (2, 0), (2, 2), (0, 2), (0, 0.5))
-    (found,) = derive(program(block(step, CutterComp.LEFT, finish_tool=Number(2)), parameters=parameters)).blocks
-    assert not [code for code in codes(found) if code == "ROUGH_STOCK"]
+    (result,) = derive(program(block(step, CutterComp.LEFT, finish_tool=Number(2)), parameters=parameters)).blocks
+    assert not [code for code in codes(result) if code == "ROUGH_STOCK"]
 
 
 def test_a_blend_arc_that_gouges_is_named():
     parameters = ProgramParameters(blend_offset=Number(0.9), blend_overlap=Number(0))
     narrow = ((1, 0), (2, 0), (2, 0.8), (0, 0.8), (0, 0), (1, 0))
-    (found,) = derive(program(block(narrow, CutterComp.LEFT), parameters=parameters)).blocks
-    assert [finding.code for finding in found.errors].count("BLEND_GOUGES") == 2
-    told = {finding.text.split(", by ")[1] for finding in found.errors if finding.code == "GOUGE"}
-    assert told == {"the blend-in arc.", "the blend-out arc."}
+    (result,) = derive(program(block(narrow, CutterComp.LEFT), parameters=parameters)).blocks
+    assert [finding.code for finding in result.errors].count("BLEND_GOUGES") == 2
+    moves = {finding.text.split(", by ")[1] for finding in result.errors if finding.code == "GOUGE"}
+    assert moves == {"the blend-in arc.", "the blend-out arc."}
 
 
 def test_a_move_past_start_that_gouges_is_named():
-    """The overlap runs along the first segment again, as wrong as the first time."""
+    """The overlap runs along the first segment again and gouges again."""
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0.5))
     hook = ((1, 0), (2, 0), (2, 1), (0.9, 1), (0.9, 0.3), (0, 0.3), (0, 0), (1, 0))
-    (found,) = derive(program(block(hook, CutterComp.LEFT, lookahead=Number(1)), parameters=parameters)).blocks
-    work = found.paths
+    (result,) = derive(program(block(hook, CutterComp.LEFT, lookahead=Number(1)), parameters=parameters)).blocks
+    work = result.paths
     assert work is not None
     name = move_names(work)
     rows = np.cumsum([0, *(len(part) for loop in work.loops for part in (loop.lead_in, loop.path, loop.lead_out))])
@@ -179,10 +179,10 @@ def test_a_move_past_start_that_gouges_is_named():
     assert name(rows[3] - 1, 0.0) == "the path of 1 past START"
 
 
-def test_a_tool_larger_than_the_part_is_said():
+def test_a_tool_larger_than_the_part_is_reported():
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
-    (found,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
-    assert "TOOL_LARGE" in codes(found)
+    (result,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
+    assert "TOOL_LARGE" in codes(result)
 
 
 DUMBBELL = (
@@ -209,66 +209,66 @@ def best(points, comp, **more):
 
 
 def test_the_best_path_of_a_dumbbell_is_two_loops_judged_together():
-    """Between the two chambers is a passage of 0.4, which the cutter of 0.5 cannot enter."""
-    found = best(DUMBBELL, CutterComp.LEFT)
-    assert len(found.paths.loops) == 2
-    assert found.postable
-    assert [float(loop.path.lengths.sum()) / IN for loop in found.paths.loops] == pytest.approx([6.0, 6.0], abs=0.2)
+    """The 0.5 cutter cannot enter the 0.4 passage between the two chambers."""
+    result = best(DUMBBELL, CutterComp.LEFT)
+    assert len(result.paths.loops) == 2
+    assert result.postable
+    assert [float(loop.path.lengths.sum()) / IN for loop in result.paths.loops] == pytest.approx([6.0, 6.0], abs=0.2)
     control = derive(program(block(DUMBBELL, CutterComp.LEFT, lookahead=Number(1)))).blocks[0]
     assert len(control.paths.loops) == 1
     assert not control.postable
 
 
-def test_the_corner_over_start_is_told_as_the_last_segment():
+def test_a_difference_at_the_corner_at_start_is_reported_for_the_last_segment():
     corners = ((0.0, 0.0), (0.0, 3.0), (5.0, 3.0), (5.0, 0.0), (0.0, 0.0))
-    (found,) = with_better_paths(derive(program(block(corners, CutterComp.LEFT)))).blocks
-    (more,) = (one for one in found.findings if one.code == "BEST_DIFFERS")
-    assert more.segment == 4.0
+    (result,) = with_better_paths(derive(program(block(corners, CutterComp.LEFT)))).blocks
+    (difference,) = (finding for finding in result.findings if finding.code == "BEST_DIFFERS")
+    assert difference.segment == 4.0
 
 
-def test_the_form_says_what_the_best_path_cuts_more():
-    """From three on the look-ahead erases most of the over-run square; its true offset runs all round."""
-    (found,) = with_better_paths(derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Number(4))))).blocks
-    (more,) = [finding for finding in found.findings if finding.code == "BEST_DIFFERS"]
-    assert more.value > 8 * IN
+def test_the_additional_length_of_the_best_path_is_reported():
+    """A look-ahead of three or more deletes most of the over-run square; its true offset runs all around."""
+    (result,) = with_better_paths(derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Number(4))))).blocks
+    (difference,) = [finding for finding in result.findings if finding.code == "BEST_DIFFERS"]
+    assert difference.value > 8 * IN
 
 
-def test_where_the_control_path_is_clean_and_complete_the_best_path_is_the_same():
+def test_the_best_path_equals_a_clean_and_complete_control_path():
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     control = derive(part).blocks[0]
     assert better_path(control) == ()
-    found = best(MID_SIDE_SQUARE, CutterComp.LEFT)
-    np.testing.assert_allclose(found.paths.center.points, control.paths.center.points, atol=1e-9)
+    result = best(MID_SIDE_SQUARE, CutterComp.LEFT)
+    np.testing.assert_allclose(result.paths.center.points, control.paths.center.points, atol=1e-9)
 
 
-def test_the_cutter_that_fits_nowhere_has_no_best_path_and_nothing_is_posted():
+def test_a_cutter_that_fits_nowhere_has_no_best_path_and_is_not_postable():
     tiny = ((0.2, 0), (0.4, 0), (0.4, 0.4), (0, 0.4), (0, 0), (0.2, 0))
-    found = best(tiny, CutterComp.LEFT)
-    assert found.paths.loops == ()
-    assert "NO_PATH" in [finding.code for finding in found.errors]
-    assert not found.postable
+    result = best(tiny, CutterComp.LEFT)
+    assert result.paths.loops == ()
+    assert "NO_PATH" in [finding.code for finding in result.errors]
+    assert not result.postable
 
 
-def test_the_same_part_is_cut_in_the_other_unit():
+def test_the_path_is_the_same_in_the_other_unit():
     part = replace(program(block(NOTCH, CutterComp.LEFT)), parameters=ProgramParameters())
     inch, metric = derive(part).blocks[0], derive(set_unit(part, Unit.MM)).blocks[0]
     np.testing.assert_allclose(metric.paths.center.points, inch.paths.center.points, atol=1e-9)
 
 
 @pytest.mark.parametrize(("height", "limit"), [(0.1, "Z START"), (-0.3, "Z BOTTOM")])
-def test_a_z_end_outside_the_block_is_an_error_of_its_segment(height, limit):
+def test_a_z_end_outside_the_block_is_an_error_of_the_segment(height, limit):
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
     steep = changed(typed.segments[1], {"z_end": Number(height)})
-    (found,) = derive(program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))).blocks
-    (wrong,) = [finding for finding in found.errors if finding.code == "Z_END"]
+    (result,) = derive(program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))).blocks
+    (wrong,) = [finding for finding in result.errors if finding.code == "Z_END"]
     assert (wrong.segment, wrong.field) == (2.0, "z_end")
     assert limit in wrong.text
 
 
-def test_a_path_that_leaves_the_part_or_turns_back_is_told():
-    (found,) = derive(program(block(NOTCH, CutterComp.LEFT))).blocks
-    assert not {"AWAY", "BACKWARDS"} & set(codes(found))
-    work, radius = found.paths, found.radius
+def test_a_path_that_leaves_the_part_and_turns_back_is_reported():
+    (result,) = derive(program(block(NOTCH, CutterComp.LEFT))).blocks
+    assert not {"AWAY", "BACKWARDS"} & set(codes(result))
+    work, radius = result.paths, result.radius
     assert work is not None
     assert radius is not None
     start, end = (0.0, radius), (0.5 * IN, radius)
@@ -276,7 +276,7 @@ def test_a_path_that_leaves_the_part_or_turns_back_is_told():
     path = Path.of(np.array(corners), np.array(corners[:-1]), np.zeros(5, np.int8), np.ones(5))
     loop = Loop(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
     verdict = judge_together(work.surface, Side.LEFT, radius, [loop.whole])
-    told = path_findings(replace(work, loops=(loop,), verdict=verdict))
-    against, away = (one for one in told if one.code in ("AWAY", "BACKWARDS"))
+    findings = path_findings(replace(work, loops=(loop,), verdict=verdict))
+    against, away = (finding for finding in findings if finding.code in ("AWAY", "BACKWARDS"))
     assert against.text == "1 move runs against the direction of the contour."
     assert away.lengths[0] == pytest.approx(radius)

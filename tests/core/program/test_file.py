@@ -1,4 +1,4 @@
-"""Program files: what is written reads back the same, what is wrong or cut off is named by line and key."""
+"""Program files read back as written; wrong or cut-off files are refused with line and key."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BAD = Path(__file__).parents[2] / "data" / "bad" / "program"
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
 
 
-def test_the_text_of_a_program():
+def test_a_program_is_written_as_the_expected_text():
     assert dumps(PART) == TEXT
 
 
@@ -34,26 +34,26 @@ def test_every_program_reads_back_the_same(given_program):
     assert loads(dumps(given_program), "x") == given_program
 
 
-def test_what_could_not_be_read_is_kept_with_its_reason():
+def test_unreadable_text_is_kept_with_its_reason():
     z_bottom = loads(TEXT, "x").blocks[0].z_bottom
     assert isinstance(z_bottom, Unread)
     assert z_bottom.text == "-1/4x"
     assert z_bottom.reason.startswith("x is not a unit here")
 
 
-def test_unread_text_that_could_be_read_now_never_becomes_a_number():
+def test_unread_text_never_becomes_a_number():
     z_bottom = loads(TEXT.replace("-1/4x", "-1/4"), "x").blocks[0].z_bottom
     assert z_bottom == Unread("-1/4", "Type it again.")
 
 
-def test_half_characters_do_not_stop_saving():
+def test_surrogate_characters_do_not_prevent_saving():
     odd = program(start={"speed": Unread("\udcb0x\x7f\x00", "why")})
     speed = loads(dumps(odd), "x").blocks[0].speed
     assert isinstance(speed, Unread)
     assert speed.text == "?x\x7f\x00"
 
 
-def test_a_whole_number_may_stand_for_a_length():
+def test_a_length_may_be_a_whole_number():
     assert loads(TEXT.replace("x_start = -1.0", "x_start = -1"), "x").blocks[0].x_start == Number(-1.0)
 
 
@@ -64,14 +64,14 @@ def test_blanks_stay_blank():
     assert loads(bare, "x").blocks[0].x_start is None
 
 
-def test_a_number_out_of_its_fields_range_is_kept_for_the_form_to_show():
+def test_a_number_out_of_range_is_kept_for_the_form():
     text = TEXT.replace("diameter = 0.5", "diameter = -0.5").replace("speed = 300", "speed = -1")
     assert loads(text, "x").tools[0].diameter == Number(-0.5)
     assert loads(text, "x").blocks[0].speed == Number(-1.0)
 
 
 @pytest.mark.parametrize("path", sorted(BAD.glob("*.toml")), ids=lambda path: path.stem)
-def test_bad_files_are_refused_by_line_and_key(path):
+def test_bad_files_are_refused_with_line_and_key(path):
     before = path.read_bytes()
     with pytest.raises(StoreError) as refused:
         loads_bytes(path.read_bytes(), str(path))
@@ -93,9 +93,9 @@ def test_a_truncated_file_is_a_shorter_program_or_refused(length):
         assert len(read.blocks) <= 1
 
 
-def test_truth_values_are_told_as_the_file_has_them():
-    told = [loads_refused(TEXT.replace('"IN"', value, 1)) for value in ("true", "[true, [false, 1.5]]")]
-    assert [text.partition(":")[0] for text in told] == [
+def test_messages_show_boolean_values_as_in_the_file():
+    messages = [loads_refused(TEXT.replace('"IN"', value, 1)) for value in ("true", "[true, [false, 1.5]]")]
+    assert [text.partition(":")[0] for text in messages] == [
         "units cannot be true",
         "units cannot be [true, [false, 1.5]]",
     ]
@@ -108,19 +108,19 @@ def loads_refused(text: str) -> str:
     return str(refused.value).partition("line ")[2].partition(": ")[2]
 
 
-def test_a_syntax_error_says_line_and_column():
+def test_a_syntax_error_names_line_and_column():
     with pytest.raises(StoreError, match=r"part.toml, line 3, column 5: Invalid value. Correct it there"):
         loads('format = 1\nunits = "IN"\nx = ]\n', "part.toml")
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_examples_are_as_this_program_writes_them(path):
+def test_the_examples_are_exactly_as_the_program_writes_them(path):
     assert dumps(loads_bytes(path.read_bytes(), str(path))) == path.read_text()
 
 
 @settings(derandomize=True, max_examples=100, deadline=None)
 @given(st.floats(-393700.0, 393700.0), st.sampled_from(Unit))
-def test_what_could_be_read_can_be_read_in_the_other_unit_too(value, unit):
+def test_a_program_converted_to_the_other_unit_reads_back(value, unit):
     text = dumps(program(start={"x_start": Number(value)}, unit=unit))
     part = loads(text, "x")
     other = Unit.IN if unit is Unit.MM else Unit.MM
@@ -129,7 +129,7 @@ def test_what_could_be_read_can_be_read_in_the_other_unit_too(value, unit):
 
 
 END = "# end of program"
-UNTOLD = TEXT.replace(f'  # its last line is "{END}"', "").replace(f"\n{END}\n", "")
+WITHOUT_END = TEXT.replace(f'  # its last line is "{END}"', "").replace(f"\n{END}\n", "")
 
 
 def refusal(text: str) -> str:
@@ -138,21 +138,21 @@ def refusal(text: str) -> str:
     return refused.value.text
 
 
-def test_a_file_says_what_its_last_line_is():
+def test_the_first_line_names_the_last_line():
     lines = TEXT.splitlines()
     assert lines[0] == f'format = 1  # its last line is "{END}"'
     assert lines[-1] == END
 
 
 @pytest.mark.parametrize("path", [None, *EXAMPLES], ids=lambda path: "everything" if path is None else path.stem)
-def test_cut_at_any_byte_it_is_the_whole_program_or_refused(path: Path | None) -> None:
+def test_a_file_cut_off_at_any_byte_is_refused_or_complete(path: Path | None) -> None:
     data = TEXT.encode() if path is None else path.read_bytes()
     for length in range(len(data)):
-        found = outcome(data[:length])
-        if isinstance(found, str):
-            assert re.fullmatch(r"part.toml(, line \d+(, \w+)?)?: .+\.", found)
+        result = outcome(data[:length])
+        if isinstance(result, str):
+            assert re.fullmatch(r"part.toml(, line \d+(, \w+)?)?: .+\.", result)
         else:
-            assert (found, length) == (loads(data.decode(), "x"), len(data) - 1)
+            assert (result, length) == (loads(data.decode(), "x"), len(data) - 1)
 
 
 def outcome(data: bytes) -> Program | str:
@@ -162,13 +162,13 @@ def outcome(data: bytes) -> Program | str:
         return error.text
 
 
-def test_a_name_cut_in_the_middle_of_a_letter_is_a_file_cut_off() -> None:
+def test_a_file_that_ends_inside_a_character_is_reported_as_cut_off() -> None:
     data = TEXT.replace("END MILL", "FR\u00c4SER").encode()
     with pytest.raises(StoreError, match=r'part.toml, line 9: cut off after "type = .*": the last line'):
         loads_bytes(data[: data.index(b"\xc3") + 1], "part.toml")
 
 
-def test_the_sentence_names_the_last_line_and_what_to_do():
+def test_the_message_of_a_cut_off_file_names_the_last_line_and_what_to_do():
     cut = TEXT[: TEXT.index("y_end = 0.1") + len("y_end = 0")]
     line = cut.count("\n") + 1
     assert refusal(cut) == (
@@ -177,7 +177,7 @@ def test_the_sentence_names_the_last_line_and_what_to_do():
     )
 
 
-def test_blank_lines_behind_the_cut_are_not_its_last_line():
+def test_blank_lines_after_the_cut_are_not_the_last_line():
     cut = TEXT[: TEXT.index("y_end = 0.1")] + "\n  \n\n"
     assert f'line {TEXT[: TEXT.index("y_end = 0.1")].count(chr(10))}: cut off after "x_end = 2.0"' in refusal(cut)
 
@@ -189,21 +189,21 @@ def test_blank_lines_behind_the_cut_are_not_its_last_line():
         TEXT.rstrip(),
         TEXT + "\n\n",
         TEXT.replace(END + "\n", f"  {END}  \n"),
-        UNTOLD,
-        UNTOLD + f"\n{END}\n",
+        WITHOUT_END,
+        WITHOUT_END + f"\n{END}\n",
     ],
     ids=["dos", "no line feed", "blank lines", "indented", "older", "end alone"],
 )
-def test_what_editors_and_mail_do_to_a_file_and_older_files_are_no_trouble(text: str) -> None:
+def test_files_changed_by_editors_or_mail_and_older_files_are_read(text: str) -> None:
     assert dumps(loads(text, "x")) == TEXT
 
 
-def test_a_segment_added_by_hand_behind_the_end_counts():
+def test_a_segment_added_after_the_end_line_is_read():
     more = TEXT + '[[block.segment]]\nkind = "LINE"\nx_end = 4.0\n'
     assert len(loads(more, "x").blocks[0].segments) == len(PART.blocks[0].segments) + 1
 
 
-def test_a_text_that_reads_like_the_end_is_not_the_end():
+def test_a_part_name_like_the_end_line_is_not_the_end():
     named = Program(setup=Program().setup.__class__(name=END))
     text = dumps(named)
     assert loads(text, "x") == named
@@ -221,26 +221,26 @@ def test_a_text_that_reads_like_the_end_is_not_the_end():
         ("[[block.segm", "line 28: Expected ']]' at the end of an array declaration."),
     ],
 )
-def test_a_file_without_an_end_that_stops_in_the_middle_of_a_line_may_be_cut_off(cut: str, said: str | None) -> None:
-    where = UNTOLD.index(cut[:6] if cut.startswith("x_st") else cut)
-    text = UNTOLD[:where] + cut
+def test_an_older_file_that_stops_in_the_middle_of_a_line_may_be_cut_off(cut: str, said: str | None) -> None:
+    position = WITHOUT_END.index(cut[:6] if cut.startswith("x_st") else cut)
+    text = WITHOUT_END[:position] + cut
     if said is None:
         loads(text, "x")
         return
-    told = refusal(text)
-    assert told.startswith(f"part.toml, {said}")
-    assert told.endswith(" The file may be cut off there: open a saved copy or an earlier version, or fix the line.")
+    message = refusal(text)
+    assert message.startswith(f"part.toml, {said}")
+    assert message.endswith(" The file may be cut off there: open a saved copy or an earlier version, or fix the line.")
 
 
-def test_a_fault_in_the_middle_is_a_fault_of_its_line():
+def test_a_fault_in_a_complete_file_is_reported_for_its_line():
     assert refusal(TEXT.replace("x_end = 2.0", "x_end = 2.0.1")).endswith("Correct it there, or open a saved copy.")
 
 
 @pytest.mark.parametrize("begin", ["", "  "])
-def test_a_key_that_stands_twice_is_named(begin: str) -> None:
-    told = refusal(UNTOLD.replace("speed = 300", f"speed = 300\n{begin}speed = 400"))
-    line = UNTOLD[: UNTOLD.index("speed = 300")].count("\n") + 2
-    assert told == f"part.toml, line {line}: speed appears twice: remove one."
+def test_a_duplicate_key_is_named(begin: str) -> None:
+    message = refusal(WITHOUT_END.replace("speed = 300", f"speed = 300\n{begin}speed = 400"))
+    line = WITHOUT_END[: WITHOUT_END.index("speed = 300")].count("\n") + 2
+    assert message == f"part.toml, line {line}: speed appears twice: remove one."
 
 
 KEYS = """\
@@ -278,12 +278,12 @@ def test_every_key_has_its_line():
     assert lines["block", 1, "segment", 0, "x_end"] == 18
 
 
-def test_a_key_that_is_not_there_has_the_line_of_its_table():
+def test_a_missing_key_has_the_line_of_its_table():
     lines = key_lines(KEYS)
     assert line_of(lines, ("block", 1, "segment", 0, "y_end")) == 17
     assert line_of(lines, ("units",)) == 1
     assert line_of(lines, ("block", 7, "tool")) == 1
 
 
-def test_dotted_keys():
+def test_dotted_keys_have_lines():
     assert key_lines("setup.name = 'A'\n")["setup", "name"] == 1

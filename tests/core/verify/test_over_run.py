@@ -1,4 +1,4 @@
-"""Contours that start or end past their corner: what lies beyond the corner is lead-in or lead-out, not contour."""
+"""Contours that start or end past their corner: the parts beyond the corner are leads, not contour."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ MOTIONS: dict[str, tuple[Motion, Side]] = {
 
 
 def around(radius: float) -> Path:
-    """The path outside the square, from and to its corner at the origin, with leads past the corner."""
+    """The path outside the square that starts and ends past the corner at the origin."""
     return Path.from_pieces(
         [
             Line((-1, radius), (1.5, radius)),
@@ -62,7 +62,7 @@ def around(radius: float) -> Path:
 
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("contour", OVER_RUNS)
-def test_what_lies_beyond_the_corner_is_a_lead(contour: str, motion: str) -> None:
+def test_segments_beyond_the_corner_are_leads(contour: str, motion: str) -> None:
     move, side = MOTIONS[motion]
     verdict = judge(move(OVER_RUNS[contour]), side, R, move(around(R)))
     assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -74,7 +74,7 @@ def test_what_lies_beyond_the_corner_is_a_lead(contour: str, motion: str) -> Non
 
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("contour", OVER_RUNS)
-def test_a_lead_that_nicks_the_corner_gouges_by_its_depth_there(contour: str, motion: str) -> None:
+def test_a_lead_that_nicks_the_corner_gouges_by_the_depth_there(contour: str, motion: str) -> None:
     """The line from (-1, 0) to (0, R) passes the corner at less than the radius."""
     move, side = MOTIONS[motion]
     nick = lines((-1, 0), (0, R), (1, R))
@@ -123,20 +123,18 @@ OVERLAPS = {
 @pytest.mark.parametrize("motion", [name for name in MOTIONS if "reversed" not in name])
 @pytest.mark.parametrize("name", OVERLAPS)
 @pytest.mark.parametrize("radius", [R, 0.1])
-def test_a_contour_that_runs_on_along_its_first_wall_is_judged_as_without_that(
-    radius: float, name: str, motion: str
-) -> None:
+def test_an_overlap_along_the_first_wall_does_not_change_the_verdict(radius: float, name: str, motion: str) -> None:
     (move, side), (overlapped, once) = MOTIONS[motion], OVERLAPS[name]
     path = move(around(R))
-    verdict, wanted = (judge(move(contour), side, radius, path) for contour in (overlapped, once))
+    verdict, expected = (judge(move(contour), side, radius, path) for contour in (overlapped, once))
     assert not verdict.crosses_itself
-    assert verdict.depth == pytest.approx(wanted.depth, abs=1e-9)
-    assert verdict.surface_length == pytest.approx(wanted.surface_length)
-    assert verdict.uncut_length == pytest.approx(wanted.uncut_length, abs=1e-9)
-    assert verdict.wrong_side == wanted.wrong_side
+    assert verdict.depth == pytest.approx(expected.depth, abs=1e-9)
+    assert verdict.surface_length == pytest.approx(expected.surface_length)
+    assert verdict.uncut_length == pytest.approx(expected.uncut_length, abs=1e-9)
+    assert verdict.wrong_side == expected.wrong_side
 
 
-def test_a_last_wall_beside_or_against_the_first_one_is_a_wall() -> None:
+def test_a_last_wall_beside_or_opposite_the_first_one_is_a_wall() -> None:
     for end in ((0.9, 0.1), (0.9, -0.1)):
         assert judge(lines((0.5, 0), *SQUARE, (0, 0), end), Side.LEFT, R, around(R)).surface_length > 6.0
     back = judge(lines((0.5, 0), *SQUARE, (0, 0.0), (0, -0.7)), Side.LEFT, R, around(R))
@@ -145,7 +143,7 @@ def test_a_last_wall_beside_or_against_the_first_one_is_a_wall() -> None:
 
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("contour", OVER_RUNS)
-def test_with_the_tool_inside_the_ends_are_walls(contour: str, motion: str) -> None:
+def test_the_ends_are_walls_when_the_tool_is_inside(contour: str, motion: str) -> None:
     move, side = MOTIONS[motion]
     inside = Side.LEFT if side is Side.RIGHT else Side.RIGHT
     verdict = judge(move(OVER_RUNS[contour]), inside, R, move(lines((0.5, -0.5), (1, -0.5))))
@@ -162,7 +160,7 @@ def test_with_the_tool_inside_the_ends_are_walls(contour: str, motion: str) -> N
         lines((-8, 0), (0, 0), *SQUARE, (0, 0.1)),
     ],
 )
-def test_a_crossing_of_other_elements_and_a_run_as_long_as_the_loop_are_no_over_runs(contour: Path) -> None:
+def test_crossings_of_other_segments_and_overlong_ends_are_no_over_runs(contour: Path) -> None:
     verdict = judge(contour, Side.LEFT, R, lines((9, 9), (8, 9)))
     assert verdict.over_run_at is None
     assert verdict.crosses_itself
@@ -176,7 +174,7 @@ def test_a_contour_whose_ends_meet_has_no_over_run() -> None:
         assert verdict.clean
 
 
-def test_ends_that_run_past_each_other_by_less_than_what_counts_as_closed_are_leads() -> None:
+def test_ends_that_overlap_within_the_closing_tolerance_are_leads() -> None:
     for contour in (lines((0, 0), *SQUARE, (0, 0.002)), lines((-0.001, 0), *SQUARE, (0, 0.001))):
         verdict = judge(contour, Side.LEFT, R, around(R))
         assert verdict.over_run_at == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -186,8 +184,8 @@ def test_ends_that_run_past_each_other_by_less_than_what_counts_as_closed_are_le
         assert not inside.gouges
 
 
-def test_a_full_circle_is_no_over_run_of_what_crosses_it() -> None:
-    """Only the place where the crossing line leaves the circle is a part of both: all of the circle is a wall."""
+def test_a_full_circle_is_no_over_run_of_a_line_that_crosses_it() -> None:
+    """The crossing line shares only one point with the circle: all of the circle is a wall."""
     circle = Arc((2, 0), (2, 0), (0, 0), Turn.CCW)
     contour = Path.from_pieces([circle, Line((2, 0), (4, 1)), Line((4, 1), (0.5, 3))])
     crossing = Path.from_pieces([circle, Line((2, 0), (4, 0)), Line((4, 0), (4, 1)), Line((4, 1), (0, 1))])
@@ -206,7 +204,7 @@ WITH_ARCS = Path.from_pieces([TAIL_ARCS[0], *TAIL, TAIL_ARCS[1]])
 
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("part", [slice(None), slice(1, None), slice(None, -1)])
-def test_arcs_that_lead_to_an_over_run_are_leads_where_they_may_be(part: slice, motion: str) -> None:
+def test_arcs_before_or_after_an_over_run_are_leads_if_several_moves_may_lead(part: slice, motion: str) -> None:
     move, side = MOTIONS[motion]
     contour = move(Path.from_pieces(list(WITH_ARCS)[part]))
     assert judge(contour, side, R, move(around(R))).over_run_at is None
@@ -217,7 +215,7 @@ def test_arcs_that_lead_to_an_over_run_are_leads_where_they_may_be(part: slice, 
     assert judge(contour, side, R, move(around(R - 0.01)), leads=Leads.MOVES).depth == pytest.approx(0.01)
 
 
-def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
+def test_an_arc_that_crosses_the_part_is_no_lead() -> None:
     into = Arc((0, 1), (0.5, -0.5), (-2.75, -0.75), Turn.CW)
     verdict = judge(Path.from_pieces([*TAIL, into]), Side.LEFT, R, around(R), leads=Leads.MOVES)
     assert verdict.over_run_at is None
@@ -228,8 +226,8 @@ def test_an_arc_that_crosses_the_part_or_runs_on_its_side_is_no_lead() -> None:
 @pytest.mark.parametrize(
     ("part", "beyond"), [(slice(None), [1, 2, 5, 6]), (slice(1, None), [1, 4, 5]), (slice(None, -1), [1, 2, 5])]
 )
-def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, beyond: list[int], motion: str) -> None:
-    """Compensation that begins a move before the over-run, or goes on a move longer."""
+def test_a_lead_may_have_one_bend_if_several_moves_may_lead(part: slice, beyond: list[int], motion: str) -> None:
+    """Compensation begins a move before the over-run or ends a move after it."""
     move, side = MOTIONS[motion]
     pieces = [Line((-1.5, -0.5), (-1, 0)), *TAIL, Line((0, 1), (-1, 1))][part]
     contour = move(Path.from_pieces(pieces))
@@ -242,8 +240,8 @@ def test_a_lead_may_have_a_bend_where_more_moves_may_lead(part: slice, beyond: l
     assert sorted(verdict.over_run.lead_numbers) == beyond
 
 
-def test_a_long_part_of_a_wall_beyond_the_crossing_is_told_beside_a_lead_with_moves_of_its_own() -> None:
-    """A third of the first wall counts as lead: what comes last may be mistyped."""
+def test_a_long_part_of_a_wall_beyond_the_crossing_is_listed_as_a_lead() -> None:
+    """A third of the first wall counts as a lead, so the last segment may be mistyped."""
     contour = lines((-0.75, 0), *SQUARE, (0, 0), (0, 1))
     verdict = judge(contour, Side.LEFT, R, around(R), leads=Leads.MOVES)
     assert verdict.over_run is not None
@@ -253,7 +251,7 @@ def test_a_long_part_of_a_wall_beyond_the_crossing_is_told_beside_a_lead_with_mo
     assert short.over_run.lead_numbers == ()
 
 
-def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
+def test_a_lead_has_at_most_one_bend_and_none_on_the_part_side() -> None:
     once = Path.from_pieces([*TAIL, Line((0, 1), (-1, 1))])
     twice = Path.from_pieces([*once, Line((-1, 1), (-1, 2))])
     for contour, side in ((twice, Side.LEFT), (once, Side.RIGHT)):
@@ -276,9 +274,7 @@ def test_more_than_one_bend_or_one_on_the_part_is_no_lead() -> None:
         ),
     ],
 )
-def test_a_long_lead_on_whose_segment_the_contour_begins_or_ends_may_be_a_mistyped_start(
-    contour: Path, text: str
-) -> None:
+def test_a_long_lead_on_an_end_segment_is_reported_as_a_possibly_mistyped_start(contour: Path, text: str) -> None:
     side = Side.RIGHT if contour.points[0][1] else Side.LEFT
     verdict = judge(contour, side, R, lines((9, 9), (8, 9)))
     assert verdict.over_run_at == pytest.approx((0.0, 1.5))
@@ -290,7 +286,7 @@ def test_a_long_lead_on_whose_segment_the_contour_begins_or_ends_may_be_a_mistyp
 
 
 @pytest.mark.parametrize("contour", [*OVER_RUNS.values(), TAIL, lines((0, 0), *SQUARE, (0, 0.4))])
-def test_leads_that_are_short_or_cross_or_have_a_segment_of_their_own_are_told_as_information(contour: Path) -> None:
+def test_short_or_separate_or_crossing_leads_are_information(contour: Path) -> None:
     verdict = judge(contour, Side.LEFT, R, around(R))
     (over_run,) = [finding for finding in verdict_findings(verdict, contour) if finding.code == "OVER_RUN"]
     assert over_run.severity is Severity.INFO
@@ -302,7 +298,7 @@ LEAF_BACK = (Line((4, 2), (0, 2)), Line((0, 2), (0, -2.5)))
 
 
 def arc(start: tuple[float, float], end: tuple[float, float]) -> Arc:
-    """An arc of the leaf's lower edge."""
+    """An arc on the lower edge of the leaf."""
     return Arc(start, end, LEAF_CENTER, Turn.CCW)
 
 
