@@ -1,4 +1,4 @@
-"""Laws of the center path: its distance from the contour, its wholeness, and its symmetries."""
+"""Properties of the center path: its distance from the contour, its order and its symmetries."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 
 
 def _off(piece: Piece, points: Floats) -> Floats:
-    """Distance of points from the whole line or circle of a piece."""
+    """The distance of points from the infinite line or full circle of a piece."""
     if isinstance(piece, Arc):
         return np.asarray(np.abs(np.hypot(*(points - piece.center).T) - piece.radius))
     along = np.subtract(piece.end, piece.start) / piece.length
@@ -35,7 +35,7 @@ def _off(piece: Piece, points: Floats) -> Floats:
 
 
 def _sampled(piece: Piece) -> Floats:
-    """Points along a piece, both ends among them."""
+    """Points along a piece, including both ends."""
     shares = np.linspace(0.0, 1.0, 7)
     if isinstance(piece, Line):
         return piece.start + shares[:, None] * np.subtract(piece.end, piece.start)
@@ -46,7 +46,7 @@ def _sampled(piece: Piece) -> Floats:
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
-def test_every_piece_runs_at_the_radius_from_its_own_segment(contour, side, radius, lookahead, closed):
+def test_every_piece_is_the_radius_away_from_its_segment(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
     done = compensate(contour, side, radius, lookahead, closed=closed)
     for piece, number, bridged in zip(done.path, done.path.numbers.tolist(), done.bridged.tolist(), strict=True):
@@ -61,7 +61,7 @@ def test_every_piece_runs_at_the_radius_from_its_own_segment(contour, side, radi
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
-def test_path_is_whole(contour, side, radius, lookahead, closed):
+def test_the_path_is_finite_and_in_order(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
     done = compensate(contour, side, radius, lookahead, closed=closed, blend=0.1, overlap=0.1)
     path, whole = done.path, done.whole
@@ -78,7 +78,7 @@ def test_path_is_whole(contour, side, radius, lookahead, closed):
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, st.booleans())
-def test_all_lookaheads_together_are_those_one_by_one(contour, side, radius, closed):
+def test_lookaheads_calculated_together_equal_those_calculated_singly(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
     for done in compensate_all(contour, side, radius, (7, 1, 2, 20), closed=closed, blend=0.1):
         alone = compensate(contour, side, radius, done.lookahead, closed=closed, blend=0.1)
@@ -105,7 +105,7 @@ def _moved(path: Path, move: Callable[[Floats], Floats], *, mirrored: bool = Fal
 
 
 def _same(one: Compensated, two: Compensated, move: Callable[[Floats], Floats], near: float) -> None:
-    """Is the second what the first becomes by a movement?"""
+    """Assert that `move` turns the first path into the second."""
     for before, after in ((one.raw, two.raw), (one.path, two.path)):
         assert before.numbers.tolist() == after.numbers.tolist()
         assert np.abs(move(before.points) - after.points).max(initial=0.0) < near
@@ -120,7 +120,7 @@ def _told(one: Compensated) -> list[tuple[str, float | None]]:
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
-def test_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, side, radius, lookahead, closed):
+def test_a_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, side, radius, lookahead, closed):
     def mirror(points: Floats) -> Floats:
         return np.asarray(points * np.array([1.0, -1.0]), np.float64)
 
@@ -134,7 +134,7 @@ def test_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, sid
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.floats(0, 2 * pi))
-def test_turned_contour_gives_the_turned_path(contour, side, radius, lookahead, angle):
+def test_a_rotated_contour_gives_the_rotated_path(contour, side, radius, lookahead, angle):
     matrix = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
 
     def turn(points: Floats) -> Floats:
@@ -148,7 +148,7 @@ def test_turned_contour_gives_the_turned_path(contour, side, radius, lookahead, 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.tuples(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4)))
-def test_contour_far_from_the_origin_gives_the_same_path_there(contour, side, radius, lookahead, by):
+def test_a_contour_far_from_the_origin_gives_the_same_path_there(contour, side, radius, lookahead, by):
     def shift(points: Floats) -> Floats:
         return np.asarray(points + np.array(by), np.float64)
 
@@ -160,7 +160,7 @@ def test_contour_far_from_the_origin_gives_the_same_path_there(contour, side, ra
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.sampled_from([25.4, 1 / 25.4, 0.5, 1000.0]))
-def test_scaled_contour_and_tool_give_the_scaled_path(contour, side, radius, lookahead, factor):
+def test_a_scaled_contour_and_tool_give_the_scaled_path(contour, side, radius, lookahead, factor):
     def scale(points: Floats) -> Floats:
         return np.asarray(points * factor, np.float64)
 
@@ -170,14 +170,14 @@ def test_scaled_contour_and_tool_give_the_scaled_path(contour, side, radius, loo
 
 
 def _one_way(contour: Path, side: Side, radius: float) -> bool:
-    """Does every inside corner have just one crossing, so that it does not matter which piece comes first?"""
+    """Whether every inside corner has just one crossing, so that the order of pieces does not matter."""
     joints = crossings(offset(contour, side, radius), 1, closed=False).joints
     return len(np.unique(joints.b)) == len(joints)
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii)
-def test_contour_traveled_backwards_gives_the_same_path_backwards(contour, side, radius):
+def test_a_reversed_contour_gives_the_reversed_path(contour, side, radius):
     one = compensate(contour, side, radius, 1, closed=False)
     two = compensate(contour.reversed(), OTHER[side], radius, 1, closed=False)
     assume(_one_way(contour, side, radius))
@@ -187,7 +187,7 @@ def test_contour_traveled_backwards_gives_the_same_path_backwards(contour, side,
     assert one.path.turns.tolist() == (-two.path.turns[::-1]).tolist()
 
 
-def test_full_circle_alone_is_its_own_offset():
+def test_the_offset_of_a_full_circle_is_a_full_circle():
     circle = Path.from_pieces([Arc((2, 0), (2, 0), (0, 0), Turn.CCW)])
     for side, radius in ((Side.LEFT, 1.75), (Side.RIGHT, 2.25)):
         done = compensate(circle, side, 0.25, 3, closed=True)
@@ -195,13 +195,13 @@ def test_full_circle_alone_is_its_own_offset():
         assert not done.findings
 
 
-def test_contour_of_one_segment():
+def test_a_contour_of_one_line_gives_one_line():
     done = compensate(lines((0, 0), (4, 0)), Side.LEFT, 0.25, 2, closed=False)
     assert list(done.path) == [Line((0, 0.25), (4, 0.25))]
 
 
-def test_path_of_corner_arcs_alone():
-    """A cutter much larger than a star that is walked outside touches it at its points only."""
+def test_the_path_around_a_small_star_has_corner_arcs_only():
+    """A cutter much larger than a star touches it at its points only."""
     angles = [pi / 2 + row * pi / 5 for row in range(11)]
     star = lines(*((r * cos(a), r * sin(a)) for a, r in zip(angles, [1.0, 0.4] * 5 + [1.0], strict=True)))
     done = compensate(star.part(1, 9), Side.RIGHT, 30.0, 20, closed=False)
@@ -210,7 +210,7 @@ def test_path_of_corner_arcs_alone():
     assert (inner % 1 == 0.5).all()
 
 
-def test_closed_contour_of_two_segments_takes_the_latest_point_at_its_first_corner():
+def test_a_closed_contour_of_two_segments_takes_the_latest_point_at_its_first_corner():
     lens = Path.from_pieces([Arc((-1, 0), (1, 0), (0, 1), Turn.CCW), Arc((1, 0), (-1, 0), (0, -1), Turn.CCW)])
     done = compensate(lens, Side.LEFT, 0.25, 3, closed=True)
     across = float(np.sqrt((np.sqrt(2) - 0.25) ** 2 - 1))
@@ -219,8 +219,8 @@ def test_closed_contour_of_two_segments_takes_the_latest_point_at_its_first_corn
     assert compensate(lens, Side.LEFT, 0.25, 3, closed=False).path.points[1] == pytest.approx((-across, 0))
 
 
-def test_three_offsets_that_meet_in_one_point_leave_no_sliver():
-    """The short side's offset shrinks to the very point where its neighbors' offsets meet."""
+def test_three_offsets_that_meet_at_one_point_leave_no_sliver():
+    """The offset of the short side shrinks to the point where the offsets of its neighbors meet."""
     slot = lines((0, 2), (0, 0), (0.5, 0), (0.5, 2))
     done = compensate(slot, Side.LEFT, 0.25, 3, closed=False)
     assert done.path.numbers.tolist() == [1, 3]
@@ -230,13 +230,13 @@ def test_three_offsets_that_meet_in_one_point_leave_no_sliver():
 
 
 @pytest.mark.parametrize("side", Side)
-def test_out_and_back_along_one_line(side):
+def test_a_line_out_and_back_is_rounded_at_its_end(side):
     done = compensate(lines((0, 0), (4, 0), (0, 0)), side, 0.5, 8, closed=True)
     assert done.path.numbers.tolist() == [1, 1.5, 2]
     assert done.path.lengths.tolist() == pytest.approx([4, pi / 2, 4])
 
 
-def test_inches_and_millimeters_give_one_path():
+def test_inches_and_millimeters_give_the_same_path():
     pocket = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0), (1, 0))
     inch = compensate(pocket, Side.LEFT, 0.25, 5, closed=True)
     metric = compensate(_moved(pocket, lambda points: points * 25.4), Side.LEFT, 6.35, 5, closed=True)

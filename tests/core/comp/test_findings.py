@@ -1,4 +1,4 @@
-"""Contours that are refused, and what is said about those that are not."""
+"""Contours that are refused, and findings on those that are not."""
 
 from __future__ import annotations
 
@@ -20,66 +20,66 @@ L = lines((0, 0), (2, 0), (2, 2))
 BAD = [nan, inf, -inf, 1e8, 1e300]
 
 
-def _only(done: Compensated) -> Finding:
-    (finding,) = done.findings
+def _only(compensated: Compensated) -> Finding:
+    (finding,) = compensated.findings
     return finding
 
 
-def _refused(done: Compensated, code: str) -> Finding:
-    finding = _only(done)
+def _refused(compensated: Compensated, code: str) -> Finding:
+    finding = _only(compensated)
     assert (finding.code, finding.severity) == (code, Severity.ERROR)
-    assert len(done.path) == len(done.raw) == len(done.deleted) == len(done.whole) == 0
+    assert len(compensated.path) == len(compensated.raw) == len(compensated.deleted) == len(compensated.whole) == 0
     return finding
 
 
 @pytest.mark.parametrize("radius", [0.0, -1.0, nan, inf, 1e300])
-def test_radius_that_is_none(radius):
+def test_an_invalid_radius_is_refused(radius):
     _refused(compensate(L, Side.LEFT, radius, 2, closed=False), "RADIUS")
 
 
 @pytest.mark.parametrize("lookahead", [0, -3])
-def test_lookahead_that_is_none(lookahead):
+def test_an_invalid_lookahead_is_refused(lookahead):
     _refused(compensate(L, Side.LEFT, 0.25, lookahead, closed=False), "LOOKAHEAD")
 
 
-def test_empty_contour():
+def test_an_empty_contour_is_refused():
     _refused(compensate(EMPTY, Side.LEFT, 0.25, 2, closed=False), "EMPTY_CONTOUR")
 
 
 @pytest.mark.parametrize("bad", BAD)
-def test_point_that_is_no_number(bad):
+def test_an_invalid_point_is_refused(bad):
     contour = lines((0, 0), (2, 0), (2, bad), (0, 2))
     assert _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "NOT_FINITE").segment == 2
 
 
 @pytest.mark.parametrize("bad", BAD)
-def test_center_that_is_no_number(bad):
+def test_an_invalid_center_is_refused(bad):
     contour = Path.from_pieces([Line((0, 0), (1, 0)), Arc((1, 0), (2, 0), (bad, 0), Turn.CW)])
     assert _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "NOT_FINITE").segment == 2
 
 
-def test_arc_with_two_radii():
+def test_an_arc_with_two_radii_is_refused():
     contour = Path.from_pieces([Line((0, 0), (1, 0)), Arc((1, 0), (2, 0), (1.6, 0), Turn.CW)])
     finding = _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "ARC_RADII")
     assert finding.segment == 2
     assert finding.lengths == pytest.approx((0.6, 0.4))
 
 
-def test_arc_about_its_own_start():
+def test_an_arc_about_its_own_start_is_refused():
     contour = Path.from_pieces([Arc((1, 0), (1.002, 0), (1, 0), Turn.CW)])
     _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "ARC_RADII")
 
 
-def test_refusal_is_given_for_every_lookahead():
+def test_every_lookahead_has_the_refusal():
     for done in compensate_all(EMPTY, Side.LEFT, 0.25, (1, 2, 3), closed=False):
         _refused(done, "EMPTY_CONTOUR")
     assert compensate_all(L, Side.LEFT, 0.25, (), closed=False) == ()
 
 
-def test_segments_without_length_are_passed_over():
+def test_segments_without_length_are_skipped():
     contour = lines((0, 0), (0, 0), (2, 0), (2, 0), (2, 2))
     done = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
-    assert [(one.code, one.segment, one.severity) for one in done.findings] == [
+    assert [(finding.code, finding.segment, finding.severity) for finding in done.findings] == [
         ("ZERO_LENGTH", 1, Severity.WARNING),
         ("ZERO_LENGTH", 3, Severity.WARNING),
     ]
@@ -87,15 +87,15 @@ def test_segments_without_length_are_passed_over():
     assert done.contour.numbers.tolist() == [2, 4]
 
 
-def test_segments_without_length_add_no_reach():
+def test_segments_without_length_do_not_extend_the_lookahead():
     stepped = lines((0, 0), (2, 0), (2, 0.1), (4, 0.1), (4, 2))
     padded = lines((0, 0), (2, 0), (2, 0), (2, 0), (2, 0.1), (4, 0.1), (4, 2))
-    one, two = (compensate(contour, Side.LEFT, 0.25, 2, closed=False) for contour in (stepped, padded))
-    assert np.array_equal(one.path.points, two.path.points)
-    assert [deleted.segment for deleted in two.deleted] == [4]
+    plain, with_points = (compensate(contour, Side.LEFT, 0.25, 2, closed=False) for contour in (stepped, padded))
+    assert np.array_equal(plain.path.points, with_points.path.points)
+    assert [deleted.segment for deleted in with_points.deleted] == [4]
 
 
-def test_arcs_that_are_points_are_passed_over():
+def test_arcs_that_are_points_are_skipped():
     contour = Path.from_pieces([Line((0, 0), (2, 0)), Arc((2, 0), (2, 0), (2, 0), Turn.CW), Line((2, 0), (2, 2))])
     done = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
     assert _only(done).code == "ZERO_LENGTH"
@@ -104,25 +104,25 @@ def test_arcs_that_are_points_are_passed_over():
 
 @pytest.mark.parametrize("turn", list(Turn))
 @pytest.mark.parametrize("far", [(0.0, 6e-8), (-6e-8, 0.0), (4e-8, -4e-8)])
-def test_arcs_about_an_end_of_their_own_no_farther_off_than_a_point_are_passed_over(turn, far):
-    """Their length is that of an arc through any angle at all: there is no direction from the center to that end."""
+def test_arcs_about_one_of_their_own_ends_are_skipped(turn, far):
+    """Such an arc has no defined angle: there is no direction from the center to that end."""
     for start, end, center in (((0, 0), far, far), (far, (0, 0), (0, 0)), (far, (0, 0), far)):
         first, last = Arc(start, end, center, turn), Line(end, (10, 0))
         round_: list[Piece] = [first, last, Line((10, 0), (0, 10)), Line((0, 10), start)]
         for pieces, closed in ((round_[1:] + round_[:1], True), (round_, True), (round_[3:] + round_[:2], False)):
             done = compensate(Path.from_pieces(pieces), Side.RIGHT, 1.0, 3, closed=closed, blend=1.0)
-            assert [one.code for one in done.findings] == ["ZERO_LENGTH"]
+            assert [finding.code for finding in done.findings] == ["ZERO_LENGTH"]
             assert len(done.path)
             assert np.isfinite(done.whole.points).all()
 
 
-def test_contour_of_points_alone():
+def test_a_contour_of_points_only_is_empty():
     done = compensate(lines((1, 1), (1, 1)), Side.LEFT, 0.25, 2, closed=True)
-    assert [one.code for one in done.findings] == ["ZERO_LENGTH", "EMPTY_CONTOUR"]
+    assert [finding.code for finding in done.findings] == ["ZERO_LENGTH", "EMPTY_CONTOUR"]
     assert not len(done.path)
 
 
-def test_full_circle_is_not_passed_over():
+def test_a_full_circle_is_not_skipped():
     circle = Arc((2, 0), (2, 0), (0, 0), Turn.CCW)
     contour = Path.from_pieces([Line((5, 0), (2, 0)), circle, Line((2, 0), (2, 1e-8)), Line((2, 1e-8), (5, 0))])
     done = compensate(contour, Side.RIGHT, 0.25, 2, closed=False)
@@ -131,27 +131,27 @@ def test_full_circle_is_not_passed_over():
 
 
 @pytest.mark.parametrize("short", [2e-8, 5e-8])
-def test_arc_short_of_a_full_circle_by_less_than_a_point_is_one(short):
+def test_an_arc_short_of_a_full_circle_by_less_than_a_point_is_a_full_circle(short):
     contour = Path.from_pieces([Arc((1, 0), (cos(short), -sin(short)), (0, 0), Turn.CCW)])
     done = compensate(contour, Side.RIGHT, 0.5, 2, closed=True)
     assert done.path.lengths.tolist() == [pytest.approx(3 * pi)]
     assert done.path[0].start == done.path[0].end
 
 
-def test_inside_arc_too_small_for_the_tool():
+def test_an_inside_arc_too_small_for_the_tool_vanishes():
     contour = Path.from_pieces(
         [Line((0, 0), (2, 0)), Arc((2, 0), (2.2, 0.2), (2, 0.2), Turn.CCW), Line((2.2, 0.2), (2.2, 3))]
     )
-    one = _only(compensate(contour, Side.LEFT, 0.25, 1, closed=False))
-    assert (one.code, one.severity, one.segment) == ("VANISHED", Severity.WARNING, 2)
-    assert one.value == pytest.approx(0.2)
+    finding = _only(compensate(contour, Side.LEFT, 0.25, 1, closed=False))
+    assert (finding.code, finding.severity, finding.segment) == ("VANISHED", Severity.WARNING, 2)
+    assert finding.value == pytest.approx(0.2)
     pruned = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
     assert not pruned.findings
     assert [(deleted.segment, deleted.by) for deleted in pruned.deleted] == [(2, (1, 3))]
 
 
 @pytest.mark.parametrize("lookahead", [1, 2, 8])
-def test_inside_arc_exactly_as_large_as_the_tool(lookahead):
+def test_an_inside_arc_exactly_as_large_as_the_tool_becomes_a_corner(lookahead):
     contour = Path.from_pieces(
         [Line((0, 0), (2, 0)), Arc((2, 0), (2.25, 0.25), (2, 0.25), Turn.CCW), Line((2.25, 0.25), (2.25, 3))]
     )
@@ -162,21 +162,23 @@ def test_inside_arc_exactly_as_large_as_the_tool(lookahead):
 
 
 @pytest.mark.parametrize("radius", [2.0, 2.5])
-def test_hole_too_small_for_the_tool(radius):
+def test_a_hole_too_small_for_the_tool_is_an_error(radius):
     contour = Path.from_pieces([Arc((2, 0), (2, 0), (0, 0), Turn.CCW)])
     done = compensate(contour, Side.LEFT, radius, 3, closed=True, blend=0.1, overlap=0.1)
     assert len(done.whole) == 0
-    assert Severity.ERROR in {one.severity for one in done.findings}
+    assert Severity.ERROR in {finding.severity for finding in done.findings}
     assert len(compensate(contour, Side.RIGHT, radius, 3, closed=True).path) == 1
 
 
-def test_start_at_an_inside_corner_of_arcs():
+def test_a_start_at_an_inside_corner_of_arcs_is_reported():
     lens = Path.from_pieces([Arc((-1, 0), (1, 0), (0, 1), Turn.CCW), Arc((1, 0), (-1, 0), (0, -1), Turn.CCW)])
-    assert [one.code for one in compensate(lens, Side.LEFT, 0.25, 3, closed=True).findings] == ["START_INSIDE_CORNER"]
+    assert [finding.code for finding in compensate(lens, Side.LEFT, 0.25, 3, closed=True).findings] == [
+        "START_INSIDE_CORNER"
+    ]
     assert not compensate(lens, Side.RIGHT, 0.25, 3, closed=True).findings
 
 
-def test_tangent_start_is_no_corner():
+def test_a_tangent_start_is_no_corner():
     slot = Path.from_pieces(
         [
             Line((0, 0), (4, 0)),
@@ -191,12 +193,12 @@ def test_tangent_start_is_no_corner():
         assert done.path.numbers.tolist() == [1, 2, 3, 4]
 
 
-def test_long_way_names_what_it_erased():
+def test_a_long_way_names_the_deleted_segments():
     contour = lines((0.1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0))
-    found = compensate(contour, Side.LEFT, 0.25, 4, closed=True).findings[-1]
-    assert found.code == "LONG_WAY"
-    assert found.value == pytest.approx(4.0)
-    assert "segments 2-3" in found.text
+    finding = compensate(contour, Side.LEFT, 0.25, 4, closed=True).findings[-1]
+    assert finding.code == "LONG_WAY"
+    assert finding.value == pytest.approx(4.0)
+    assert "segments 2-3" in finding.text
 
 
 def test_a_bridged_corner_is_named_wherever_the_contour_lies():
@@ -205,34 +207,34 @@ def test_a_bridged_corner_is_named_wherever_the_contour_lies():
     row = int(done.bridged.nonzero()[0][0])
     x, y = done.path.points[row : row + 2].mean(axis=0).tolist()
     about_origin = compensate(lines(*((px - x, py - y) for px, py in notch)), Side.LEFT, 0.25, 1, closed=False)
-    for found in (done, about_origin):
-        assert [(finding.code, finding.segment) for finding in found.findings] == [("CORNER_MISSED", 3.5)]
+    for result in (done, about_origin):
+        assert [(finding.code, finding.segment) for finding in result.findings] == [("CORNER_MISSED", 3.5)]
 
 
-def test_many_places_are_counted_not_listed():
+def test_many_places_are_counted_and_not_listed():
     notch = [(0.0, 0.0), (2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0)]
     done = compensate(
         lines(*((x + 4 * row, y) for row in range(150) for x, y in notch)), Side.LEFT, 0.25, 1, closed=False
     )
     assert done.bridged.sum() == 150
-    assert {(one.code, one.severity) for one in done.findings} == {("CORNER_MISSED", Severity.WARNING)}
-    assert [one.segment for one in done.findings[:3]] == [3.5, 8.5, 13.5]
+    assert {(finding.code, finding.severity) for finding in done.findings} == {("CORNER_MISSED", Severity.WARNING)}
+    assert [finding.segment for finding in done.findings[:3]] == [3.5, 8.5, 13.5]
     assert len(done.findings) == MAX_NAMED_PLACES + 1
     assert "150" in done.findings[-1].text
 
 
 def test_zero_lengths_beyond_a_hundred_are_counted():
     contour = lines((0, 0), *[(1, 0)] * 150, (2, 0))
-    found = compensate(contour, Side.LEFT, 0.25, 1, closed=False).findings
-    assert len(found) == MAX_NAMED_PLACES + 1
-    assert "149" in found[-1].text
+    findings = compensate(contour, Side.LEFT, 0.25, 1, closed=False).findings
+    assert len(findings) == MAX_NAMED_PLACES + 1
+    assert "149" in findings[-1].text
 
 
 @pytest.mark.parametrize(
     ("numbers", "text"),
     [([4], "segment 4"), ([2, 3], "segments 2-3"), ([1, 2, 3, 7, 9, 10], "segments 1-3, 7, 9-10")],
 )
-def test_spoken_numbers(numbers, text):
+def test_segment_numbers_are_listed_as_ranges(numbers, text):
     assert segment_list(np.array(numbers, np.float64)) == text
 
 

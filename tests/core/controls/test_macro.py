@@ -1,4 +1,4 @@
-"""Parameters, expressions and O-words: as LinuxCNC's interpreter works them out, and what RosettaCNC has of them."""
+"""Parameters, expressions and O-words as in LinuxCNC's interpreter, and those that RosettaCNC has."""
 
 from __future__ import annotations
 
@@ -24,69 +24,71 @@ DIAMETERS = {1: 0.5, 2: 0.25}
 
 @needs_witness
 @pytest.mark.parametrize("name", SAME)
-def test_the_interpreter_itself_makes_the_same_moves(name: str, tmp_path: Path) -> None:
+def test_programs_make_the_same_moves_as_in_the_interpreter(name: str, tmp_path: Path) -> None:
     assert outcome(whole(SAME[name]), tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
 
 
 @needs_witness
 @pytest.mark.parametrize("name", REFUSED)
-def test_the_interpreter_itself_refuses(name: str, tmp_path: Path) -> None:
-    fared, apart = outcome(whole(REFUSED[name][0]), tmp_path, DIAMETERS, Unit.IN)
-    assert fared.startswith("both refuse")
+def test_bad_programs_are_refused_by_the_interpreter_too(name: str, tmp_path: Path) -> None:
+    result, apart = outcome(whole(REFUSED[name][0]), tmp_path, DIAMETERS, Unit.IN)
+    assert result.startswith("both refuse")
     assert not apart
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_a_refusal_names_its_place(name: str) -> None:
+def test_a_refusal_names_line_and_column(name: str) -> None:
     body, line, column = REFUSED[name]
     run = ran(whole(body), "linuxcnc", t1=0.5)
-    found = [finding for finding in run.findings if finding.severity is Severity.ERROR]
-    assert [(one.line, one.column) for one in found] == [(line, column)]
+    errors = [finding for finding in run.findings if finding.severity is Severity.ERROR]
+    assert [(finding.line, finding.column) for finding in errors] == [(line, column)]
     assert run.stopped_at == line
-    assert found[0].text.isprintable()
+    assert errors[0].text.isprintable()
 
 
 @needs_witness
-def test_generated_contours_fare_as_with_the_interpreter_itself(tmp_path: Path) -> None:
-    fared = [outcome(generated(seed), tmp_path, DIAMETERS, Unit.IN) for seed in range(60)]
-    assert not [one for one in fared if not one[0].startswith(("same moves", "both refuse"))]
-    assert sum(one[0] == "same moves" for one in fared) >= 20
+def test_generated_contours_match_the_interpreter(tmp_path: Path) -> None:
+    results = [outcome(generated(seed), tmp_path, DIAMETERS, Unit.IN) for seed in range(60)]
+    assert not [result for result in results if not result[0].startswith(("same moves", "both refuse"))]
+    assert sum(result[0] == "same moves" for result in results) >= 20
 
 
-def test_a_number_nobody_set_is_0_and_reported() -> None:
+def test_an_unset_parameter_is_0_and_reported() -> None:
     run = ran("G20 F9\nG1 X[#100 + 1]\nM2\n", "linuxcnc")
     assert lines_and_ends(run) == [(1.0, 0.0)]
-    assert [(one.severity, one.line, one.column) for one in findings_of(run, "PARAMETER")] == [(Severity.WARNING, 2, 6)]
+    assert [(finding.severity, finding.line, finding.column) for finding in findings_of(run, "PARAMETER")] == [
+        (Severity.WARNING, 2, 6)
+    ]
 
 
-def test_an_argument_nobody_gave_is_0_in_the_subprogram() -> None:
+def test_an_argument_that_is_not_given_is_not_reported() -> None:
     run = ran("G20 F9\no1 sub\nG1 X1 Y#2\no1 endsub\no1 call [1]\nM2\n", "linuxcnc")
     assert not findings_of(run, "PARAMETER")
 
 
-def test_moves_of_a_subprogram_have_its_lines() -> None:
+def test_moves_of_a_subprogram_have_the_lines_of_the_subprogram() -> None:
     run = ran("G20 F9\no1 sub\nG1 X#1\no1 endsub\no1 call [1]\no1 call [2]\nM2\n", "linuxcnc")
     assert lines_and_ends(run, 3) == [(1.0, 0.0), (2.0, 0.0)]
 
 
-def test_columns_of_words_that_are_worked_out() -> None:
+def test_a_duplicate_word_with_an_expression_has_its_column() -> None:
     run = ran("G20 F9\n#1=2\nG1 X[#1 + 1] X#1\nM2\n", "linuxcnc")
-    assert [(one.line, one.column) for one in findings_of(run, "TWICE")] == [(3, 14)]
+    assert [(finding.line, finding.column) for finding in findings_of(run, "TWICE")] == [(3, 14)]
 
 
-def test_what_the_control_keeps_is_not_guessed() -> None:
+def test_parameters_of_the_control_are_not_guessed() -> None:
     for value in ("#5161", "#5221", "#<_rpm>", "#<_hal[pin]>"):
         run = ran(f"G20 F9\nG1 X{value}\nM2\n", "linuxcnc")
-        assert [(one.line, one.column) for one in findings_of(run, "BEYOND")] == [(2, 5)], value
+        assert [(finding.line, finding.column) for finding in findings_of(run, "BEYOND")] == [(2, 5)], value
     assert findings_of(ran("G20 F9\n#5221=1\nM2\n", "linuxcnc"), "BEYOND")
 
 
-def test_an_endless_loop_is_given_up() -> None:
+def test_an_endless_loop_is_stopped() -> None:
     assert findings_of(ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc"), "LIMIT")
 
 
 @pytest.mark.parametrize("piece", ["[", "#", "-", "SIN[", "[1+", "#[", "1+", "##1"])
-def test_what_lies_deep_is_refused_or_read(piece: str) -> None:
+def test_deep_nesting_is_refused(piece: str) -> None:
     run = ran(f"G20 F9\nG1 X{piece * 20000}\nM2\n", "linuxcnc")
     assert run.stopped_at == 2
 
@@ -94,19 +96,19 @@ def test_what_lies_deep_is_refused_or_read(piece: str) -> None:
 @pytest.mark.parametrize(
     "text", ["#99999[", f"G1 X[{'9' * 400}]", f"#{'9' * 400}=1", f"o{'9' * 5000} sub", "G1 X#<\x1b[2J>"]
 )
-def test_signs_and_sizes_nobody_writes_are_refused(text: str) -> None:
+def test_absurd_sizes_and_characters_are_refused(text: str) -> None:
     run = ran(f"G20 F9\n{text}\nM2\n", "linuxcnc")
     assert run.stopped_at == 2
     assert all(finding.text.isprintable() for finding in run.findings)
 
 
-def test_rosettacnc_works_its_variables_out() -> None:
+def test_rosettacnc_evaluates_variables() -> None:
     text = "G21 F100\n#500=10 #1=2\nG1 X[#500 * #1] Y-#1\nG1 X[#500 & 3]\nM30\n"
     run = ran(text, "rosettacnc")
     assert same(shape(run), [("line", 20, -2), ("line", 2, -2)])
 
 
-def test_rosettacnc_gives_subprograms_by_m98_the_same_variables() -> None:
+def test_rosettacnc_shares_variables_with_m98_subprograms() -> None:
     run = ran("G21 F100\n#1=3\nM98 P7\nG1 X#1\nM30\nO7\n#1=5\nM99\n", "rosettacnc")
     assert lines_and_ends(run) == [(5.0, 0.0)]
 
@@ -115,14 +117,14 @@ def test_rosettacnc_gives_subprograms_by_m98_the_same_variables() -> None:
     ("word", "code"),
     [("#0", "PARAMETER"), ("#500", "PARAMETER"), ("#100", "PARAMETER"), ("#5001", "BEYOND"), ("#6000", "BEYOND")],
 )
-def test_rosettacnc_does_not_guess_what_is_empty_or_the_control_s(word: str, code: str) -> None:
+def test_rosettacnc_stops_at_unset_or_system_variables(word: str, code: str) -> None:
     run = ran(f"G21 F100\nG1 X{word}\n", "rosettacnc")
-    assert [(one.line, one.column) for one in findings_of(run, code)] == [(2, 5)]
+    assert [(finding.line, finding.column) for finding in findings_of(run, code)] == [(2, 5)]
     assert run.stopped_at == 2
 
 
 @pytest.mark.parametrize("number", [0, 5000, 6001])
-def test_rosettacnc_sets_its_own_variables_only(number: int) -> None:
+def test_rosettacnc_refuses_to_set_variables_out_of_range(number: int) -> None:
     assert findings_of(ran(f"G21 F100\n#{number}=1\n", "rosettacnc"), "PARAMETER")
 
 
@@ -130,16 +132,16 @@ def test_rosettacnc_sets_its_own_variables_only(number: int) -> None:
     "line", ["IF [#1 EQ 2] GOTO 5", "WHILE [#1 LT 3] DO 1", "GOTO 7", "END 1", "N5 IF[#1 GT 2]THEN#2=1", "DO1"]
 )
 @pytest.mark.parametrize("control", ["rosettacnc", "nine-series", "threeblock"])
-def test_branches_of_other_controls_stop_with_their_name(control: str, line: str) -> None:
+def test_branches_in_the_language_of_other_controls_stop_the_run(control: str, line: str) -> None:
     run = ran(f"G20 G1 F9 X1.\n{line}\nX2.\n", control)
-    assert [one.line for one in findings_of(run, "BRANCH")] == [2]
+    assert [finding.line for finding in findings_of(run, "BRANCH")] == [2]
     assert run.stopped_at == 2
 
 
 @pytest.mark.parametrize("control", ["nine-series", "threeblock"])
-def test_controls_of_which_nothing_is_known_stop_at_an_expression(control: str) -> None:
+def test_controls_with_undocumented_expressions_stop_at_one(control: str) -> None:
     run = ran("G20 G1 F9 X1.\nX[1+1]\n", control)
-    assert [(one.line, one.column) for one in findings_of(run, "MACRO")] == [(2, 1)]
+    assert [(finding.line, finding.column) for finding in findings_of(run, "MACRO")] == [(2, 1)]
 
 
 @given(st.text(alphabet="#[]<>-+*/.0123456789ABSINATMODGTEQ=_", max_size=40))
@@ -156,12 +158,12 @@ def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
     assert fault is None or (0 <= fault.at <= len(text) and fault.text.isprintable())
 
 
-def test_brackets_that_never_close_are_read_once() -> None:
+def test_unclosed_brackets_are_read_in_linear_time() -> None:
     assert o_words_of(["o1 sub (", "o1 " + "(" * 200_000, "o2 sub (a ; b)", "o3 sub ; (", "(o4 sub"]).keys() == {2, 3}
 
 
 def looped(line: str, kind: str) -> str:
-    """A hundred such lines again and again, without end or nearly so."""
+    """A hundred such lines in an endless or very long loop."""
     body = "\n".join([line] * 100)
     if kind == "while":
         return f"G20 F9\no1 while [1]\n{body}\no1 endwhile\nM2\n"
@@ -169,15 +171,15 @@ def looped(line: str, kind: str) -> str:
 
 
 @pytest.mark.parametrize("kind", ["while", "M98"])
-def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str) -> None:
+def test_loops_with_expressions_are_stopped_sooner(kind: str) -> None:
     plain, long = "G1 X1 Y2", "G1 X[1+2*sin[30]/2.5] Y[2+3*[3+4]-5] F[100+2*2]"
-    few, many = (ran_up_to(looped(line, kind), 20_000) for line in (long, plain))
-    assert findings_of(few, "LIMIT")
-    assert findings_of(many, "LIMIT")
-    assert len(many.moves) > 18_000
-    assert 1_000 < len(few.moves) < 3_000
-    for given_up in (few, many):
-        assert "does not judge the run. Fix the loop or repeat fewer times." in findings_of(given_up, "LIMIT")[0].text
+    slow, fast = (ran_up_to(looped(line, kind), 20_000) for line in (long, plain))
+    assert findings_of(slow, "LIMIT")
+    assert findings_of(fast, "LIMIT")
+    assert len(fast.moves) > 18_000
+    assert 1_000 < len(slow.moves) < 3_000
+    for run in (slow, fast):
+        assert "does not judge the run. Fix the loop or repeat fewer times." in findings_of(run, "LIMIT")[0].text
 
 
 def test_blocks_that_run_once_are_no_repeats() -> None:
@@ -185,13 +187,13 @@ def test_blocks_that_run_once_are_no_repeats() -> None:
     assert not findings_of(ran_up_to(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", 10), "LIMIT")
 
 
-def test_lines_with_more_than_moves_may_run_often() -> None:
+def test_lines_with_comments_and_codes_may_run_often() -> None:
     for line in ("G90 G1 X1.0000 Y2.0000 F100. (a note)", "N10 G1 X1.0000 Y2.0000 F1000 M8"):
         body = "\n".join([line] * 200)
         assert not findings_of(ran_up_to(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", 20_000), "LIMIT")
 
 
-def test_a_loop_of_o_words_that_is_given_up_says_what_to_do() -> None:
+def test_the_message_of_a_stopped_loop_says_what_to_do() -> None:
     run = ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc")
     assert "does not judge the run. Fix the loop or repeat fewer times." in findings_of(run, "LIMIT")[0].text
 

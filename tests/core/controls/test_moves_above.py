@@ -1,4 +1,4 @@
-"""Moves above the part: rapids and leads higher than all cuts cut nothing and are no contour, and a warning says so."""
+"""Moves above the part: rapids and leads above all cuts are no contour; a warning reports them."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ ISO = ["fanuc:a", "fanuc:b-arc", "haas:a", "linuxcnc", "rosettacnc:normal"]
 RADIUS = 6.0
 HEAD = "G21 G17 G90 G40\nT1 M6\nS1000 M3\n"
 SQUARE = "G1 Y50.\nX50.\nY0.\nX-10.\n"
-"""Around the outside, from below its corner X0 Y0 to left of it."""
+"""A square cut outside, from below its corner X0 Y0 to the left of it."""
 
 
 def judged(text: str, control: str, *, head: str = HEAD) -> tuple[ControlRun, list[Finding]]:
-    """The run of a program with a tool of 12 mm, and what is found on its stretches."""
+    """The run of a program with a 12 mm tool and its findings."""
     run = ran(f"{head}{text}M30\n", control, t1=2 * RADIUS)
     assert run.stopped_at is None, run.findings
     return run, list(judged_findings(judge_run(run)))
@@ -32,12 +32,12 @@ def codes(findings: list[Finding]) -> list[str]:
 
 
 def above(findings: list[Finding]) -> list[Finding]:
-    """What is told of moves above the part."""
+    """The findings on moves above the part."""
     return [finding for finding in findings if finding.code == "ABOVE"]
 
 
 def in_and_out(way_in: str, way_out: str, *, up: str = "10.") -> str:
-    """The square with other ways in and out."""
+    """The square with these moves in and out."""
     return f"{way_in}{SQUARE}G0 Z{up}\n{way_out}"
 
 
@@ -60,16 +60,16 @@ ACROSS = "G40 G0 X25. Y25.\n"
         (in_and_out(IN_THE_AIR.replace("D1 G0", "D1 F200 G1"), OUTWARD), 7),
     ],
 )
-def test_a_lead_above_the_part_cuts_nothing_and_is_a_warning_where_it_passes_over_it(
+def test_a_lead_above_the_part_is_only_a_warning_if_it_passes_over_the_part(
     program: str, line: int | None, control: str
 ) -> None:
     _, findings = judged(program, control)
     assert codes(findings) == (["ABOVE"] if line else [])
     if line:
-        (told,) = above(findings)
-        assert told.line == line
+        (warning,) = above(findings)
+        assert warning.line == line
         text = "The tool passes over the part at Z 10.000 or higher"
-        assert sentence(told, Unit.MM) == f"{text} (line {line}). Check that it clears part and clamps."
+        assert sentence(warning, Unit.MM) == f"{text} (line {line}). Check that it clears part and clamps."
 
 
 NEAR_THE_DEPTH = "G0 X-20. Y-20.\nG43 H1 Z50.\nZ-1.\nG1 Z-2. F200\nG41 D1 G1 X0. Y-10.\n"
@@ -93,7 +93,7 @@ def test_a_lead_below_zero_or_below_a_cut_gouges(way_in: str, up: str, control: 
 
 
 @pytest.mark.parametrize("control", ISO)
-def test_a_lead_lower_than_another_contour_was_cut_gouges(control: str) -> None:
+def test_a_lead_below_the_depth_of_another_contour_gouges(control: str) -> None:
     high = AT_DEPTH.replace("Z10.", "Z30.").replace("Z-2.", "Z20.")
     low = f"G0 Z30.\nX-20. Y-20.\nG1 Z-2.\nG41 D1 X0. Y-10.\n{SQUARE}"
     _, findings = judged(f"{high}{SQUARE}G40 G1 X-30. Y-20.\n{low}G0 Z10.\n{ACROSS}", control)
@@ -109,34 +109,34 @@ def test_a_lead_at_the_depth_of_an_earlier_contour_gouges(control: str) -> None:
 
 
 def between(x: float, link: str = "G0 Z10.\nX-20. Y25.\nX170.\nY-10.\n") -> str:
-    """The square and one to its right at `x`, with compensation on from one to the other."""
+    """The square and another one on its right at `x`, with compensation on between them."""
     first = f"{AT_DEPTH}G1 Y50.\nX50.\nY0.\nX-20.\n"
     second = f"G1 Z-2.\nX{x}\nY50.\nX{x + 50}\nY-20.\nG0 Z10.\n"
     return f"{first}{link}G0 X{x + 50}\n{second}{OUTWARD}"
 
 
 @pytest.mark.parametrize("control", ISO)
-def test_a_rapid_above_from_one_contour_to_the_next_is_no_contour(control: str) -> None:
+def test_a_rapid_above_the_part_between_contours_is_no_contour(control: str) -> None:
     _, findings = judged(between(100.0), control)
     assert codes(findings) == ["ABOVE"]
-    (told,) = above(findings)
-    assert "(lines 13, 14, 15, 16)" in told.text
+    (warning,) = above(findings)
+    assert "(lines 13, 14, 15, 16)" in warning.text
 
 
 @pytest.mark.parametrize("control", ISO)
 @pytest.mark.parametrize("x", [62.5, 61.5, 55.0])
-def test_a_contour_that_cuts_into_one_before_the_rapid_gouges_it(x: float, control: str) -> None:
+def test_a_contour_gouges_the_contour_cut_before_the_rapid(x: float, control: str) -> None:
     _, findings = judged(between(x), control)
-    cut = [finding for finding in findings if finding.code == "GOUGE"]
-    # by hand: the center runs a radius left of the wall at x, and must stay a radius away from the wall at 50
+    gouges = [finding for finding in findings if finding.code == "GOUGE"]
+    # the center runs a radius left of the wall at x and must stay a radius away from the wall at 50
     missing = 2 * RADIUS - (x - 50.0)
-    assert bool(cut) is (missing > 0.0)
-    if cut:
-        assert max(finding.value or 0.0 for finding in cut) == pytest.approx(missing, abs=1e-6)
+    assert bool(gouges) is (missing > 0.0)
+    if gouges:
+        assert max(finding.value or 0.0 for finding in gouges) == pytest.approx(missing, abs=1e-6)
 
 
 @pytest.mark.parametrize("control", ISO)
-def test_depths_with_a_rapid_back_under_compensation_are_clean(control: str) -> None:
+def test_passes_with_a_rapid_back_under_compensation_are_clean(control: str) -> None:
     back = "G0 Z10.\nX-20. Y-20.\nX0. Y-10.\n"
     passes = "".join(f"{back}G1 Z-{depth}.\n{SQUARE}" for depth in (4, 6))
     _, findings = judged(f"{AT_DEPTH}{SQUARE}{passes}G0 Z10.\n{OUTWARD}", control)
@@ -144,29 +144,29 @@ def test_depths_with_a_rapid_back_under_compensation_are_clean(control: str) -> 
 
 
 @pytest.mark.parametrize("control", ISO)
-def test_depths_whose_passes_begin_at_depth_beyond_the_corner_are_clean(control: str) -> None:
-    """Each plunges at X-20 Y-20 and goes to the over-run from there: no pass cuts the way in of another."""
+def test_passes_that_plunge_beyond_the_corner_are_clean(control: str) -> None:
+    """Each pass plunges at X-20 Y-20 and moves to the over-run from there without gouging."""
     passes = "".join(f"G0 Z10.\nX-20. Y-20.\nG1 Z-{depth}.\nX0. Y-10.\n{SQUARE}" for depth in (4, 6))
     _, findings = judged(f"{AT_DEPTH}{SQUARE}{passes}G0 Z10.\n{OUTWARD}", control)
     assert {"GOUGE", "WRONG-SIDE"}.isdisjoint(codes(findings))
 
 
 @pytest.mark.parametrize(
-    ("link", "told"), [("G0 X-20. Y25.\nX170.\nY-10.\n", [22]), ("G0 Z10.\nG1 X-20. Y25.\nX170.\nY-10.\n", [])]
+    ("link", "warned"), [("G0 X-20. Y25.\nX170.\nY-10.\n", [22]), ("G0 Z10.\nG1 X-20. Y25.\nX170.\nY-10.\n", [])]
 )
-def test_what_may_be_a_contour_stays_one(link: str, told: list[int]) -> None:
-    """A rapid at the depth of the cut, over which only the exit passes; and feed moves above without a rapid."""
+def test_moves_that_may_be_a_contour_are_judged_as_one(link: str, warned: list[int]) -> None:
+    """A rapid at the depth of the cut, and feed moves above the part without a rapid."""
     _, findings = judged(between(100.0, link), "fanuc:a")
     assert "GOUGE" in codes(findings)
-    assert [finding.line for finding in above(findings)] == told
+    assert [finding.line for finding in above(findings)] == warned
 
 
 @pytest.mark.parametrize("control", ISO)
 @pytest.mark.parametrize(("y", "wrong"), [("-30.", ["ABOVE"]), ("-10.", ["ABOVE", "GOUGE"])])
-def test_a_piece_that_is_only_an_entry_is_judged_against_the_contour_behind_it(
+def test_a_piece_that_is_only_an_entry_is_judged_against_the_next_contour(
     y: str, wrong: list[str], control: str
 ) -> None:
-    """By hand: an entry to X0 Y-10 leaves the center at X-2.7 Y-4.6, 5.4 from the corner X0 Y0."""
+    """Calculated by hand: an entry to X0 Y-10 leaves the center at X-2.7 Y-4.6, 5.4 from the corner X0 Y0."""
     around = "G0 Z10.\nX40. Y-40.\nY-60.\nX-60.\nY-5.\nX80.\nY-10.\nX0.\n"
     entry = AT_DEPTH.replace("Y-10.", f"Y{y}")
     _, findings = judged(f"{entry}{around}G1 Z-2.\n{SQUARE}G0 Z10.\n{OUTWARD}", control)

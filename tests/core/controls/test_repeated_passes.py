@@ -1,4 +1,4 @@
-"""Laps that a program repeats within one compensation are judged once, and nothing that they cut is lost."""
+"""Laps repeated within one compensation are judged once, without losing a gouge."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ M99
 """
 LAP = "G1 Y0\nY30\nX40\nY0\nG2 X20 Y0 I-10 J0\nG1 X0"
 SHARES = 7
-"""Places that are looked at on each piece of a center path."""
+"""The number of places checked on each piece of a center path."""
 
 STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
 
@@ -46,7 +46,7 @@ def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> ControlRun:
 
 
 def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None = None) -> Path:
-    """Pieces from corner to corner; those that turn are half circles, or full ones about a center 2 to the right."""
+    """Pieces from corner to corner; arcs are half circles, or full circles about a center 2 to the right."""
     points = np.array(corners, np.float64)
     way = np.zeros(len(points) - 1, np.int8) if turns is None else np.array(turns, np.int8)
     centers = np.where(way[:, None] == 0, points[:-1], (points[:-1] + points[1:]) / 2.0)
@@ -57,22 +57,22 @@ def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None =
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
 def test_forty_passes_are_judged_as_one_with_the_same_findings(control: str) -> None:
-    (one,), (forty,) = judge_run(_ring("M98 P7", control=control)), judge_run(_ring("M98 P7 L40", control=control))
-    assert len(forty.surface) == len(one.surface) == 5
-    # the first lap comes in from the lead, so that a second one differs from it
-    assert len(forty.center) <= 2 * len(one.center)
-    assert judged_findings((forty,)) == judged_findings((one,))
-    assert {finding.code for finding in judged_findings((one,))} == {"GOUGE", "LEADS", "UNCUT"}
+    (single,), (forty,) = judge_run(_ring("M98 P7", control=control)), judge_run(_ring("M98 P7 L40", control=control))
+    assert len(forty.surface) == len(single.surface) == 5
+    # the first lap comes from the lead, so a second one differs from it
+    assert len(forty.center) <= 2 * len(single.center)
+    assert judged_findings((forty,)) == judged_findings((single,))
+    assert {finding.code for finding in judged_findings((single,))} == {"GOUGE", "LEADS", "UNCUT"}
 
 
-def test_the_pieces_judged_are_as_many_for_any_number_of_passes_and_controls() -> None:
+def test_the_number_of_passes_does_not_change_the_judged_pieces() -> None:
     for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
         few, many = ((judge_run(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
-        assert [len(one.center) for one in few] == [len(one.center) for one in many]
+        assert [len(result.center) for result in few] == [len(result.center) for result in many]
         assert judged_findings(few) == judged_findings(many)
 
 
-def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> None:
+def test_written_out_depths_are_judged_with_the_lines_of_the_first() -> None:
     laps = "\n".join(f"G1 Z{-depth}\n{LAP}" for depth in range(1, 10))
     (result,) = judge_run(_ring(laps))
     assert result.surface.numbers.tolist() == [7.0, 8.0, 9.0, 10.0, 11.0]
@@ -80,8 +80,8 @@ def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> Non
     assert {finding.line for finding in judged_findings((result,)) if finding.code == "UNCUT"} == {10}
 
 
-def test_a_gouge_in_the_seventh_pass_alone_is_reported() -> None:
-    """Its notch goes down through what all the other laps leave as the part's top: all of the cutter is behind it."""
+def test_a_gouge_in_the_seventh_pass_only_is_reported() -> None:
+    """The notch goes through the wall of all other laps, so all of the cutter is behind that wall."""
     lap = "G1 X0 Y30\nX40\nY0\nX0"
     notched = lap.replace("X40", "X20\nY22\nX22\nY30\nX40")
     laps = [lap] * 6 + [notched] + [lap] * 3
@@ -94,35 +94,35 @@ def test_a_gouge_in_the_seventh_pass_alone_is_reported() -> None:
     assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 6.0} == {7.0}
 
 
-def test_a_pass_that_differs_in_one_piece_stays() -> None:
+def test_a_pass_that_differs_in_one_piece_is_kept() -> None:
     lap = [(0.0, 30.0), (40.0, 30.0), (40.0, 0.0), (0.0, 0.0)]
     other = [*lap[:1], (40.0, 29.0), *lap[2:]]
-    found = without_repeats(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
-    assert [40.0, 29.0] in found.points.tolist()
-    assert found.numbers[:5].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
-    assert found.points[[0, -1]].tolist() == [[-5.0, 0.0], [-5.0, 0.0]]
-    # the first lap and the seventh; the eighth is cut from behind the seventh's last difference on
-    assert len(found) <= 2 + 4 + 4 + 4
+    reduced = without_repeats(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
+    assert [40.0, 29.0] in reduced.points.tolist()
+    assert reduced.numbers[:5].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert reduced.points[[0, -1]].tolist() == [[-5.0, 0.0], [-5.0, 0.0]]
+    # the first lap and the seventh; the eighth is removed from the last difference of the seventh on
+    assert len(reduced) <= 2 + 4 + 4 + 4
 
 
-def test_a_circle_run_twice_is_one() -> None:
+def test_a_circle_cut_twice_becomes_one() -> None:
     twice = Path.from_pieces([Arc((5.0, 0.0), (5.0, 0.0), (0.0, 0.0), Turn.CCW)] * 2)
     assert len(without_repeats(twice)) == 1
 
 
-def test_what_goes_back_and_forth_or_on_is_no_lap() -> None:
+def test_moves_back_and_forth_or_onward_are_no_lap() -> None:
     back = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0)])
     assert without_repeats(back) is back
     stairs = _chain([(float(step // 2), float((step + 1) // 2)) for step in range(40)])
     assert without_repeats(stairs) is stairs
-    # its two pieces come again two pieces later, but only one of them: no whole lap
+    # only one of the two pieces is repeated two pieces later: no whole lap
     again = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (9.0, 5.0)])
     assert without_repeats(again) is again
     whole = without_repeats(_chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (0.0, 5.0)]))
     assert whole.points.tolist() == [[0.0, 0.0], [9.0, 0.0], [0.0, 0.0], [0.0, 5.0]]
 
 
-def test_the_other_turn_and_the_other_center_are_other_pieces() -> None:
+def test_arcs_with_another_direction_or_center_are_different_pieces() -> None:
     both_ways = _chain([(0.0, 0.0)] * 3, [1, -1])
     assert without_repeats(both_ways) is both_ways
     circles = _chain([(0.0, 0.0)] * 5, [1] * 4)
@@ -132,41 +132,41 @@ def test_the_other_turn_and_the_other_center_are_other_pieces() -> None:
     assert without_repeats(shifted) is shifted
 
 
-def test_passes_within_passes_are_cut_too() -> None:
+def test_passes_within_passes_are_reduced() -> None:
     inner, outer = [(1.0, 0.0), (1.0, 1.0), (0.0, 0.0)], [(0.0, 9.0), (0.0, 0.0)]
-    found = without_repeats(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
-    assert found.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
+    reduced = without_repeats(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
+    assert reduced.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
 
 
-def test_sums_that_differ_in_the_last_digit_are_one_pass_with_the_first_ones_numbers() -> None:
+def test_laps_that_differ_by_rounding_are_one_pass() -> None:
     steps = [(0.1, 0.2), *((x / 3.0, y / 7.0) for x, y in STEPS * 50)]
     points = np.vstack((np.cumsum(steps, axis=0), [(-5.0, 0.0)]))
     assert len(np.unique(points[:-1], axis=0)) > 4
-    found = without_repeats(_chain([tuple(point) for point in points.tolist()]))
-    assert found.numbers.tolist() == [1.0, 2.0, 3.0, 4.0, 201.0]
-    assert np.array_equal(found.points[:5], points[:5])
-    # a line has its own start for a center
-    assert np.array_equal(found.centers, found.points[:-1])
+    reduced = without_repeats(_chain([tuple(point) for point in points.tolist()]))
+    assert reduced.numbers.tolist() == [1.0, 2.0, 3.0, 4.0, 201.0]
+    assert np.array_equal(reduced.points[:5], points[:5])
+    # the center of a line is its start
+    assert np.array_equal(reduced.centers, reduced.points[:-1])
 
 
-def test_a_full_circle_is_never_bent_by_a_start_that_rounding_moved() -> None:
-    """Moved by the last digit its two points would no longer be one, and it an arc of no length or nearly full."""
+def test_a_full_circle_stays_full_when_rounding_moves_its_start() -> None:
+    """If one of its two equal points moved by the last digit, the circle would become empty or nearly full."""
     lap = [(0.0, 30.0), (40.0, 30.0), (0.0, 0.0)]
     near = [(0.0, 30.0), (40.0, 30.0), (ON_PATH / 10.0, 0.0)]
     corners = [(0.0, 0.0), *lap, *near, near[-1], (9.0, 9.0)]
     path = _chain(corners, [0] * 6 + [1] + [0])
-    found = without_repeats(path)
-    assert np.abs(found.sweeps).max() == np.abs(path.sweeps).max() == 2.0 * np.pi
+    reduced = without_repeats(path)
+    assert np.abs(reduced.sweeps).max() == np.abs(path.sweeps).max() == 2.0 * np.pi
 
 
-def test_an_arc_of_no_length_is_no_full_circle() -> None:
+def test_an_arc_without_length_does_not_become_a_full_circle() -> None:
     points = [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (ON_PATH / 10.0, 0.0), (ON_PATH / 10.0, 0.0)]
     centers = np.full((4, 2), (2.0, 0.0))
     path = Path.of(np.array(points), centers, np.full(4, -1, np.int8))
     assert np.abs(without_repeats(path).sweeps).min() < 1e-6
 
 
-def test_numbers_that_are_none_are_left_to_the_judge() -> None:
+def test_paths_with_invalid_numbers_are_not_changed() -> None:
     for bad in (np.nan, np.inf, 1e300):
         path = _chain([(0.0, 0.0), (bad, 0.0), (0.0, 0.0), (bad, 0.0), (0.0, 0.0)])
         assert without_repeats(path) is path
@@ -179,9 +179,9 @@ block = st.tuples(pieces, st.integers(1, 5))
 
 @st.composite
 def lapped(draw: st.DrawFn) -> Path:
-    """Blocks of moves, some of them several times over: closed after their first move, since they end where it did.
+    """Blocks of moves, some repeated: each is closed after its first move, since it ends where that move began.
 
-    A move may go to its end by another way than in the other laps.
+    A move may run differently from the same move in other laps.
     """
     blocks = draw(st.lists(block, min_size=1, max_size=4))
     way = [piece for moves, times in blocks for piece in moves * times]
@@ -191,14 +191,14 @@ def lapped(draw: st.DrawFn) -> Path:
 
 
 def _values(verdict: Verdict) -> tuple[object, ...]:
-    """What does not depend on how often a place is passed: laps on each other cross, which leaves sides unknown."""
-    uncut = {(*np.round(one.thickest, 6), round(one.thickness, 6)) for one in verdict.uncut}
-    thickest = max((one[2] for one in uncut), default=0.0)
+    """The values that do not depend on repetition: overlapping laps cross, which leaves sides unknown."""
+    uncut = {(*np.round(stretch.thickest, 6), round(stretch.thickness, 6)) for stretch in verdict.uncut}
+    thickest = max((stretch[2] for stretch in uncut), default=0.0)
     return verdict.judged, round(verdict.clearance, 9), thickest
 
 
 def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, float]]:
-    """Places of the center path within its gouges: of one that runs over several laps the verdict tells one alone."""
+    """The places of the center path within gouges: the verdict joins a gouge over several laps into one."""
     with np.errstate(all="ignore"):
         walls, moves = piece_arrays(surface), piece_arrays(center)
         pairs = pairs_of(moves, walls, rounding_of(walls))
@@ -212,7 +212,7 @@ def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, flo
 
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(lapped(), lapped(), st.sampled_from((Side.LEFT, Side.RIGHT)), st.sampled_from((1.0, 2.0, 3.0)))
-def test_the_verdict_is_that_on_all_the_passes(surface: Path, shape: Path, side: Side, radius: float) -> None:
+def test_the_verdict_equals_that_on_all_passes(surface: Path, shape: Path, side: Side, radius: float) -> None:
     moved = shape.points * 1.1 - 3.0
     center = Path.of(moved, shape.centers * 1.1 - 3.0, shape.turns)
     whole = judge(surface, side, radius, center)
@@ -221,7 +221,7 @@ def test_the_verdict_is_that_on_all_the_passes(surface: Path, shape: Path, side:
     assert _gouging(without_repeats(surface), radius, without_repeats(center)) == _gouging(surface, radius, center)
     assert once.depth >= whole.depth - 1e-9
     assert once.depth <= whole.depth + 1e-9 or once.crosses_itself < whole.crosses_itself
-    # of a surface that crosses itself laps decide how much of it is an over-run, which has no side
+    # on a surface that crosses itself, laps decide how much of it is an over-run, which has no side
     assert once.wrong_side or once.crosses_itself or not whole.wrong_side
     kept = {tuple(point) for point in without_repeats(surface).points.tolist()}
     assert kept == {tuple(point) for point in surface.points.tolist()}

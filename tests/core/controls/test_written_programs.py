@@ -1,4 +1,4 @@
-"""Contours written for every control: how each is entered and told of stock, and what is refused."""
+"""Contours written for every control: entries, stock, and refusals."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from tests.core.controls.written_programs import (
 )
 
 
-def test_threeblock_turns_on_in_the_plunge_and_centers_are_absolute() -> None:
+def test_threeblock_starts_compensation_in_the_plunge_with_absolute_centers() -> None:
     assert text_of("threeblock", cut(squared(Side.LEFT))).split() == [
         "G17G70G40G90",
         "T1//0.5",
@@ -61,7 +61,7 @@ def test_threeblock_turns_on_in_the_plunge_and_centers_are_absolute() -> None:
     ]
 
 
-def test_linuxcnc_is_entered_along_the_first_arc_by_more_than_the_radius() -> None:
+def test_linuxcnc_enters_along_the_first_arc_by_more_than_the_radius() -> None:
     lines = text_of("linuxcnc", cut(squared(Side.LEFT))).splitlines()
     assert lines[:2] == ["G17 G20 G40 G49 G54 G80 G90 G91.1 G94", "G64 P0.0002"]
     assert lines[2:5] == ["T1 M6", "S300 M3", "G0 G43 H1 Z1."]
@@ -74,19 +74,19 @@ def test_linuxcnc_is_entered_along_the_first_arc_by_more_than_the_radius() -> No
     ]
 
 
-def test_nist_is_entered_along_the_path_of_the_tool() -> None:
+def test_nist_enters_along_the_path_of_the_tool() -> None:
     lines = text_of("rosettacnc:nist", cut(squared(Side.RIGHT))).splitlines()
     assert lines[0] == "G17 G20 G40 G49 G54 G50 G69 G90"
     assert "G0 X0.875 Y-0.875" in lines
     assert "G42 D1 G1 X0.625 Y-0.375 F10." in lines
 
 
-def test_a_9_series_program_names_its_corners() -> None:
+def test_a_9_series_program_names_its_corner_mode() -> None:
     for control, word in (("nine-series:a", "G39"), ("nine-series:b-g39.1", "G39.1")):
         assert text_of(control, cut(squared(Side.LEFT))).splitlines()[1] == word
 
 
-def test_each_control_gets_the_stock_in_its_words() -> None:
+def test_each_control_gets_the_stock_in_its_own_words() -> None:
     wide = cut(compensate(SQUARE, Side.RIGHT, 0.3 * INCH, 4, closed=True, blend=0.125 * INCH), stock=0.05)
     assert "T1//0.6\n" in text_of("threeblock", wide)
     assert "G42.1 D0.6 " in text_of("linuxcnc", wide)
@@ -96,9 +96,9 @@ def test_each_control_gets_the_stock_in_its_words() -> None:
 
 
 @pytest.mark.parametrize("control", EVERY)
-def test_another_speed_of_the_same_tool_is_written_and_the_same_one_only_once(control: str) -> None:
-    one = cut(squared(Side.RIGHT))
-    same, faster = text_of(control, one, one), text_of(control, one, replace(one, speed=900.0))
+def test_a_speed_is_written_only_when_it_changes(control: str) -> None:
+    contour = cut(squared(Side.RIGHT))
+    same, faster = text_of(control, contour, contour), text_of(control, contour, replace(contour, speed=900.0))
     speeds = [re.findall(r"(?<![A-Z])S(\d+)", text) for text in (same, faster)]
     assert speeds == [["300"], ["300", "900"]]
 
@@ -114,55 +114,55 @@ def test_coordinates_in_inches_have_the_decimals_that_the_control_reads(control:
     assert max(decimals) == DECIMALS[control.partition(":")[0]]
 
 
-def test_lines_on_one_line_are_one_block_for_threeblock() -> None:
+def test_collinear_lines_are_one_block_for_threeblock() -> None:
     text = text_of("threeblock", cut(squared(Side.RIGHT, overlap=0.125)))
     assert "G1X1.125Y0.\n" in text
     assert "G1X1.Y0.\n" not in text
     assert "G1 X1. Y0.\nG1 X1.125 Y0.\n" in text_of("linuxcnc", cut(squared(Side.RIGHT, overlap=0.125)))
 
 
-def test_no_more_than_what_a_control_has() -> None:
+def test_tools_and_radii_beyond_the_range_of_a_control_are_refused() -> None:
     assert "rule B19-TRANGE" in refused("threeblock", cut(squared(Side.RIGHT), tool=25)).text
     huge = compensate(outline((0, 0), (9, 0)), Side.LEFT, 1.7 * INCH, 2, closed=False, blend=0.125 * INCH)
     assert "rule B4-MAX" in refused("threeblock", cut(huge)).text
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
-def test_without_a_blend_an_entry_square_to_itself_would_cut(control: str) -> None:
-    found = refused(control, cut(squared(Side.LEFT, blend=0.0)))
-    assert "BLEND OFFSET" in found.text
-    assert found.lengths[0] > 0.0
+def test_an_entry_that_would_gouge_without_a_blend_is_refused(control: str) -> None:
+    refusal = refused(control, cut(squared(Side.LEFT, blend=0.0)))
+    assert "BLEND OFFSET" in refusal.text
+    assert refusal.lengths[0] > 0.0
     assert isinstance(write("threeblock", cut(squared(Side.LEFT, blend=0.0))), WrittenProgram)
 
 
 def test_a_small_pocket_gets_a_shorter_entry() -> None:
     small = outline((0.4, 0), (0.8, 0), (0.8, 0.8), (0, 0.8), (0, 0), (0.4, 0))
-    one = compensate(small, Side.LEFT, 0.25 * INCH, 4, closed=True, blend=0.05 * INCH)
-    assert "G0X0.35Y0.425\n" in text_of("threeblock", cut(one))
-    assert "no room" in refused("linuxcnc", cut(one)).text
+    path = compensate(small, Side.LEFT, 0.25 * INCH, 4, closed=True, blend=0.05 * INCH)
+    assert "G0X0.35Y0.425\n" in text_of("threeblock", cut(path))
+    assert "no room" in refused("linuxcnc", cut(path)).text
 
 
 @pytest.mark.parametrize("control", EVERY)
-def test_what_only_the_look_ahead_does_is_refused(control: str) -> None:
+def test_a_contour_that_needs_the_look_ahead_is_refused(control: str) -> None:
     notch = outline((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
     for lookahead in (2, 3):
-        one = compensate(notch, Side.LEFT, 0.25 * INCH, lookahead, closed=False, blend=0.125 * INCH)
-        found = refused(control, cut(one))
-        assert found.code == "NOTWRITTEN"
-        assert found.segment is not None
+        path = compensate(notch, Side.LEFT, 0.25 * INCH, lookahead, closed=False, blend=0.125 * INCH)
+        refusal = refused(control, cut(path))
+        assert refusal.code == "NOTWRITTEN"
+        assert refusal.segment is not None
 
 
-def test_a_bridge_is_refused() -> None:
+def test_a_contour_with_a_bridged_corner_is_refused() -> None:
     slot = Path.from_pieces([Straight((0.0, 0.0), (10.0, 0.0)), Arc((10.0, 0.0), (12.0, 2.0), (10.0, 2.0), Turn.CCW)])
-    one = compensate(slot, Side.LEFT, 5.0, 1, closed=False, blend=2.0)
-    assert one.bridged.any()
-    assert isinstance(programmed_elements(one), Finding)
-    assert refused("linuxcnc", cut(one)).code == "NOTWRITTEN"
+    path = compensate(slot, Side.LEFT, 5.0, 1, closed=False, blend=2.0)
+    assert path.bridged.any()
+    assert isinstance(programmed_elements(path), Finding)
+    assert refused("linuxcnc", cut(path)).code == "NOTWRITTEN"
 
 
-def test_ends_of_a_path_with_blends() -> None:
-    one = squared(Side.LEFT)
-    first, last = path_begin(one), path_finish(one)
+def test_the_ends_of_a_path_with_blends_are_those_of_the_blends() -> None:
+    contour = squared(Side.LEFT)
+    first, last = path_begin(contour), path_finish(contour)
     assert np.array(first.at) / INCH == pytest.approx([0.875, 0.375])
     assert np.array(first.corner) / INCH == pytest.approx([0.625, 0.375])
     assert first.way == pytest.approx((1.0, 0.0))
@@ -172,9 +172,9 @@ def test_ends_of_a_path_with_blends() -> None:
     assert last.way == pytest.approx((1.0, 0.0))
 
 
-def test_ends_of_a_path_without_blends() -> None:
-    one = squared(Side.RIGHT, blend=0.0)
-    first, last = path_begin(one), path_finish(one)
+def test_the_ends_of_a_path_without_blends_are_on_the_contour() -> None:
+    contour = squared(Side.RIGHT, blend=0.0)
+    first, last = path_begin(contour), path_finish(contour)
     assert np.array(first.at) / INCH == pytest.approx([1.0, -0.25])
     assert np.array(first.corner) / INCH == pytest.approx([1.0, 0.0])
     assert first.off == pytest.approx((0.0, -1.0))
@@ -184,11 +184,11 @@ def test_ends_of_a_path_without_blends() -> None:
 
 @pytest.mark.parametrize("control", EVERY)
 @pytest.mark.parametrize("overlap", [0.0, 0.1])
-def test_a_clean_program_of_ours_is_clean_to_the_judge_of_programs(control: str, overlap: float) -> None:
+def test_a_clean_path_is_clean_when_its_program_is_read_back(control: str, overlap: float) -> None:
     one = cut(squared(Side.RIGHT, overlap=overlap))
-    done = made_by(control, text_of(control, one), one)
-    codes = {one.code for one in judged_findings(judge_run(done))}
-    assert done.stretches
+    run = made_by(control, text_of(control, one), one)
+    codes = {one.code for one in judged_findings(judge_run(run))}
+    assert run.stretches
     assert not codes & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE", "CROSSES", "UNCUT"}
 
 
@@ -196,21 +196,21 @@ def test_a_clean_program_of_ours_is_clean_to_the_judge_of_programs(control: str,
 @pytest.mark.parametrize("off", [-0.0001, 0.0001])
 @pytest.mark.parametrize("side", Side)
 def test_a_start_in_the_middle_of_a_wall_may_be_off_its_line_by_a_digit(control: str, off: float, side: Side) -> None:
-    """Both parts of that wall meet in a corner of next to no angle, where the path overlaps."""
+    """The two parts of that wall meet at a corner of almost no angle, where the path overlaps."""
     square = outline((1, off), (2, 0), (2, 2), (0, 2), (0, 0), (1, off))
-    one = compensate(square, side, 0.25 * INCH, 4, closed=True, blend=0.125 * INCH, overlap=0.1 * INCH)
-    elements = programmed_elements(one)
+    path = compensate(square, side, 0.25 * INCH, 4, closed=True, blend=0.125 * INCH, overlap=0.1 * INCH)
+    elements = programmed_elements(path)
     assert not isinstance(elements, Finding)
     assert elements.segments == (1.0, 2.0, 3.0, 4.0, 5.0, 1.0)
     if control == "threeblock" or (side is Side.LEFT and control in ("rosettacnc:nist", "rosettacnc:easy")):
-        assert re.search("rule (B11-COLLINEAR|C6):", refused(control, cut(one)).text)
+        assert re.search("rule (B11-COLLINEAR|C6):", refused(control, cut(path)).text)
         return
-    done = made_by(control, text_of(control, cut(one)), cut(one))
-    assert not {finding.code for finding in judged_findings(judge_run(done))} & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE"}
+    run = made_by(control, text_of(control, cut(path)), cut(path))
+    assert not {finding.code for finding in judged_findings(judge_run(run))} & {"GOUGE", "LEAD-GOUGE", "WRONG-SIDE"}
 
 
 def moved(x: float, y: float, z: float, feed: float | None = 10.0, turn: int = 0) -> CenterMove:
-    """A move in inches; its arc turns around X1 Y0."""
+    """A move in inches; an arc turns around X1 Y0."""
     return CenterMove(x * INCH, y * INCH, z * INCH, None if feed is None else feed * INCH, turn, (1.0 * INCH, 0.0))
 
 
@@ -218,7 +218,7 @@ UNCOMPENSATED = (
     moved(0.0, 0.0, 1.0, None), moved(0.0, 0.0, -0.25, 20.0), moved(0.5, 0.0, -0.25), moved(1.5, 0.0, -0.25, turn=1),
     moved(0.5, 0.0, -0.5, turn=-1), moved(0.5, 1.0, -0.5), moved(1.0, 2.0, -0.75), moved(1.0, 2.0, 1.0, None),
 )  # fmt: skip
-"""Down, along, half a circle, a helix, along, down a ramp, up."""
+"""Plunge, line, half circle, helix, line, ramp down, retract."""
 
 
 def uncompensated() -> UncompensatedPass:
@@ -228,7 +228,7 @@ def uncompensated() -> UncompensatedPass:
     )  # fmt: skip
 
 
-def test_klartext_without_compensation_names_the_axes_that_move() -> None:
+def test_klartext_without_compensation_names_only_the_axes_that_move() -> None:
     lines = text_of("klartext", uncompensated()).splitlines()[4:14]
     assert [line.partition(" ")[2] for line in lines] == [
         "L X+0 Y+0 Z+1 R0 FMAX",
@@ -245,17 +245,17 @@ def test_klartext_without_compensation_names_the_axes_that_move() -> None:
 
 
 @pytest.mark.parametrize("control", EVERY)
-def test_without_compensation_every_control_makes_the_moves(control: str) -> None:
-    made = made_by(control, text_of(control, uncompensated()), uncompensated())
-    moves = list(made.moves)[-len(UNCOMPENSATED) :]
+def test_every_control_makes_the_moves_without_compensation(control: str) -> None:
+    run = made_by(control, text_of(control, uncompensated()), uncompensated())
+    moves = list(run.moves)[-len(UNCOMPENSATED) :]
     assert [move.turn for move in moves] == [move.turn for move in UNCOMPENSATED]
-    for move, wanted in zip(moves, UNCOMPENSATED, strict=True):
-        assert move.point == pytest.approx(wanted[:3], abs=1e-9)
+    for move, expected in zip(moves, UNCOMPENSATED, strict=True):
+        assert move.point == pytest.approx(expected[:3], abs=1e-9)
 
 
 @pytest.mark.parametrize("control", EVERY)
-def test_remarks_stand_in_the_text_where_a_control_reads_comments(control: str) -> None:
+def test_remarks_are_written_for_controls_that_read_comments(control: str) -> None:
     note = "NOTE" if control == "klartext" else "(NOTE)"
-    found = write(control, uncompensated(), remarks=(note,))
-    assert isinstance(found, WrittenProgram), found
-    assert found.text.count("NOTE") == (control != "threeblock")
+    written = write(control, uncompensated(), remarks=(note,))
+    assert isinstance(written, WrittenProgram), written
+    assert written.text.count("NOTE") == (control != "threeblock")

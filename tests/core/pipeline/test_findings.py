@@ -1,4 +1,4 @@
-"""What the whole pipeline says of a contour: gaps, steps in Z, blend arcs, fields that all blocks share."""
+"""Findings of the whole pipeline: gaps, steps in Z, blend arcs, fields that all blocks share."""
 
 from __future__ import annotations
 
@@ -17,35 +17,35 @@ from tests.core.pipeline.parts import MID_SIDE_SQUARE, OUTSIDE_SQUARE, OVER_RUN_
 
 
 def gaps(points: Points) -> list[Finding]:
-    (found,) = derive(program(block(points, CutterComp.RIGHT))).blocks
-    return [one for one in found.findings if one.code in ("OPEN", "NEARLY_CLOSED")]
+    (derived,) = derive(program(block(points, CutterComp.RIGHT))).blocks
+    return [finding for finding in derived.findings if finding.code in ("OPEN", "NEARLY_CLOSED")]
 
 
 @pytest.mark.parametrize(
     ("end", "code", "apart"),
     [((0, 0.05), "NEARLY_CLOSED", 1.27), ((0.3, 0.4), "NEARLY_CLOSED", 12.7), ((0, 0.6), "OPEN", 15.24)],
 )
-def test_the_gap_is_a_warning_where_it_is_no_wider_than_the_tool(end: tuple[float, float], code: str, apart: float):
-    (one,) = gaps((*OUTSIDE_SQUARE[:-1], end))
-    assert (one.code, one.segment) == (code, 4.0)
-    assert one.value == pytest.approx(apart)
-    assert one.at == pytest.approx((25.4 * end[0], 25.4 * end[1]))
+def test_a_gap_is_reported_by_its_width_and_place(end: tuple[float, float], code: str, apart: float):
+    (finding,) = gaps((*OUTSIDE_SQUARE[:-1], end))
+    assert (finding.code, finding.segment) == (code, 4.0)
+    assert finding.value == pytest.approx(apart)
+    assert finding.at == pytest.approx((25.4 * end[0], 25.4 * end[1]))
 
 
 def test_a_closed_contour_is_not_open() -> None:
     assert gaps(OUTSIDE_SQUARE) == []
 
 
-def test_a_gap_with_which_it_counts_as_closed_is_told_since_the_path_gouges_beside_it() -> None:
-    (found,) = derive(program(block((*OUTSIDE_SQUARE[:-1], (0, 0.0001)), CutterComp.RIGHT))).blocks
-    assert found.solved.closed
-    (one,) = (one for one in found.findings if one.code == "NEARLY_CLOSED")
-    assert one.severity is Severity.WARNING
-    assert "is treated as closed but ends" in one.text
-    assert one.value == pytest.approx(0.00254)
+def test_a_tiny_gap_in_a_closed_contour_is_a_warning() -> None:
+    (derived,) = derive(program(block((*OUTSIDE_SQUARE[:-1], (0, 0.0001)), CutterComp.RIGHT))).blocks
+    assert derived.solved.closed
+    (finding,) = (finding for finding in derived.findings if finding.code == "NEARLY_CLOSED")
+    assert finding.severity is Severity.WARNING
+    assert "is treated as closed but ends" in finding.text
+    assert finding.value == pytest.approx(0.00254)
 
 
-def test_two_lines_enclose_nothing() -> None:
+def test_two_lines_have_no_gap() -> None:
     assert gaps(((0, 0), (2, 0), (0.1, 0))) == []
 
 
@@ -53,7 +53,7 @@ IN = 25.4
 
 
 def sloped(*segments: Segment, comp: CutterComp = CutterComp.ON) -> DerivedBlock:
-    """The block of these segments from 0, 0 and Z BOTTOM -0.25."""
+    """The block of these segments that starts at 0, 0 with Z BOTTOM -0.25."""
     typed = replace(block(((0, 0), (1, 0)), comp), segments=segments)
     return derive(program(typed)).blocks[0]
 
@@ -62,65 +62,65 @@ def line(x: float, y: float, z: float | None = None) -> LineSegment:
     return LineSegment(x_end=Number(x), y_end=Number(y), z_end=None if z is None else Number(z))
 
 
-def steps(found: DerivedBlock) -> list[tuple[float | None, float, str]]:
-    """Of each step told: the segment behind it, how far, and the sentence."""
-    told = [one for one in found.findings if one.code == "Z_STEP"]
-    assert all(one.severity is Severity.WARNING for one in told)
-    return [(one.segment, round(one.value / IN, 6), sentence(one, Unit.IN)) for one in told]
+def steps(derived_block: DerivedBlock) -> list[tuple[float | None, float, str]]:
+    """The segment after each reported step, its height and its message."""
+    warnings = [finding for finding in derived_block.findings if finding.code == "Z_STEP"]
+    assert all(finding.severity is Severity.WARNING for finding in warnings)
+    return [(finding.segment, round(finding.value / IN, 6), sentence(finding, Unit.IN)) for finding in warnings]
 
 
-def test_a_blend_arc_that_takes_all_of_a_slope_leaves_a_step():
-    found = sloped(line(2, 0), BlendSegment(radius=Number(1)), line(2, 1, -0.1), line(0, 1))
-    ((segment, value, text),) = steps(found)
+def test_a_blend_arc_that_replaces_a_slope_leaves_a_step():
+    derived_block = sloped(line(2, 0), BlendSegment(radius=Number(1)), line(2, 1, -0.1), line(0, 1))
+    ((segment, value, text),) = steps(derived_block)
     assert (segment, value) == (4, 0.15)
     assert text == "The tool goes straight up 0.1500 at X 2.0000 Y 1.0000: the ramp to Z END is shortened there."
 
 
 def test_a_z_end_on_a_segment_without_length_is_a_step():
-    found = sloped(line(2, 0, -0.1), line(2, 0, -0.25), line(2, 1))
-    ((segment, value, text),) = steps(found)
+    derived_block = sloped(line(2, 0, -0.1), line(2, 0, -0.25), line(2, 1))
+    ((segment, value, text),) = steps(derived_block)
     assert (segment, value) == (3, 0.15)
     assert text.startswith("The tool goes straight down 0.1500 at X 2.0000 Y 0.0000")
 
 
-def test_a_slope_that_an_inside_corner_or_the_look_ahead_takes_leaves_a_step():
+def test_a_slope_that_a_corner_or_the_look_ahead_shortens_leaves_a_step():
     notch = (line(2, 0), line(2, -0.3, -0.1), line(2.3, -0.3), line(2.3, 0), line(5, 0))
-    found = sloped(*notch, comp=CutterComp.LEFT)
-    assert [(segment, value) for segment, value, _ in steps(found)] == [(3, 0.125)]
-    (deleted,) = derive(program(replace(found.block, lookahead=Number(3)))).blocks
+    derived_block = sloped(*notch, comp=CutterComp.LEFT)
+    assert [(segment, value) for segment, value, _ in steps(derived_block)] == [(3, 0.125)]
+    (deleted,) = derive(program(replace(derived_block.block, lookahead=Number(3)))).blocks
     assert [(segment, value) for segment, value, _ in steps(deleted)] == [(4.5, 0.15)]
 
 
-def test_the_deepest_of_several_steps_is_told_with_their_number():
-    found = sloped(line(1, 0, -0.1), line(1, 0, -0.2), line(2, 0, -0.05), line(2, 0, -0.25), line(3, 0))
-    ((segment, value, text),) = steps(found)
+def test_the_deepest_of_several_steps_is_reported_with_their_count():
+    derived_block = sloped(line(1, 0, -0.1), line(1, 0, -0.2), line(2, 0, -0.05), line(2, 0, -0.25), line(3, 0))
+    ((segment, value, text),) = steps(derived_block)
     assert (segment, value) == (5, 0.2)
     assert text.endswith("There are 2 such places.")
 
 
 @pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT, CutterComp.RIGHT])
-def test_slopes_that_follow_each_other_are_no_step(comp):
-    found = sloped(line(2, 0, -0.1), line(4, 0, -0.2), BlendSegment(radius=Number(0.3)), line(4, 2), comp=comp)
-    assert not steps(found)
+def test_consecutive_slopes_are_no_step(comp):
+    derived_block = sloped(line(2, 0, -0.1), line(4, 0, -0.2), BlendSegment(radius=Number(0.3)), line(4, 2), comp=comp)
+    assert not steps(derived_block)
 
 
 @pytest.mark.parametrize("offset", [0.25, 1.0, 1.4, 3.0])
-def test_a_blend_arc_that_begins_and_ends_beyond_a_wall_is_named(offset):
+def test_blend_arcs_that_cross_a_wall_are_reported(offset):
     square = ((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
     parameters = ProgramParameters(blend_offset=Number(offset), blend_overlap=Number(0))
-    (found,) = derive(program(block(square, CutterComp.LEFT), parameters=parameters)).blocks
-    told = [sentence(one, Unit.IN) for one in found.findings if one.code == "BLEND_LEAVES"]
+    (derived_block,) = derive(program(block(square, CutterComp.LEFT), parameters=parameters)).blocks
+    messages = [sentence(finding, Unit.IN) for finding in derived_block.findings if finding.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
     expected = [
         f"The blend-in arc from X {far[0]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
         f"The blend-out arc to X {far[1]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
     ]
-    assert told == (expected if offset > 1.0 else [])
+    assert messages == (expected if offset > 1.0 else [])
 
 
 @pytest.mark.parametrize("typed", [Unread("abc", "why"), Number(-1.0)])
-def test_a_program_parameter_that_cannot_be_used_forbids_posting(typed):
-    """It would otherwise be posted with the usual value, as if nothing had been typed."""
+def test_an_unusable_program_parameter_prevents_posting(typed):
+    """Otherwise it would be posted with the default value, as if nothing had been typed."""
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     before = derive(part)
     assert before.blocks[0].postable
@@ -129,12 +129,12 @@ def test_a_program_parameter_that_cannot_be_used_forbids_posting(typed):
 
 
 @pytest.mark.parametrize("typed", [Unread("abc", "why"), Number(1e9)])
-def test_a_safe_z_that_cannot_be_used_forbids_posting_and_changes_no_path(typed):
+def test_an_unusable_safe_z_prevents_posting_and_changes_no_path(typed):
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     before = derive(part)
     after = derive(replace(part, setup=replace(part.setup, safe_z=typed)))
     assert "safe_z" in [finding.field for finding in after.blocks[0].errors]
-    ours, theirs = (one.blocks[0].paths.center.points.tolist() for one in (before, after))
+    ours, theirs = (derived.blocks[0].paths.center.points.tolist() for derived in (before, after))
     assert ours == theirs
 
 
@@ -145,32 +145,33 @@ def profiled(comp, offset, finish_xy=None, **changes):
 
 @pytest.mark.parametrize("offset", [0.0, 0.05, 0.1, 0.3])
 @pytest.mark.parametrize("finish", [None, 0.0, 0.1])
-def test_one_pass_is_told_exactly_where_there_is_one(offset, finish):
+def test_one_pass_is_reported_exactly_when_there_is_one(offset, finish):
     changes = {} if finish is None else {"finish_tool": Number(2)}
     part = profiled(CutterComp.PROFILE_LEFT, Number(offset), None if finish is None else Number(finish), **changes)
-    (found,) = solve_fields(part).blocks
-    passes = len(stocks(found, part)) - (finish is not None)
-    assert ("ONE_PASS" in [finding.code for finding in found.findings]) is (passes == 0)
+    (solved,) = solve_fields(part).blocks
+    passes = len(stocks(solved, part)) - (finish is not None)
+    assert ("ONE_PASS" in [finding.code for finding in solved.findings]) is (passes == 0)
 
 
-def test_it_is_a_warning_beside_the_path_that_names_the_place_and_what_to_do() -> None:
-    (found,) = derive(program(block(((0, 0), (2, 0), (1, 0), (1, 3)), CutterComp.LEFT))).blocks
-    (one,) = (one for one in found.findings if one.code == "TURNS_BACK")
-    assert one.severity is Severity.WARNING
+def test_a_segment_that_turns_back_is_a_warning_with_place_and_remedy() -> None:
+    (derived_block,) = derive(program(block(((0, 0), (2, 0), (1, 0), (1, 3)), CutterComp.LEFT))).blocks
+    (finding,) = (finding for finding in derived_block.findings if finding.code == "TURNS_BACK")
+    assert finding.severity is Severity.WARNING
     assert (
-        sentence(one, Unit.IN) == "This segment goes straight back over segment 1 at X 2.0000 Y 0.0000. Check its end."
+        sentence(finding, Unit.IN)
+        == "This segment goes straight back over segment 1 at X 2.0000 Y 0.0000. Check its end."
     )
-    warnings = [told for told in found.findings if told.severity is Severity.WARNING]
-    assert warnings[0] == one
-    assert {told.code for told in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}
+    warnings = [warning for warning in derived_block.findings if warning.severity is Severity.WARNING]
+    assert warnings[0] == finding
+    assert {warning.code for warning in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}
 
 
-def test_where_the_center_runs_on_the_contour_it_may() -> None:
-    (found,) = derive(program(block(((0, 0), (2, 0), (0, 0)), CutterComp.ON))).blocks
-    assert all(one.code != "TURNS_BACK" for one in found.findings)
+def test_a_contour_may_turn_back_without_compensation() -> None:
+    (derived_block,) = derive(program(block(((0, 0), (2, 0), (0, 0)), CutterComp.ON))).blocks
+    assert all(finding.code != "TURNS_BACK" for finding in derived_block.findings)
 
 
 @pytest.mark.parametrize("points", [OUTSIDE_SQUARE, OVER_RUN_SQUARE, MID_SIDE_SQUARE])
-def test_a_plain_part_does_not(points: tuple[tuple[float, float], ...]) -> None:
-    (found,) = derive(program(block(points, CutterComp.RIGHT))).blocks
-    assert all(one.code != "TURNS_BACK" for one in found.findings)
+def test_a_plain_part_does_not_turn_back(points: tuple[tuple[float, float], ...]) -> None:
+    (derived_block,) = derive(program(block(points, CutterComp.RIGHT))).blocks
+    assert all(finding.code != "TURNS_BACK" for finding in derived_block.findings)

@@ -1,4 +1,4 @@
-"""The look-ahead table of a block: every value cut and judged, and the value it recommends."""
+"""The look-ahead table of a block: every value compensated and judged, and the recommended value."""
 
 from dataclasses import fields, replace
 
@@ -18,50 +18,52 @@ from tests.core.pipeline.parts import NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, bl
 
 def table(points, comp):
     part = program(block(points, comp))
-    (found,) = derive(part).blocks
-    return look_ahead_table(found, part)
+    (derived,) = derive(part).blocks
+    return look_ahead_table(derived, part)
 
 
-def test_the_notch_is_clean_from_three_and_three_is_recommended():
-    found = table(NOTCH, CutterComp.LEFT)
-    assert [row.value for row in found.rows] == list(range(1, 21))
-    assert [row.clean for row in found.rows] == [False] * 2 + [True] * 18
-    assert found.row(2).gouge > 0.2 * 25.4
-    assert found.row(3).gouge == 0.0
-    assert found.row(3).deleted == (2.0, 3.0, 4.0)
-    assert found.recommended == 3
+def test_the_notch_is_clean_from_a_look_ahead_of_three_which_is_recommended():
+    values = table(NOTCH, CutterComp.LEFT)
+    assert [row.value for row in values.rows] == list(range(1, 21))
+    assert [row.clean for row in values.rows] == [False] * 2 + [True] * 18
+    assert values.row(2).gouge > 0.2 * 25.4
+    assert values.row(3).gouge == 0.0
+    assert values.row(3).deleted == (2.0, 3.0, 4.0)
+    assert values.recommended == 3
 
 
-def test_the_over_run_square_is_clean_at_every_value_and_cut_at_one_and_two():
-    found = table(OVER_RUN_SQUARE, CutterComp.RIGHT)
-    assert all(row.clean for row in found.rows)
-    assert [row.uncut == 0.0 for row in found.rows] == [True] * 2 + [False] * 18
-    assert found.recommended == 1
+def test_the_over_run_square_is_clean_at_every_value_and_complete_at_one_and_two():
+    values = table(OVER_RUN_SQUARE, CutterComp.RIGHT)
+    assert all(row.clean for row in values.rows)
+    assert [row.uncut == 0.0 for row in values.rows] == [True] * 2 + [False] * 18
+    assert values.recommended == 1
 
 
 def test_there_is_no_table_without_compensation():
     assert table(OUTSIDE_SQUARE, CutterComp.ON) is None
 
 
-def told(verdict):
+def comparable(verdict):
     return [list(value) if name == "uncut" else value for name, value in _values(verdict)]
 
 
 def _values(verdict):
-    return [(one.name, getattr(verdict, one.name)) for one in fields(verdict)]
+    return [(field.name, getattr(verdict, field.name)) for field in fields(verdict)]
 
 
 @pytest.mark.parametrize("choice", list(PathChoice))
 @pytest.mark.parametrize("points", [NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE])
 def test_every_value_is_judged_by_its_own_path(points, choice):
     part = program(block(points, CutterComp.RIGHT), parameters=ProgramParameters(path=choice))
-    (found,) = derive(part).blocks
-    assert found.paths is not None
-    assert found.side is not None
-    assert found.radius is not None
-    rows = look_ahead_table(found, part).rows
+    (derived,) = derive(part).blocks
+    assert derived.paths is not None
+    assert derived.side is not None
+    assert derived.radius is not None
+    rows = look_ahead_table(derived, part).rows
     for row in rows:
-        assert told(row.verdict) == told(judge(found.paths.surface, found.side, found.radius, row.compensated.whole))
+        assert comparable(row.verdict) == comparable(
+            judge(derived.paths.surface, derived.side, derived.radius, row.compensated.whole)
+        )
 
 
 class Fate:
@@ -79,88 +81,88 @@ def test_the_recommended_value_is_clean_then_leaves_least_then_is_smallest():
 SLOT = ((0, 0), (40, 0), (40, -5), (52, -5), (52, 0), (90, 0))
 
 
-def test_a_value_is_clean_only_if_its_roughing_passes_are():
-    """The cutter of 8 fits into the slot of 12; the pass that leaves 8 does not, and needs a look-ahead of 3."""
+def test_a_value_is_clean_only_if_its_roughing_passes_are_clean():
+    """The 8 mm cutter fits into the 12 mm slot; the pass that leaves 8 mm does not and needs a look-ahead of 3."""
     tools = (Tool(1, diameter=Number(8.0)),)
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), max_offset=Number(8.0))
     part = replace(program(block(SLOT, CutterComp.PROFILE_LEFT), parameters=parameters), unit=Unit.MM, tools=tools)
-    (found,) = derive(part).blocks
-    table = look_ahead_table(found, part)
+    (derived,) = derive(part).blocks
+    table = look_ahead_table(derived, part)
     assert [row.clean for row in table.rows[:3]] == [False, False, True]
     assert table.recommended == 3
     assert table.row(1).gouge == pytest.approx(4.0, abs=0.5)
 
 
-def test_segments_that_only_roughing_deletes_are_told():
+def test_segments_that_only_roughing_deletes_are_reported():
     tools = (Tool(1, diameter=Number(8.0)), Tool(2, diameter=Number(8.0)))
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(3.0))
     typed = block(SLOT, CutterComp.LEFT, finish_tool=Number(2), lookahead=Number(3))
     part = replace(program(typed, parameters=parameters), unit=Unit.MM, tools=tools)
-    (found,) = derive(part).blocks
-    (told,) = [finding for finding in found.findings if finding.code == "ROUGH_DELETES"]
-    assert told.text.endswith("skips segments 2, 3, 4: the next pass cuts solid stock there.")
-    assert meets_solid(job(found, part)) == {2, 3, 4}
+    (derived,) = derive(part).blocks
+    (warning,) = [finding for finding in derived.findings if finding.code == "ROUGH_DELETES"]
+    assert warning.text.endswith("skips segments 2, 3, 4: the next pass cuts solid stock there.")
+    assert meets_solid(job(derived, part)) == {2, 3, 4}
 
 
 @pytest.mark.parametrize("start", [0.0, 1.0, 2.0, 3.0, 5.0, 10.0])
 @pytest.mark.parametrize("unit", list(Unit))
-def test_a_gap_of_the_forms_last_digit_is_closed_wherever_it_is(start, unit):
+def test_a_gap_of_the_last_digit_is_closed_anywhere(start, unit):
     points = ((start, 0), (start + 2, 0), (start + 2, 2), (start, 2), (start - 1, 1), (start + 0.0001, 0))
     part = set_unit(program(block(points, CutterComp.LEFT)), unit)
     assert derive(part).blocks[0].solved.closed
 
 
-def test_what_forbids_posting_is_a_finding_of_the_block():
+def test_a_field_that_prevents_posting_is_an_error_of_the_block():
     part = program(block(NOTCH, CutterComp.LEFT, lookahead=Number(3), speed=Number(0)))
     assert [finding.code for finding in derive(part).blocks[0].errors] == ["OUT_OF_RANGE"]
 
 
-def test_a_clean_contour_needs_nothing():
+def test_a_clean_contour_gets_empty_advice():
     part = program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))
-    found = advice_for_block(derive(part).blocks[0], part)
-    assert found is not None
-    assert not found.sentences
+    advice = advice_for_block(derive(part).blocks[0], part)
+    assert advice is not None
+    assert not advice.sentences
 
 
-def test_without_compensation_nothing_is_known():
+def test_a_block_without_compensation_gets_no_advice():
     part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
     assert advice_for_block(derive(part).blocks[0], part) is None
 
 
-def test_the_notch_is_told_the_look_ahead_that_is_clean():
+def test_the_advice_for_the_notch_names_the_clean_look_ahead():
     part = program(block(NOTCH, CutterComp.LEFT))
-    found = advice_for_block(derive(part).blocks[0], part)
-    assert found is not None
-    assert [finding.code for finding in found.sentences] == ["CAL_NOT_CLEAN"]
-    said = "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
-    assert sentence(found.sentences[0], part.unit) == said
-    assert found.sentences[0].at is not None
-    assert found.tool is None
-    assert found.start is None
+    advice = advice_for_block(derive(part).blocks[0], part)
+    assert advice is not None
+    assert [finding.code for finding in advice.sentences] == ["CAL_NOT_CLEAN"]
+    text = "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
+    assert sentence(advice.sentences[0], part.unit) == text
+    assert advice.sentences[0].at is not None
+    assert advice.tool is None
+    assert advice.start is None
 
 
 @pytest.mark.parametrize("tries", range(8))
-def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
-    """The gear tries six starts and one without blend moves: each is asked before, none after the answer was no."""
+def test_unwanted_advice_stops_before_the_next_remedy(tries):
+    """The gear tries six starts and one without blend moves; the advice asks before each and stops at the first no."""
     part = gear(200)
-    found = derive(part).blocks[0]
-    asked: list[bool] = []
+    derived = derive(part).blocks[0]
+    answers: list[bool] = []
 
     def wanted() -> bool:
-        still = bool(len(asked) < tries)
-        asked.append(still)
-        return still
+        answer = bool(len(answers) < tries)
+        answers.append(answer)
+        return answer
 
-    assert advice_for_block(found, part, wanted=wanted) is None
-    assert asked == [True] * tries + [False]
+    assert advice_for_block(derived, part, wanted=wanted) is None
+    assert answers == [True] * tries + [False]
 
 
-def test_roughing_passes_are_cut_by_tool_where_a_finish_tool_follows():
-    """TOOL is 0.5 across, FINISH TOOL 0.25: it leaves FINISH XY before."""
+def test_the_first_tool_roughs_before_a_finish_tool():
+    """TOOL with a diameter of 0.5 leaves FINISH XY for FINISH TOOL with 0.25."""
     rough = block(OUTSIDE_SQUARE, CutterComp.RIGHT)
     parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(0.02))
     for finish, radius, rougher in ((Number(2), 0.125, 0.25), (None, 0.25, None)):
         part = program(replace(rough, finish_tool=finish), parameters=parameters)
-        asked = cutting_setup(derive(part).blocks[0], part)
-        assert asked.radius == pytest.approx(25.4 * radius)
-        assert asked.rougher == (None if rougher is None else pytest.approx(25.4 * rougher))
+        cutting = cutting_setup(derive(part).blocks[0], part)
+        assert cutting.radius == pytest.approx(25.4 * radius)
+        assert cutting.rougher == (None if rougher is None else pytest.approx(25.4 * rougher))

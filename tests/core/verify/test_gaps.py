@@ -1,4 +1,4 @@
-"""What a gap's bound proves agrees with the search for the farthest place; what is thinner than STOCK is left out."""
+"""The thickness and area of uncut gaps; gaps thinner than STOCK are left out."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ RADIUS = 0.25
 
 
 def polygon(count: int, size: float = 10.0) -> Path:
-    """A circle drawn by `count` lines, from the middle of one of them."""
+    """A circle of `count` lines that starts in the middle of one of them."""
     corners = [(size * cos(tau * row / count), size * sin(tau * row / count)) for row in range(count)]
     (x0, y0), (x1, y1) = corners[-1], corners[0]
     middle = ((x0 + x1) / 2, (y0 + y1) / 2)
@@ -41,40 +41,40 @@ def uncut(surface: Path, center: Path, radius: float = RADIUS) -> UncutStretches
 
 
 def thickness(count: int) -> float:
-    """What a cutter leaves in the corners of a polygon."""
+    """The thickness that a cutter leaves in the corners of a polygon."""
     return RADIUS * (hypot(1.0, tan(tau / count / 2.0)) - 1.0)
 
 
-def test_what_curves_of_fine_lines_leave_is_not_worth_a_word() -> None:
+def test_gaps_thinner_than_stock_on_finely_sampled_curves_are_ignored() -> None:
     assert thickness(400) < STOCK < thickness(80)
     for count in (400, 4000):
         assert uncut(polygon(count), inside(polygon(count))) == ()
 
 
-def test_corners_worth_a_word_are_told_to_the_last_digit() -> None:
-    found = uncut(polygon(80), inside(polygon(80)))
-    assert [one.thickness for one in found] == pytest.approx([thickness(80)] * 80, abs=1e-12)
+def test_the_thickness_of_uncut_corners_is_exact() -> None:
+    stretches = uncut(polygon(80), inside(polygon(80)))
+    assert [stretch.thickness for stretch in stretches] == pytest.approx([thickness(80)] * 80, abs=1e-12)
 
 
-def test_a_stretch_is_told_from_stock_on() -> None:
+def test_a_stretch_is_reported_if_it_is_thicker_than_stock() -> None:
     wall = lines((0, 0), (10, 0))
     assert uncut(wall, lines((0, 1 + 0.9 * STOCK), (10, 1 + 0.9 * STOCK)), 1.0) == ()
-    (told,) = uncut(wall, lines((0, 1 + 1.1 * STOCK), (10, 1 + 1.1 * STOCK)), 1.0)
-    assert told.thickness == pytest.approx(1.1 * STOCK, abs=1e-9)
+    (stretch,) = uncut(wall, lines((0, 1 + 1.1 * STOCK), (10, 1 + 1.1 * STOCK)), 1.0)
+    assert stretch.thickness == pytest.approx(1.1 * STOCK, abs=1e-9)
 
 
-def test_a_thin_end_belongs_to_the_stretch_over_start() -> None:
-    """A closed contour's first and last stretch are one: the thin half of it counts with the thick one."""
+def test_a_thin_end_belongs_to_the_stretch_across_start() -> None:
+    """The first and last stretch of a closed contour are one, so the thin half counts with the thick one."""
     surface = lines((0, 0), (4, 0), (4, 4), (0, 4), (0, 0))
     path = lines((1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0), (1.0, 1.0))
     shifted = lines((0, 0.02), (0, 0), (4, 0), (4, 4), (0, 4), (0, 0.02))
-    one, other = (judge(contour, Side.LEFT, 1.0, path).uncut for contour in (surface, shifted))
-    assert max(one.length) == pytest.approx(2.0)
-    assert sorted(one.length) == pytest.approx(sorted(other.length))
+    at_corner, on_wall = (judge(contour, Side.LEFT, 1.0, path).uncut for contour in (surface, shifted))
+    assert max(at_corner.length) == pytest.approx(2.0)
+    assert sorted(at_corner.length) == pytest.approx(sorted(on_wall.length))
 
 
 def odd_outlines() -> list[tuple[Path, Path]]:
-    """Surfaces and paths whose gaps are met on lines, on arcs, across many pieces, far from all of the path."""
+    """Surfaces and paths with gaps on lines, on arcs, across many pieces, and far from the path."""
     bulge = Arc((1, 0), (2, 0), (1.5, 0), Turn.CW)
     bay = Arc((1, 0), (2, 0), (1.5, 0), Turn.CCW)
     bowl = Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (0, 0), (2, 0), Turn.CCW)])
@@ -95,27 +95,27 @@ def odd_outlines() -> list[tuple[Path, Path]]:
 
 
 def cap(radius: float, width: float) -> float:
-    """What a circle reaches over a chord."""
+    """The area of a circle beyond a chord."""
     return radius**2 * asin(width / 2 / radius) - width / 2 * sqrt(radius**2 - width**2 / 4)
 
 
-def test_the_area_in_inside_corners_over_start_too() -> None:
+def test_the_area_of_uncut_inside_corners_is_exact() -> None:
     corner = RADIUS**2 * (1 - pi / 4)
     path = lines((RADIUS, RADIUS), (1.75, RADIUS), (1.75, 1.75), (RADIUS, 1.75), (RADIUS, RADIUS))
-    assert [one.area for one in uncut(square(), path)] == pytest.approx([corner] * 4, abs=1e-8)
-    other = judge(square().reversed(), Side.RIGHT, RADIUS, path.reversed()).uncut
-    assert [one.area for one in other] == pytest.approx([corner] * 4, abs=1e-8)
+    assert [stretch.area for stretch in uncut(square(), path)] == pytest.approx([corner] * 4, abs=1e-8)
+    reversed_stretches = judge(square().reversed(), Side.RIGHT, RADIUS, path.reversed()).uncut
+    assert [stretch.area for stretch in reversed_stretches] == pytest.approx([corner] * 4, abs=1e-8)
 
 
-def test_the_area_of_a_notch_the_cutter_cannot_enter() -> None:
+def test_the_area_of_a_notch_that_the_cutter_cannot_enter_is_exact() -> None:
     notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
-    (told,) = uncut(notch, compensate(notch, Side.LEFT, RADIUS, 3, closed=False).path)
-    assert told.area == pytest.approx(0.09 - cap(RADIUS, 0.3), abs=1e-8)
+    (stretch,) = uncut(notch, compensate(notch, Side.LEFT, RADIUS, 3, closed=False).path)
+    assert stretch.area == pytest.approx(0.09 - cap(RADIUS, 0.3), abs=1e-8)
 
 
 @pytest.mark.parametrize("angle", [1.5, 3.0, pi, 5.0, 5.6])
-def test_the_area_of_a_round_bay_the_cutter_cannot_enter(angle: float) -> None:
-    """An arc of radius 1, more than half round or less, below a wall."""
+def test_the_area_of_a_round_bay_that_the_cutter_cannot_enter_is_exact(angle: float) -> None:
+    """An arc of radius 1 of less or more than half a turn below a wall."""
     width = 2.0 * sin(angle / 2.0)
     bay = Arc((0, 0), (width, 0), (width / 2, cos(angle / 2.0)), Turn.CCW)
     surface = Path.from_pieces([Line((-3, 0), (0, 0)), bay, Line((width, 0), (width + 3, 0))])
@@ -128,40 +128,40 @@ def test_the_area_of_a_round_bay_the_cutter_cannot_enter(angle: float) -> None:
     assert stretch.area == pytest.approx((angle - sin(angle)) / 2.0 - cap(radius, width), abs=1e-8)
 
 
-def test_no_area_is_told_where_it_has_no_bound() -> None:
+def test_an_unbounded_gap_has_no_area() -> None:
     wall = lines((0, 0), (10, 0))
-    assert [one.area for one in uncut(wall, lines((1, RADIUS), (4, RADIUS), (5, 2), (6, RADIUS), (9, RADIUS)))] == [
-        None
-    ] * 3
+    assert [
+        stretch.area for stretch in uncut(wall, lines((1, RADIUS), (4, RADIUS), (5, 2), (6, RADIUS), (9, RADIUS)))
+    ] == [None] * 3
 
 
 ROUNDED_GEAR = (1, 0, 0, 1, 0, -1, 1, 1, 1, 1, 1, 1, -1, 0, -1, 1, 0, 1, 0, 0, 1, -1, 1, 1)
-"""Which sides of a gear with six teeth are bent out or in."""
+"""The sides of a gear with six teeth that bend out or in."""
 
 
-def test_an_area_is_told_whichever_of_the_moves_that_end_a_gap_stands_for_it() -> None:
-    """A move ends where the cutter touches a corner, another begins behind the arc about that corner."""
+def test_every_gap_of_a_rounded_gear_has_its_area() -> None:
+    """One move ends where the cutter touches a corner; another begins after the arc about that corner."""
     spots = [
         (radius, tau * (k + share) / 6) for k in range(6) for radius, share in ((3, 0), (3, 0.4), (2, 0.5), (2, 0.9))
     ]
     points = [(radius * cos(angle), radius * sin(angle)) for radius, angle in spots]
     surface = Chain((*points, points[0]), tuple(bend / 10.0 for bend in ROUNDED_GEAR)).path()
     path = compensate(surface, Side.LEFT, 1.0, 11, closed=True).path
-    areas = [one.area for one in uncut(surface, path, 1.0)]
+    areas = [stretch.area for stretch in uncut(surface, path, 1.0)]
     assert None not in areas
     assert areas[0] == pytest.approx(_area_left(surface, path, 1.0, (0.3, 2.9)), abs=1e-3)
 
 
 def _area_left(surface: Path, path: Path, radius: float, near: tuple[float, float]) -> float:
-    """Area inside a contour that no disc along the path covers, of the part that holds a point, by shapely."""
+    """The area, by shapely, of the uncovered part of a contour that is nearest to a point."""
     left = Polygon(chords(surface)).difference(chords(path).buffer(radius, quad_segs=256))
     parts = getattr(left, "geoms", [left])
     return float(min(parts, key=lambda part: part.distance(Point(near))).area)
 
 
-def test_nothing_is_told_thicker_than_it_is_where_rounded_coordinates_make_arcs_uneven() -> None:
-    """The arc at the end of a gap reaches that end by what its two radii leave open; another move may be nearer."""
-    told = 0
+def test_rounded_uneven_arcs_do_not_change_the_thickness_of_gaps() -> None:
+    """An uneven arc may miss the end of its gap by the difference of its radii; another move may be nearer."""
+    count = 0
     for seed in range(30):
         random = Random(seed)
         for family in (waves, spiral):
@@ -171,7 +171,7 @@ def test_nothing_is_told_thicker_than_it_is_where_rounded_coordinates_make_arcs_
                 continue
             rounded = Path.of(np.round(path.points, 3), np.round(path.centers, 3), path.turns, path.numbers)
             for stretch in uncut(surface, rounded, 1.5):
-                told += 1
+                count += 1
                 apart = oracle.apart(np.array([stretch.thickest]), rounded)[0]
                 assert stretch.thickness == pytest.approx(apart - 1.5, abs=3e-3)
-    assert told > 30
+    assert count > 30

@@ -1,4 +1,4 @@
-"""What the operator reads of a verdict."""
+"""The findings that the operator reads for a verdict."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ INCH = 25.4
 WALL = lines((0, 0), (10, 0))
 
 
-def test_a_clean_path_that_cuts_all_has_nothing_to_report() -> None:
+def test_a_clean_and_complete_path_has_no_findings() -> None:
     assert verdict_findings(judge(square(), Side.RIGHT, R, around(CORNERS, R)), square()) == ()
 
 
-def test_a_gouge_behind_the_wall_is_told_as_deep_as_the_cutter_gets_and_no_deeper_than_it_is_wide() -> None:
-    for move, much in ((lines((5, 3), (5, -0.5), (9, -0.5)), "1.500"), (lines((5, 3), (5, -4)), "2.000 or more")):
+def test_the_depth_of_a_gouge_from_behind_is_limited_to_the_diameter() -> None:
+    for move, depth in ((lines((5, 3), (5, -0.5), (9, -0.5)), "1.500"), (lines((5, 3), (5, -4)), "2.000 or more")):
         gouge, wrong, *_ = verdict_findings(judge(WALL, Side.LEFT, 1.0, move), WALL)
         assert sentence(gouge, Unit.MM).startswith(
-            f"GOUGE {much} deep in segment 1 at X 5.000 Y 0.000, by the path of 1."
+            f"GOUGE {depth} deep in segment 1 at X 5.000 Y 0.000, by the path of 1."
         )
         assert sentence(wrong, Unit.MM).startswith("The cutter is on the wrong side for ")
 
@@ -44,7 +44,7 @@ def test_a_gouge_names_both_segments_and_the_place() -> None:
     assert gouge.lengths == pytest.approx((verdict.gouges[0].extent,))
 
 
-def test_a_move_is_named_by_what_it_is() -> None:
+def test_a_move_is_named_by_its_kind() -> None:
     surface = Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (5, 1), (4, 1), Turn.CCW), Line((5, 1), (5, 4))])
     pieces: list[Piece] = [
         Line((0, 1), (3, 1)),
@@ -61,14 +61,14 @@ def test_a_move_is_named_by_what_it_is() -> None:
     ]
 
 
-def test_without_the_path_a_half_number_is_a_corner_s() -> None:
+def test_a_half_number_without_its_corner_arc_names_the_corner() -> None:
     path = lines((0, 1), (5, 0.5), (10, 1))
     half = type(path).of(path.points, path.centers, path.turns, path.numbers + 0.5)
     (gouge,) = verdict_findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
     assert gouge.text.endswith("by the path at the corner after 1.")
 
 
-def test_nothing_is_told_as_zeros() -> None:
+def test_small_values_are_not_shown_as_zero() -> None:
     for unit, digit in ((Unit.MM, "0.003"), (Unit.IN, "0.0001")):
         (gouge, *_) = verdict_findings(judge(WALL, Side.LEFT, 1.0, lines((0, 0.9995), (10, 0.9995))), WALL)
         assert f"GOUGE less than {digit} deep in" in sentence(gouge, unit)
@@ -77,12 +77,12 @@ def test_nothing_is_told_as_zeros() -> None:
 
 
 def test_equal_inside_corners_sharper_than_the_cutter_are_one_finding() -> None:
-    (found,) = verdict_findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
-    assert (found.code, found.severity, found.segment) == ("UNCUT", Severity.INFO, 1)
-    assert found.at == pytest.approx((2.0, 0.0))
-    assert found.value == pytest.approx(4 * 2 * R)
-    assert found.area == pytest.approx(4 * R * R * (1.0 - pi / 4.0), abs=1e-8)
-    assert sentence(found, Unit.MM) == (
+    (uncut,) = verdict_findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
+    assert (uncut.code, uncut.severity, uncut.segment) == ("UNCUT", Severity.INFO, 1)
+    assert uncut.at == pytest.approx((2.0, 0.0))
+    assert uncut.value == pytest.approx(4 * 2 * R)
+    assert uncut.area == pytest.approx(4 * R * R * (1.0 - pi / 4.0), abs=1e-8)
+    assert sentence(uncut, Unit.MM) == (
         "4 inside corners are sharper than the cutter: 0.104 left in each, segments 1-2, 2-3, 3-4, 4-5."
     )
 
@@ -98,13 +98,13 @@ def test_equal_inside_roundings_smaller_than_the_cutter_are_one_finding() -> Non
     ]
     surface, far = Path.from_pieces(pieces), half - 2 * radius
     path = lines((0, -far), (far, -far), (far, far), (0, far))
-    (found,) = verdict_findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
-    assert found.text.endswith("left in each, segments 1-3, 3-5.")
-    assert found.lengths[0] == pytest.approx(radius * (2**0.5 - 1.0))
+    (uncut,) = verdict_findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
+    assert uncut.text.endswith("left in each, segments 1-3, 3-5.")
+    assert uncut.lengths[0] == pytest.approx(radius * (2**0.5 - 1.0))
 
 
 @pytest.mark.filterwarnings("error")
-def test_without_a_path_a_slot_between_opposite_lines_is_one_finding() -> None:
+def test_an_uncut_slot_without_a_path_is_one_finding() -> None:
     turn = Turn.CCW
     pieces: list[Piece] = [
         Line((0, 0), (30, 0)),
@@ -114,32 +114,32 @@ def test_without_a_path_a_slot_between_opposite_lines_is_one_finding() -> None:
     ]
     surface = Path.from_pieces(pieces, [1.0, 2.0, 3.0, 4.0])
     verdict = judge_together(surface, Side.LEFT, 5.0005, [])
-    assert [found.text for found in verdict_findings(verdict, surface)] == [
+    assert [finding.text for finding in verdict_findings(verdict, surface)] == [
         "UNCUT: nothing of segments 1-4 is cut. There is no path."
     ]
 
 
-def test_every_corner_of_another_kind_is_a_finding_with_its_segments() -> None:
+def test_each_different_corner_is_a_finding_with_its_segments() -> None:
     surface = lines((0, 0), (10, 0), (10, 10), (0, 5))
     # one millimeter below the line y = 5 + x / 2
     path = lines((0, 1), (9, 1), (9, 9.5 - 5**0.5 / 2), (0, 5.0 - 5**0.5 / 2))
-    found = verdict_findings(judge(surface, Side.LEFT, 1.0, path), surface)
-    assert [finding.text.partition(" at ")[0] for finding in found] == [
+    findings = verdict_findings(judge(surface, Side.LEFT, 1.0, path), surface)
+    assert [finding.text.partition(" at ")[0] for finding in findings] == [
         "UNCUT {0} thick, {value} long, segments 1-2",
         "UNCUT {0} thick, {value} long, segments 2-3",
     ]
-    assert found[0].value == pytest.approx(2.0)
-    assert sentence(found[0], Unit.MM) == "UNCUT 0.414 thick, 2.000 long, segments 1-2 at X 10.000 Y 0.000."
+    assert findings[0].value == pytest.approx(2.0)
+    assert sentence(findings[0], Unit.MM) == "UNCUT 0.414 thick, 2.000 long, segments 1-2 at X 10.000 Y 0.000."
 
 
-def test_corners_left_by_more_than_their_angle_are_findings_each() -> None:
+def test_corners_that_the_cutter_could_reach_are_separate_findings() -> None:
     low, high, cut = R, 2.0 - R, 0.2
     path = lines(
         (1.0, low), (high - cut, low), (high, low + cut), (high, high - cut), (high - cut, high), (low + cut, high),
         (low, high - cut), (low, low + cut), (low + cut, low), (1.0, low),
     )  # fmt: skip
-    found = verdict_findings(judge(square(), Side.LEFT, R, path), square())
-    assert [finding.text.partition(" ")[0] for finding in found] == ["UNCUT"] * 4
+    findings = verdict_findings(judge(square(), Side.LEFT, R, path), square())
+    assert [finding.text.partition(" ")[0] for finding in findings] == ["UNCUT"] * 4
 
 
 def test_only_the_first_of_many_equal_corners_are_named() -> None:
@@ -148,14 +148,14 @@ def test_only_the_first_of_many_equal_corners_are_named() -> None:
         steps += [(step + 1.0, float(step)), (step + 1.0, step + 1.0)]
     surface = lines(*steps)
     path = lines(*((x - 0.1, y + 0.1) for x, y in steps))
-    (found,) = verdict_findings(judge(surface, Side.LEFT, 0.1, path), surface)
-    assert found.text == (
+    (uncut,) = verdict_findings(judge(surface, Side.LEFT, 0.1, path), surface)
+    assert uncut.text == (
         "8 inside corners are sharper than the cutter: {0} left in each, segments 1-2, 3-4, 5-6, 7-8, 9-10, 11-12 "
         "and 2 more."
     )
 
 
-def test_a_stretch_over_start_says_so() -> None:
+def test_a_stretch_across_start_says_so() -> None:
     path = lines((R, R), (1.5, R), (1.5, 1.5), (R, 1.5), (R, R))
     (*_, last) = verdict_findings(judge(square(), Side.LEFT, R, path), square())
     assert "segments 4 and over START to 1 at" in last.text
@@ -168,41 +168,41 @@ def test_lengths_are_shown_in_program_units() -> None:
     assert "GOUGE 0.5000 deep in segment 1 at X 5.0000 Y 0.0000" in sentence(gouge, Unit.IN)
 
 
-def test_the_over_run_is_told() -> None:
-    found = verdict_findings(judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH), OVER_RUN)
-    assert [finding.code for finding in found] == ["OVER_RUN", "UNCUT"]
-    assert found[0].severity is Severity.INFO
-    assert found[0].at == (0.0, 0.0)
-    assert sentence(found[0], Unit.MM) == "Over-run at X 0.000 Y 0.000: the ends are lead-in and lead-out."
-    assert "segments 1-4 at" in found[1].text
+def test_the_over_run_is_reported() -> None:
+    findings = verdict_findings(judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH), OVER_RUN)
+    assert [finding.code for finding in findings] == ["OVER_RUN", "UNCUT"]
+    assert findings[0].severity is Severity.INFO
+    assert findings[0].at == (0.0, 0.0)
+    assert sentence(findings[0], Unit.MM) == "Over-run at X 0.000 Y 0.000: the ends are lead-in and lead-out."
+    assert "segments 1-4 at" in findings[1].text
 
 
 def test_a_crossing_is_a_warning() -> None:
     bow = lines((0, 0), (4, 4), (4, 0), (0, 4), (-1, 2))
-    found = verdict_findings(judge(bow, Side.LEFT, R, lines((9, 9), (8, 9))), bow)
-    assert found[-2].code == "CROSSES_ITSELF"
-    assert found[-2].severity is Severity.WARNING
-    assert sentence(found[-2], Unit.MM) == "The contour crosses itself at X 2.000 Y 2.000."
+    findings = verdict_findings(judge(bow, Side.LEFT, R, lines((9, 9), (8, 9))), bow)
+    assert findings[-2].code == "CROSSES_ITSELF"
+    assert findings[-2].severity is Severity.WARNING
+    assert sentence(findings[-2], Unit.MM) == "The contour crosses itself at X 2.000 Y 2.000."
 
 
 def test_the_wrong_side_is_an_error() -> None:
-    found = verdict_findings(judge(square(), Side.RIGHT, 0.1, lines((0.5, 1), (1.5, 1))), square())
-    assert found[0].code == "WRONG_SIDE"
-    assert found[0].severity is Severity.ERROR
-    assert found[0].text == "The cutter is on the wrong side for 1 move. Check CUTTER COMP."
+    findings = verdict_findings(judge(square(), Side.RIGHT, 0.1, lines((0.5, 1), (1.5, 1))), square())
+    assert findings[0].code == "WRONG_SIDE"
+    assert findings[0].severity is Severity.ERROR
+    assert findings[0].text == "The cutter is on the wrong side for 1 move. Check CUTTER COMP."
     along = lines((-0.1, -0.1), (2.1, -0.1), (2.1, 1.5), (1.5, 2.1), (-0.1, 2.1), (-0.1, -0.1))
     crossing = verdict_findings(judge(square(), Side.RIGHT, 0.1, along), square())
     texts = [finding.text for finding in crossing if finding.code == "WRONG_SIDE"]
     assert texts == ["The path crosses the contour: 1 move on the wrong side."]
 
 
-def test_no_path_leaves_everything() -> None:
+def test_a_contour_without_a_path_is_uncut() -> None:
     (uncut,) = verdict_findings(judge(square(), Side.RIGHT, R, EMPTY), square())
     assert uncut.text == "UNCUT: nothing of segments 1-4 is cut. There is no path."
     assert uncut.value == pytest.approx(8.0)
 
 
-def test_what_cannot_be_judged_is_an_error() -> None:
+def test_a_path_that_cannot_be_judged_is_an_error() -> None:
     (unjudged,) = verdict_findings(judge(square(), Side.RIGHT, nan, MID_SIDE_PATH), square())
     assert unjudged.code == "UNJUDGED"
     assert unjudged.severity is Severity.ERROR
@@ -217,9 +217,9 @@ def test_what_cannot_be_judged_is_an_error() -> None:
     assert unjudged.text == "Not judged: the arc in path of segment 7 may be empty or a full circle."
 
 
-def test_air_cuts_and_backward_moves_are_told() -> None:
+def test_air_cuts_and_backward_moves_are_reported() -> None:
     path = lines((10, 1), (6, 1), (5, 2), (4, 1), (0, 1))
-    found = contact_findings(air_cuts(WALL, 1.0, path), judge(WALL, Side.LEFT, 1.0, path).backwards)
-    assert [finding.code for finding in found] == ["BACKWARDS", "AWAY"]
-    assert found[0].text == "2 moves run against the direction of the contour."
-    assert sentence(found[1], Unit.MM) == "2.828 of path cuts air: 1.000 off the part at X 5.000 Y 2.000."
+    findings = contact_findings(air_cuts(WALL, 1.0, path), judge(WALL, Side.LEFT, 1.0, path).backwards)
+    assert [finding.code for finding in findings] == ["BACKWARDS", "AWAY"]
+    assert findings[0].text == "2 moves run against the direction of the contour."
+    assert sentence(findings[1], Unit.MM) == "2.828 of path cuts air: 1.000 off the part at X 5.000 Y 2.000."

@@ -1,4 +1,4 @@
-"""The part's side, against the winding of dense polygons, and where there is none."""
+"""The side of the part, compared with the winding of dense polygons, and places without a side."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.core.verify.shapes import lines, mirrored, moved
 
 
 def star(random: Random) -> Path:
-    """A closed outline about the origin with bent sides and points of any sharpness, either way round."""
+    """A closed outline about the origin with curved sides and sharp points, in either direction."""
     count = random.randint(3, 9)
     angles = sorted(random.uniform(0.0, 2.0 * np.pi) for _ in range(count))
     sizes = [random.choice((1.0, 4.0, 10.0)) for _ in angles]
@@ -30,7 +30,7 @@ def star(random: Random) -> Path:
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_sides_of_closed_outlines(seed: int) -> None:
+def test_moves_near_closed_outlines_are_on_the_expected_side(seed: int) -> None:
     random = Random(seed)
     outline = star(random)
     if judge(outline, Side.LEFT, 0.01, lines((50, 50), (51, 50))).crosses_itself:
@@ -48,9 +48,9 @@ def test_sides_of_closed_outlines(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_moves_far_off_a_closed_outline_are_on_the_side_of_the_path_they_belong_to(seed: int) -> None:
-    """A lead is on the wrong side where some place of it is in the part, whatever the path it leads to is beside."""
-    random, asked = Random(seed), 0
+def test_leads_far_from_a_closed_outline_are_on_the_expected_side(seed: int) -> None:
+    """A lead is on the wrong side if any part of it is inside the part."""
+    random, checked = Random(seed), 0
     outline, radius = star(random), random.choice((0.005, 0.05, 0.3))
     if judge(outline, Side.LEFT, 0.01, lines((50, 50), (51, 50))).crosses_itself:
         outline = lines((0, 0), (9, 0), (9, 9), (4.5, 4.6), (0, 9), (0, 0))
@@ -68,11 +68,11 @@ def test_moves_far_off_a_closed_outline_are_on_the_side_of_the_path_they_belong_
                 points, _ = oracle.samples(lead, 0.005)
                 in_part = oracle.encloses(outline, points) != room_inside
                 apart = oracle.apart(points, outline)
-                # between points 0.005 apart a lead crosses only what one of them is half as near to
+                # between samples 0.005 apart a lead can only cross walls within half that distance of a sample
                 if (in_part & (apart > 0.01)).any() or (not in_part.any() and apart.min() > 0.0026):
-                    asked += 1
+                    checked += 1
                     assert (row in wrong_side) == in_part.any()
-    assert asked >= 2
+    assert checked >= 2
 
 
 HOOK = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2), Turn.CCW), Line((10, 4), (3, 4))])
@@ -89,33 +89,33 @@ HOOK = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2), T
         (lines((2, 5), (2, 4)), True, True),
     ],
 )
-def test_sides_of_an_open_hook(move: Path, left: bool, right: bool) -> None:
+def test_moves_near_an_open_hook_are_on_the_expected_side(move: Path, left: bool, right: bool) -> None:
     for change in (lambda path: path, lambda path: moved(path, 2.0, (100.0, -50.0))):
         assert judge(change(HOOK), Side.LEFT, 0.5, change(move)).clean == left
         assert judge(change(HOOK), Side.RIGHT, 0.5, change(move)).clean == right
     assert judge(mirrored(HOOK), Side.RIGHT, 0.5, mirrored(move)).clean == left
 
 
-def test_a_path_that_leaves_round_the_end_is_told_where_it_is_behind_the_wall() -> None:
+def test_a_path_around_the_end_of_a_wall_is_on_the_wrong_side_behind_it() -> None:
     wall = lines((0, 0), (10, 0))
     path = lines((5, 1), (12, 1), (12, -4), (5, -4), (4, -4))
     assert judge(wall, Side.LEFT, 1.0, path).wrong_side == (2, 3)
 
 
-def test_behind_a_wall_and_gouging_is_both() -> None:
+def test_a_gouging_move_behind_a_wall_is_on_the_wrong_side_too() -> None:
     verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, lines((5, -0.5), (6, -0.5)))
     assert verdict.depth == pytest.approx(1.5)
     assert verdict.wrong_side == (0,)
 
 
-def test_out_and_back_along_one_line_both_sides_are_room() -> None:
+def test_a_line_out_and_back_has_room_on_both_sides() -> None:
     spike = lines((0, 0), (10, 0), (0, 0))
     around = lines((5, 1), (12, 1), (12, -1), (5, -1))
     assert judge(spike, Side.RIGHT, 0.5, around).clean
     assert judge(spike, Side.LEFT, 0.5, around).clean
 
 
-def test_an_over_run_shorter_than_the_walls_has_no_side_and_a_long_one_has() -> None:
+def test_a_short_over_run_has_no_side_and_a_long_one_has_one() -> None:
     loop = lines((-30, 0), (2, 0), (2, 2), (0, 2), (0, -1))
     behind = lines((-20, 1), (-19, 1))
     assert judge(loop, Side.RIGHT, 0.25, behind).wrong_side == (0,)

@@ -1,4 +1,4 @@
-"""Program frame, units, tools, M functions and what is passed over or refused."""
+"""Program frame, units, tools, M functions, and ignored or refused blocks."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ NONE = ToolTable()
 
 
 def entry(*before: str, tools: ToolTable = NONE) -> float:
-    """How far beside the contour the tool runs."""
+    """The distance of the tool from the contour."""
     return flat(runs(*before, *CONTOUR, tools=tools))[0][1]
 
 
-def test_inches() -> None:
+def test_inch_programs_are_read_in_inches() -> None:
     tool = "TOOL DEF 1 L+0 R+.25\nTOOL CALL 1 Z DR+.01\n"
     moves = "L X+1 Y+0 F10\nCC X+0 Y+0\nCP PA+90 DR+\n"
-    made = run_klartext(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), NONE)
-    assert made.unit is Unit.IN
-    assert codes(made) == [("UNIT", 1)]
-    assert made.moves[1].point == (25.4, 0, 0)
-    assert made.moves[1].feed == 254
-    assert flat(made)[0] == NEAR((0, 25.4, 0, 0, 1))
+    run = run_klartext(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), NONE)
+    assert run.unit is Unit.IN
+    assert codes(run) == [("UNIT", 1)]
+    assert run.moves[1].point == (25.4, 0, 0)
+    assert run.moves[1].feed == 254
+    assert flat(run)[0] == NEAR((0, 25.4, 0, 0, 1))
 
 
-def test_tool_data() -> None:
+def test_the_radius_comes_from_the_tool_data() -> None:
     assert entry() == 5
     assert entry("TOOL CALL 1 Z S1 DL+1 DR-0.5") == 4.5
     assert entry("TOOL CALL DR+0.5") == 5.5
@@ -41,15 +41,15 @@ def test_tool_data() -> None:
     assert entry("TOOL DEF 3 L+1 R+2 R2+1", "TOOL CALL 3 Z DR2+0.1") == 2
 
 
-def test_a_tool_of_the_table_counts_before_tool_def_and_says_so() -> None:
+def test_the_tool_table_takes_precedence_over_tool_def_and_is_reported() -> None:
     tools = ToolTable.of(CutterTool(1, 9.0), CutterTool(4, 0.25, unit=Unit.IN))
-    made = runs("TOOL CALL 1 Z", *CONTOUR, tools=tools)
-    assert [(finding.code, finding.severity) for finding in made.findings] == [("TOOL", Severity.INFO)] * 2
+    run = runs("TOOL CALL 1 Z", *CONTOUR, tools=tools)
+    assert [(finding.code, finding.severity) for finding in run.findings] == [("TOOL", Severity.INFO)] * 2
     assert entry("TOOL CALL 1 Z", tools=tools) == 4.5
     assert entry("TOOL CALL 4 Z", tools=tools) == NEAR(3.175)
 
 
-def test_a_feed_in_the_tool_call_holds() -> None:
+def test_a_feed_in_the_tool_call_takes_effect() -> None:
     assert clean("TOOL CALL 1 Z F77", "L X+1 Y+1").moves[1].feed == 77
 
 
@@ -125,11 +125,11 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("TRANS MIRROR AXIS X",), "BEYOND", 4),
     ],
 )
-def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[str, ...], rule: str, line: int) -> None:
-    made = runs(*blocks)
-    assert codes(made)[-1] == (rule, line)
-    assert made.stopped_at == line
-    assert made.findings[-1].severity is Severity.ERROR
+def test_unsupported_or_wrong_blocks_stop_the_program(blocks: tuple[str, ...], rule: str, line: int) -> None:
+    run = runs(*blocks)
+    assert codes(run)[-1] == (rule, line)
+    assert run.stopped_at == line
+    assert run.findings[-1].severity is Severity.ERROR
 
 
 @pytest.mark.parametrize(
@@ -161,10 +161,10 @@ def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[st
         ("L X+1", "FEED", Severity.WARNING),
     ],
 )
-def test_findings_that_do_not_stop_the_run(block: str, rule: str, severity: Severity) -> None:
-    made = runs("L X+0 Y+0 Z+1 FMAX", block, "L X+5 F9")
-    assert [(finding.code, finding.severity, finding.line) for finding in made.findings] == [(rule, severity, 5)]
-    assert points(made)[-1] == (5, 0, 1)
+def test_ignored_and_warned_blocks_do_not_stop_the_run(block: str, rule: str, severity: Severity) -> None:
+    run = runs("L X+0 Y+0 Z+1 FMAX", block, "L X+5 F9")
+    assert [(finding.code, finding.severity, finding.line) for finding in run.findings] == [(rule, severity, 5)]
+    assert points(run)[-1] == (5, 0, 1)
 
 
 @pytest.mark.parametrize(
@@ -177,97 +177,97 @@ def test_findings_that_do_not_stop_the_run(block: str, rule: str, severity: Seve
         ("CYCL DEF 200 DRILLING", "Cycle 200 is skipped: it moves nothing before it is called."),
     ],
 )
-def test_what_is_skipped_is_called_by_its_name(block: str, text: str) -> None:
+def test_skipped_blocks_are_named(block: str, text: str) -> None:
     assert [finding.text for finding in runs(block).findings] == [text]
 
 
 def test_a_tool_may_be_called_by_a_parameter() -> None:
-    made = runs("TOOL DEF 7 L+0 R+5", "Q3 = 7", "TOOL CALL Q3 Z S500", "L X+0 Y+0 Z+1 FMAX", "L X+9 RL F9", "L X+20")
-    assert [stretch.radius for stretch in made.stretches] == [5.0]
+    run = runs("TOOL DEF 7 L+0 R+5", "Q3 = 7", "TOOL CALL Q3 Z S500", "L X+0 Y+0 Z+1 FMAX", "L X+9 RL F9", "L X+20")
+    assert [stretch.radius for stretch in run.stretches] == [5.0]
 
 
 @pytest.mark.parametrize(
     "block", ["* - ROUGHING", "STOP M5", "M9", "L M3", "CYCL DEF 7.0 DATUM SHIFT", "TOOL CALL S500"]
 )
-def test_what_needs_no_word(block: str) -> None:
+def test_blocks_without_effect_have_no_findings(block: str) -> None:
     assert len(clean(block).moves) == 1
 
 
 def test_m2_ends_the_program_after_its_block() -> None:
-    made = clean("L X+1 Y+1 F9 M2", "this is never read")
-    assert flat(made, 1) == [(1, 1)]
+    run = clean("L X+1 Y+1 F9 M2", "this is never read")
+    assert flat(run, 1) == [(1, 1)]
 
 
-def test_a_program_without_its_frame() -> None:
-    made = run_klartext(b"L X+10 Y+10 R0 FMAX M3", NONE)
-    assert codes(made) == [("PROGRAM", 1)]
-    assert flat(made, 1) == [(10, 10)]
+def test_a_program_without_its_frame_is_reported() -> None:
+    run = run_klartext(b"L X+10 Y+10 R0 FMAX M3", NONE)
+    assert codes(run) == [("PROGRAM", 1)]
+    assert flat(run, 1) == [(10, 10)]
     assert codes(run_klartext(b"BEGIN PGM P MM\nL X+1 Y+1 FMAX\n", NONE)) == [("PROGRAM", 2)]
     assert codes(run_klartext(b"", NONE)) == [("PROGRAM", 1)]
 
 
-def test_a_feed_move_from_an_unknown_place_is_reported() -> None:
+def test_a_feed_move_from_an_unknown_position_is_reported() -> None:
     assert codes(runs("L X+1 F9", "L X+2")) == [("POSITION", 4)]
 
 
-def test_line_ends_and_encodings() -> None:
+def test_all_line_ends_and_encodings_are_read() -> None:
     program = "BEGIN PGM P MM\nL X+1 Y+2 FMAX ; größer\nEND PGM P MM"
     for text in (program, program.replace("\n", "\r\n"), program.replace("\n", "\r")):
         for encoding in ("utf-8", "latin-1", "utf-16", "utf-8-sig"):
             assert flat(run_klartext(text.encode(encoding), NONE), 1) == [(1, 2)]
 
 
-def test_nothing_of_the_file_reaches_the_terminal_raw() -> None:
+def test_findings_contain_no_control_characters_of_the_file() -> None:
     for junk in (b"\x1b[31m", b"L X+1 \x1b]0;hi\x07", b"\x00\x01", b"LBL {0}", "L X+1 \u202e".encode()):
-        made = run_klartext(b"BEGIN PGM P MM\n" + junk, NONE)
-        assert made.stopped_at == 2
-        assert all(one.isprintable() for one in made.findings[-1].text)
-        assert "{0}" not in made.findings[-1].text
+        run = run_klartext(b"BEGIN PGM P MM\n" + junk, NONE)
+        assert run.stopped_at == 2
+        assert all(character.isprintable() for character in run.findings[-1].text)
+        assert "{0}" not in run.findings[-1].text
 
 
-def test_the_datum_is_chosen_before_anything_moves() -> None:
-    made = runs("CYCL DEF 247 DATUM SETTING ~", "  Q339=+1 ;DATUM NUMBER", "L X+1 Y+1 FMAX")
-    assert codes(made) == [("IGNORED", 4)]
-    assert flat(made, 1) == [(1, 1)]
+def test_a_datum_setting_before_any_move_is_ignored() -> None:
+    run = runs("CYCL DEF 247 DATUM SETTING ~", "  Q339=+1 ;DATUM NUMBER", "L X+1 Y+1 FMAX")
+    assert codes(run) == [("IGNORED", 4)]
+    assert flat(run, 1) == [(1, 1)]
 
 
-def test_after_a_machine_position_relative_words_start_from_an_unknown_place() -> None:
-    made = runs("L X+1 Y+1 Z+1 FMAX", "L X+0 R0 FMAX M92", "L IX+5 F9")
-    assert codes(made) == [("MACHINE", 5), ("POSITION", 6)]
+def test_incremental_words_after_a_machine_position_are_reported() -> None:
+    run = runs("L X+1 Y+1 Z+1 FMAX", "L X+0 R0 FMAX M92", "L IX+5 F9")
+    assert codes(run) == [("MACHINE", 5), ("POSITION", 6)]
 
 
-def test_a_piece_without_tool_call_takes_the_only_tool_there_is_and_says_so() -> None:
+def test_a_program_without_tool_call_takes_the_only_tool_and_reports_it() -> None:
     text = "\n".join(CONTOUR).encode()
-    one, two = ToolTable.of(CutterTool(7, 9.0)), ToolTable.of(CutterTool(7, 9.0), CutterTool(8, 4.0))
-    made = run_klartext(text, one)
-    assert flat(made)[0][1] == 4.5
-    assert ("TOOL", 2) in codes(made)
-    assert run_klartext(text, two).stopped_at == 2
+    one_tool, two_tools = ToolTable.of(CutterTool(7, 9.0)), ToolTable.of(CutterTool(7, 9.0), CutterTool(8, 4.0))
+    run = run_klartext(text, one_tool)
+    assert flat(run)[0][1] == 4.5
+    assert ("TOOL", 2) in codes(run)
+    assert run_klartext(text, two_tools).stopped_at == 2
     assert run_klartext(text, NONE).stopped_at == 2
-    assert run_klartext(f"TOOL CALL 3 Z\n{text.decode()}".encode(), one).stopped_at == 3
+    assert run_klartext(f"TOOL CALL 3 Z\n{text.decode()}".encode(), one_tool).stopped_at == 3
 
 
-def test_an_axis_that_moves_to_a_machine_point_has_no_known_position_until_it_is_programmed() -> None:
+def test_an_axis_at_a_machine_position_is_unknown_until_it_is_programmed() -> None:
     for block, position in (("L X+5 IY+1 F9", "POSITION"), ("L IX+5 Y+1 F9", "")):
-        made = runs("L X+0 Y+0 Z+1 FMAX", "L Y+9 FMAX M91", block)
-        assert [finding.code for finding in made.findings] == ["MACHINE", *filter(None, (position,))]
+        run = runs("L X+0 Y+0 Z+1 FMAX", "L Y+9 FMAX M91", block)
+        assert [finding.code for finding in run.findings] == ["MACHINE", *filter(None, (position,))]
 
 
-def test_a_header_before_begin_pgm_may_leave_its_brackets_open() -> None:
+def test_a_header_before_begin_pgm_may_have_open_brackets() -> None:
     text = "( SHEET\n(   MACHINE: A\n(\nBEGIN PGM P MM\nL X+1 Y+2 FMAX\n{}END PGM P MM\n"
     assert flat(run_klartext(text.format("").encode(), NONE), 1) == [(1, 2)]
     assert run_klartext(text.format("( OPEN\n").encode(), NONE).stopped_at == 6
 
 
-def test_values_of_0_and_1_may_be_parameters() -> None:
-    made = runs("Q8 = 0", "Q9 = 1", "CYCL DEF 10.1 ROT+Q8", "CYCL DEF 11.1 SCL Q9", "L X+1 Y+1 FMAX")
-    assert made.stopped_at is None
+def test_a_rotation_of_0_and_a_scale_of_1_may_be_parameters() -> None:
+    run = runs("Q8 = 0", "Q9 = 1", "CYCL DEF 10.1 ROT+Q8", "CYCL DEF 11.1 SCL Q9", "L X+1 Y+1 FMAX")
+    assert run.stopped_at is None
 
 
 def test_a_plane_without_tilt_sets_its_axis_angles() -> None:
-    made = runs("PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY", "L A+Q120 C+Q122 FMAX", "L X+1 Y+1 FMAX")
-    assert flat(made, 1) == [(1, 1)]
+    run = runs("PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY", "L A+Q120 C+Q122 FMAX", "L X+1 Y+1 FMAX")
+    assert flat(run, 1) == [(1, 1)]
 
 
-def test_a_blank_may_part_a_sign_from_its_number() -> None:
+def test_a_blank_may_separate_a_sign_from_its_number() -> None:
     assert flat(runs("L X + 3 Y- 4 FMAX"), 1) == [(3, -4)]
