@@ -1,4 +1,4 @@
-"""Contours nobody should draw, through engine, judge and best path: no exception, no endless run, no wrong clean."""
+"""Absurd contours through engine, judge and best path: no exception, no endless run, no false clean verdict."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ radii = st.sampled_from([0.0, -1.0, nan, inf, 1e-300, 1e-9, 1e-7, 0.25, 0.5, 1.0
 
 @st.composite
 def arrays(draw: st.DrawFn, numbers: st.SearchStrategy[float]) -> Path:
-    """Any arrays at all: arcs whose centers have nothing to do with their ends among them."""
+    """Arbitrary arrays, including arcs whose centers do not match their ends."""
     count = draw(st.integers(0, 7))
     points = [[draw(numbers), draw(numbers)] for _ in range(count + 1)]
     centers = [[draw(numbers), draw(numbers)] for _ in range(count)]
@@ -46,14 +46,14 @@ def arrays(draw: st.DrawFn, numbers: st.SearchStrategy[float]) -> Path:
 
 
 def _everything(contour: Path, side: Side, radius: float, *, closed: bool) -> None:
-    """Nothing raises; what is not judged is not clean; a path that is not there is told."""
-    for done in compensate_all(contour, side, radius, (1, 3, 8, 20), closed=closed, blend=0.1, overlap=0.1):
-        assert np.isfinite(done.whole.points).all()
-        assert len(done.path) or any(one.severity is Severity.ERROR for one in done.findings)
-        verdict = judge(contour, side, radius, done.whole)
+    """Nothing raises, an unjudged path is not clean, and a missing path is an error."""
+    for result in compensate_all(contour, side, radius, (1, 3, 8, 20), closed=closed, blend=0.1, overlap=0.1):
+        assert np.isfinite(result.whole.points).all()
+        assert len(result.path) or any(finding.severity is Severity.ERROR for finding in result.findings)
+        verdict = judge(contour, side, radius, result.whole)
         assert not (verdict.clean and not verdict.judged)
     best = best_path(contour, side, radius, closed=closed)
-    assert best.loops or any(one.severity is Severity.ERROR for one in best.findings)
+    assert best.loops or any(finding.severity is Severity.ERROR for finding in best.findings)
     for loop in best.loops:
         assert np.isfinite(loop.points).all()
     if not (np.isfinite(contour.points).all() and np.isfinite(radius)):
@@ -63,19 +63,19 @@ def _everything(contour: Path, side: Side, radius: float, *, closed: bool) -> No
 
 @settings(max_examples=150, derandomize=True)
 @given(arrays(anything), st.sampled_from(Side), radii, st.booleans())
-def test_any_numbers_at_all(contour, side, radius, closed):
+def test_arbitrary_numbers_never_fail(contour, side, radius, closed):
     _everything(contour, side, radius, closed=closed)
 
 
 @settings(max_examples=250, derandomize=True)
 @given(arrays(mostly_plain), st.sampled_from(Side), radii, st.booleans())
-def test_odd_numbers_among_plain_ones(contour, side, radius, closed):
+def test_odd_numbers_among_plain_ones_never_fail(contour, side, radius, closed):
     _everything(contour, side, radius, closed=closed)
 
 
 @st.composite
 def spoiled(draw: st.DrawFn) -> Path:
-    """A drawn contour, of whose numbers at most one is odd."""
+    """A drawn contour with at most one odd number."""
     contour = draw(mixed)
     points = contour.points.copy()
     if draw(st.booleans()):
@@ -86,7 +86,7 @@ def spoiled(draw: st.DrawFn) -> Path:
 @must_exercise(0.12)
 @settings(max_examples=60)
 @given(spoiled(), st.sampled_from(Side), st.sampled_from([0.02, 0.05, 0.1, 0.25, 0.0, nan]), st.booleans())
-def test_tables_and_needs_of_odd_contours(contour, side, radius, closed):
+def test_tables_and_advice_of_odd_contours_never_fail(contour, side, radius, closed):
     trial = CuttingSetup(contour, side, radius, closed, 0.1, 0.1)
     table = judge_lookaheads(trial)
     advice_for(trial, 3, table)
@@ -107,7 +107,7 @@ def _arc(start: Point, end: Point, turn: Turn) -> Piece:
 
 @st.composite
 def scribbles(draw: st.DrawFn) -> Path:
-    """Lines and arcs over the points of a grid: overlaps, touches, repeats, zero lengths, full circles, crossings."""
+    """Lines and arcs on a grid with overlaps, touches, repeats, zero lengths, full circles and crossings."""
     points = draw(st.lists(grid, min_size=2, max_size=8))
     pieces: list[Piece] = []
     for start, end in pairwise(points):
@@ -119,7 +119,7 @@ def scribbles(draw: st.DrawFn) -> Path:
 
 
 def _without_over_run(contour: Path, at: Point) -> Path:
-    """The contour from a point of its first piece with a length to the same point of its last one."""
+    """The contour between a point of its first piece and the same point of its last piece."""
     pieces = [piece for piece in contour if piece.length > 0.0]
     first, last = replace(pieces[0], start=at), replace(pieces[-1], end=at)
     return Path.from_pieces([first, *pieces[1:-1], last])
@@ -133,10 +133,10 @@ def _truly_clean(verdict: Verdict, path: Path, contour: Path, radius: float) -> 
 
 @settings(max_examples=120, derandomize=True)
 @given(scribbles(), st.sampled_from(Side), st.sampled_from([0.05, 0.25, 0.5, 0.7, 1.0, 3.0]), st.booleans())
-def test_no_scribble_is_wrongly_clean(contour, side, radius, closed):
+def test_no_scribble_is_falsely_clean(contour, side, radius, closed):
     closed = closed and contour.points[0].tolist() == contour.points[-1].tolist()
-    for done in compensate_all(contour, side, radius, (1, 4, 20), closed=closed):
-        _truly_clean(judge(contour, side, radius, done.path), done.path, contour, radius)
+    for result in compensate_all(contour, side, radius, (1, 4, 20), closed=closed):
+        _truly_clean(judge(contour, side, radius, result.path), result.path, contour, radius)
     for loop in best_path(contour, side, radius, closed=closed).loops:
         assert least(loop, contour, STEP) >= radius - NEAR
 
@@ -153,15 +153,15 @@ def test_no_scribble_is_wrongly_clean(contour, side, radius, closed):
         [(1e7, 1e7), (1e7 - 1e-6, 1e7), (1e7, 1e7 - 1e-6), (1e7, 1e7)],
     ],
 )
-def test_contours_on_top_of_themselves(points, radius, side):
+def test_contours_that_overlap_themselves_never_fail(points, radius, side):
     _everything(lines(*points), side, radius, closed=points[0] == points[-1])
 
 
-def test_a_scribble_of_a_thousand_crossings_ends():
+def test_a_scribble_with_a_thousand_crossings_is_never_clean():
     random = np.random.default_rng(5)
     contour = lines(*((float(x), float(y)) for x, y in random.uniform(0, 10, (400, 2))))
-    for done in compensate_all(contour, Side.LEFT, 0.5, (1, 20, 400), closed=False):
-        assert not judge(contour, Side.LEFT, 0.5, done.path).clean
+    for result in compensate_all(contour, Side.LEFT, 0.5, (1, 20, 400), closed=False):
+        assert not judge(contour, Side.LEFT, 0.5, result.path).clean
     for loop in best_path(contour, Side.LEFT, 0.01, closed=False).loops:
         assert loop.lengths.sum() > 0
 

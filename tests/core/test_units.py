@@ -1,4 +1,4 @@
-"""Numbers in and out: program units, suffixes, the screens' decimals, sentences."""
+"""Reading and showing numbers: program units, suffixes, decimals of the screens, sentences."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ IN, MM = Unit.IN, Unit.MM
         ("50%", Kind.PERCENT, IN, 50.0),
     ],
 )
-def test_parse(text, kind, unit, value):
+def test_parse_reads_numbers_and_sums(text, kind, unit, value):
     assert parse(text, kind, unit) == value
 
 
@@ -60,7 +60,7 @@ def test_parse(text, kind, unit, value):
     st.sampled_from((Kind.LENGTH, Kind.FEED, Kind.ANGLE, Kind.PERCENT)),
     st.sampled_from(Unit),
 )
-def test_a_plain_number_is_the_same_as_in_a_sum(text: str, kind: Kind, unit: Unit) -> None:
+def test_a_plain_number_reads_the_same_in_parentheses(text: str, kind: Kind, unit: Unit) -> None:
     plain, exact = parse(text, kind, unit), parse(f"({text})", kind, unit)
     assert plain == exact
     assert str(plain) == str(exact), "no zero is negative"
@@ -79,11 +79,11 @@ def test_a_plain_number_is_the_same_as_in_a_sum(text: str, kind: Kind, unit: Uni
         ("RIGHT", Kind.CHOICE, "This field does not take a number."),
     ],
 )
-def test_unreadable(text, kind, reason):
+def test_parse_gives_the_reason_for_unreadable_text(text, kind, reason):
     assert parse(text, kind, IN) == Unreadable(reason)
 
 
-def test_the_largest_number_is_the_same_length_in_both_units():
+def test_the_largest_number_depends_on_the_unit():
     assert parse("300000", Kind.LENGTH, IN) == 300000.0
     assert isinstance(parse("400000", Kind.LENGTH, IN), Unreadable)
     assert parse("400000", Kind.LENGTH, MM) == 400000.0
@@ -115,13 +115,13 @@ def test_parse_never_raises(text, kind, unit):
         (nan, Kind.LENGTH, IN, "nan"),
     ],
 )
-def test_show(value, kind, unit, text):
+def test_show_formats_each_kind(value, kind, unit, text):
     assert show(value, kind, unit) == text
 
 
 @settings(derandomize=True, max_examples=300)
 @given(st.floats(allow_nan=False), st.sampled_from(Kind), st.sampled_from(Unit))
-def test_show_fits_and_has_no_negative_zero(value, kind, unit):
+def test_shown_numbers_fit_and_have_no_negative_zero(value, kind, unit):
     text = show(value, kind, unit)
     assert len(text) <= MAX_SHOWN
     assert text.strip("-0.") or not text.startswith("-")
@@ -129,25 +129,25 @@ def test_show_fits_and_has_no_negative_zero(value, kind, unit):
 
 @settings(derandomize=True, max_examples=200)
 @given(st.integers(-(10**9), 10**9), st.sampled_from(Unit))
-def test_what_is_shown_reads_back(ten_thousandths, unit):
+def test_shown_numbers_read_back(ten_thousandths, unit):
     value = ten_thousandths / (10_000 if unit is IN else 1_000)
     if abs(value) < 10_000:
         assert parse(show(value, Kind.LENGTH, unit), Kind.LENGTH, unit) == value
 
 
-def test_millimeters():
+def test_lengths_are_converted_to_and_from_millimeters():
     assert to_mm(2.0, IN) == 50.8
     assert to_mm(2.0, MM) == 2.0
     assert from_mm(50.8, IN) == 2.0
     assert from_mm(2.0, MM) == 2.0
 
 
-def test_radians():
+def test_angles_are_converted_to_and_from_radians():
     assert to_radians(180.0) == pi
     assert from_radians(pi) == 180.0
 
 
-def test_convert_is_clean():
+def test_converted_values_have_no_rounding_noise():
     assert convert(0.5, IN, MM) == 12.7
     assert convert(12.7, MM, IN) == 0.5
     assert convert(0.1, IN, MM) == 2.54
@@ -159,45 +159,45 @@ def test_convert_is_clean():
 
 @settings(derandomize=True, max_examples=300)
 @given(st.integers(-(10**8), 10**8), st.sampled_from(Unit))
-def test_convert_there_and_back(digits, unit):
+def test_converting_there_and_back_restores_the_value(digits, unit):
     value, other = digits / 10_000, MM if unit is IN else IN
     assert convert(convert(value, unit, other), other, unit) == value
 
 
 @pytest.mark.parametrize("text", ["1/3", "5/7", "1/512", "25.4/3", "9999.87654321", ".0000001234567"])
 @pytest.mark.parametrize("unit", Unit)
-def test_whatever_is_typed_goes_there_and_back(text, unit):
+def test_typed_values_survive_converting_there_and_back(text, unit):
     value, other = parse(text, Kind.LENGTH, unit), MM if unit is IN else IN
     assert isinstance(value, float)
-    there = convert(value, unit, other)
-    assert convert(there, other, unit) == value
-    assert abs(to_mm(there, other) - to_mm(value, unit)) < 1e-8
+    converted = convert(value, unit, other)
+    assert convert(converted, other, unit) == value
+    assert abs(to_mm(converted, other) - to_mm(value, unit)) < 1e-8
 
 
 @settings(derandomize=True, max_examples=500)
 @given(st.integers(-(10**14), 10**14), st.integers(1, 14), st.sampled_from(Unit))
-def test_every_decimal_of_fourteen_digits_goes_there_and_back(digits, places, unit):
+def test_decimals_of_fourteen_digits_survive_converting_there_and_back(digits, places, unit):
     value, other = float(Fraction(digits, 10**places) % 10_000), MM if unit is IN else IN
     assert convert(convert(value, unit, other), other, unit) == value
 
 
 @settings(derandomize=True, max_examples=300)
 @given(st.floats(-10_000.0, 10_000.0), st.sampled_from(Unit))
-def test_any_number_comes_back_as_near_as_doubles_are(value, unit):
+def test_any_number_converted_there_and_back_is_nearly_the_same(value, unit):
     other = MM if unit is IN else IN
-    there = convert(value, unit, other)
-    assert abs(to_mm(there, other) - to_mm(value, unit)) <= 5e-9
-    assert isclose(convert(there, other, unit), value, rel_tol=1e-14, abs_tol=1e-300)
+    converted = convert(value, unit, other)
+    assert abs(to_mm(converted, other) - to_mm(value, unit)) <= 5e-9
+    assert isclose(convert(converted, other, unit), value, rel_tol=1e-14, abs_tol=1e-300)
 
 
 def finding(text: str, **places: object) -> Finding:
     return Finding("X", Severity.ERROR, text, **places)  # type: ignore[arg-type]  # places are the test's own
 
 
-def test_sentence_fills_lengths_in_program_units():
-    one = finding("Deep {value} at X {x} Y {y}, {0} of {1}.", at=(25.4, -0.00001), value=6.35, lengths=(2.54, 50.8))
-    assert sentence(one, IN) == "Deep 0.2500 at X 1.0000 Y 0.0000, 0.1000 of 2.0000."
-    assert sentence(one, MM) == "Deep 6.350 at X 25.400 Y 0.000, 2.540 of 50.800."
+def test_a_sentence_shows_lengths_in_program_units():
+    deep = finding("Deep {value} at X {x} Y {y}, {0} of {1}.", at=(25.4, -0.00001), value=6.35, lengths=(2.54, 50.8))
+    assert sentence(deep, IN) == "Deep 0.2500 at X 1.0000 Y 0.0000, 0.1000 of 2.0000."
+    assert sentence(deep, MM) == "Deep 6.350 at X 25.400 Y 0.000, 2.540 of 50.800."
 
 
 @pytest.mark.parametrize(
@@ -213,15 +213,15 @@ def test_sentence_fills_lengths_in_program_units():
         ((inf, 1.0), "inf and 0.0394"),
     ],
 )
-def test_two_lengths_that_are_nearly_equal_are_told_apart(lengths, words):
+def test_two_nearly_equal_lengths_get_enough_digits(lengths, words):
     assert sentence(finding("{0~1} and {1~0}", lengths=lengths), IN) == words
 
 
-def test_sentence_leaves_braces_it_does_not_know():
+def test_a_sentence_keeps_unknown_braces():
     assert sentence(finding("{odd} {0} {x} {} {value!r}"), IN) == "{odd} {0} {x} {} {value!r}"
 
 
-def test_printable_text_moves_no_cursor():
+def test_printable_text_has_no_control_characters():
     assert printable(" \x1b[31m red\n") == "?[31m red"
     assert printable("x" * 100) == "x" * 24 + "..."
 

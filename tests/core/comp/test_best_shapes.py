@@ -63,14 +63,14 @@ def test_a_full_circle_is_its_own_offset(turn):
         assert loop.points == pytest.approx(np.array([(radius, 0), (radius, 0)]), abs=CLOSE)
 
 
-def test_inside_a_circle_of_the_cutters_own_radius_there_is_no_path():
+def test_there_is_no_path_inside_a_circle_of_the_radius_of_the_cutter():
     for radius in (1.0, 1.5):
         best = best_path(circle(1.0), Side.LEFT, radius, closed=True)
         assert best.loops == ()
         assert [finding.code for finding in best.findings] == ["NO_PATH"]
 
 
-def test_outside_a_lens_of_two_arcs():
+def test_the_path_outside_a_lens_has_two_corner_arcs():
     lens = Path.from_pieces(
         [Arc((-1.0, 0.0), (1.0, 0.0), (0.0, 1.0), Turn.CCW), Arc((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), Turn.CCW)]
     )
@@ -83,7 +83,7 @@ def test_outside_a_lens_of_two_arcs():
     assert inside.points[0] == pytest.approx((-sqrt((radius - 0.2) ** 2 - 1), 0), abs=CLOSE)
 
 
-def test_a_big_cutter_around_a_star_runs_on_corner_arcs_alone():
+def test_a_big_cutter_around_a_star_runs_on_corner_arcs_only():
     angles = [k * pi / 5 for k in range(10)]
     tips = [((1.0, 0.3)[k % 2] * cos(angle), (1.0, 0.3)[k % 2] * sin(angle)) for k, angle in enumerate(angles)]
     star = lines(*tips, tips[0])
@@ -106,21 +106,21 @@ def gear(teeth: int) -> Path:
     return Path.from_pieces(pieces)
 
 
-def test_around_a_gear_the_cutter_enters_gaps_it_fits_in():
+def test_a_cutter_around_a_gear_enters_gaps_it_fits_in():
     teeth = 12
     loop = only(gear(teeth), Side.RIGHT, 0.5)
     assert np.count_nonzero(np.mod(loop.numbers, 4) == 1) == teeth
     assert np.hypot(*loop.points.T).min() == pytest.approx(8.5, abs=CLOSE)
 
 
-def test_around_a_gear_a_cutter_too_big_for_the_gaps_stays_on_the_tips():
+def test_a_cutter_too_big_for_the_gaps_of_a_gear_stays_on_the_tips():
     loop = only(gear(12), Side.RIGHT, 1.5)
     assert not np.isin(np.mod(loop.numbers, 4), (0, 1, 2)).any()
     assert np.hypot(*loop.points.T).min() > 10.0
 
 
 def spiral(turns: int) -> Path:
-    """Half circles outwards, counter-clockwise, the walls 1 apart."""
+    """Counterclockwise half circles outwards, with walls 1 apart."""
     pieces, x = [], 0.0
     for k in range(turns):
         end = x + (k + 1.0) * (k % 2 * 2 - 1)
@@ -129,25 +129,25 @@ def spiral(turns: int) -> Path:
     return Path.from_pieces(pieces)
 
 
-def test_a_spiral_is_followed_from_end_to_end_where_the_cutter_fits_between_its_walls():
+def test_a_spiral_is_followed_to_its_ends_if_the_cutter_fits_between_its_walls():
     for side, shift in ((Side.LEFT, -0.45), (Side.RIGHT, 0.45)):
         path = only(spiral(8), side, 0.45, closed=False)
         assert path.numbers.tolist() == [1, 2, 3, 4, 5, 6, 7, 8]
         assert path.radii == pytest.approx(np.arange(0.5, 4.5, 0.5) + shift, abs=CLOSE)
 
 
-def test_a_spiral_tighter_than_the_cutter_leaves_its_outermost_turn_only():
+def test_only_the_outermost_turn_of_a_spiral_tighter_than_the_cutter_is_followed():
     assert best_path(spiral(8), Side.LEFT, 0.51, closed=False).findings[0].code == "NO_PATH"
     assert only(spiral(8), Side.RIGHT, 0.51, closed=False).numbers.tolist() == [7, 8]
 
 
-def test_a_hook_that_nearly_closes_starts_where_the_cutter_passes_its_end():
+def test_the_path_in_a_nearly_closed_hook_starts_where_the_cutter_passes_its_end():
     path = only(lines((0, 0), (4, 0), (4, 4), (0, 4), (0, 0.4), (3, 0.4)), Side.LEFT, 0.5, closed=False)
     expected = [(3 + sqrt(0.5**2 - 0.1**2), 0.5), (3.5, 0.5), (3.5, 3.5), (0.5, 3.5), (0.5, 0.9), (3, 0.9)]
     assert path.points == pytest.approx(np.array(expected), abs=CLOSE)
 
 
-def test_a_cusp_has_its_half_circle_outside_only():
+def test_a_cusp_has_a_corner_arc_outside_only():
     cusp = Path.from_pieces([Line((0.0, 0.0), (2.0, 0.0)), Arc((2.0, 0.0), (1.0, 1.0), (2.0, 1.0), Turn.CW)])
     outside = only(cusp, Side.RIGHT, 0.25, closed=False)
     assert outside.numbers.tolist() == [1, 1.5, 2]
@@ -172,7 +172,7 @@ POCKET = Path.from_pieces(
 )
 
 
-def test_a_pocket_with_a_slot_too_narrow_beside_a_boss():
+def test_a_slot_that_is_too_narrow_beside_a_boss_is_left_out():
     loop = only(POCKET, Side.LEFT, 0.25)
     assert loop.points[0] == pytest.approx((2, 0.5), abs=CLOSE)
     assert 9 not in loop.numbers.tolist()
@@ -182,7 +182,7 @@ def test_a_pocket_with_a_slot_too_narrow_beside_a_boss():
 
 @pytest.mark.parametrize("turn", [Turn.CCW, Turn.CW])
 @pytest.mark.parametrize(("degrees_turned", "wound"), [(90.0, False), (170.0, False), (185.0, True), (200.0, True)])
-def test_an_open_contour_winds_from_half_a_turn_on_whichever_way_it_turns(turn, degrees_turned, wound):
+def test_an_open_contour_winds_from_half_a_turn_on_in_both_directions(turn, degrees_turned, wound):
     angle = radians(degrees_turned)
     end = (10 + 2 * sin(angle), turn * (2 - 2 * cos(angle)))
     last = (end[0] + 4 * cos(angle), end[1] + 4 * turn * sin(angle))

@@ -1,4 +1,4 @@
-"""Rapids without compensation at the depth of a cut: through a contour they are told, beside it and above it not."""
+"""Rapids without compensation at the depth of a cut are reported through a contour, not beside or above it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from tests.core.controls.hand import ran
 
 CONTROLS = ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"]
 BORE = "G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nG1 Z-5. F300\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
-"""A hole of 20 mm about X20 Y20, by a tool of 10 mm."""
+"""A 20 mm hole about X20 Y20, cut by a 10 mm tool."""
 
 
 def rapids(program: str, control: str = "fanuc:a") -> list[Finding]:
-    """What is told of rapids at depth."""
+    """The findings on rapids at depth."""
     run = ran(program, control, t1=10.0)
     assert run.stopped_at is None, run.findings
     return [finding for finding in judged_findings(judge_run(run)) if finding.code == "RAPID"]
@@ -23,15 +23,15 @@ def rapids(program: str, control: str = "fanuc:a") -> list[Finding]:
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_forgotten_retract_is_a_warning_with_its_line(control: str) -> None:
-    (told,) = rapids(f"{BORE}G0 X70.\nZ50.\nM30\n", control)
-    assert (told.line, told.severity) == (9, Severity.WARNING)
-    assert sentence(told, Unit.MM) == (
+    (warning,) = rapids(f"{BORE}G0 X70.\nZ50.\nM30\n", control)
+    assert (warning.line, warning.severity) == (9, Severity.WARNING)
+    assert sentence(warning, Unit.MM) == (
         "This rapid at Z -5.000 cuts the contour of line 7 at X 30.000 Y 20.000. Raise the tool before it."
     )
 
 
 @pytest.mark.parametrize(
-    ("behind", "count"),
+    ("after", "count"),
     [
         ("G0 Z5.\nX70.\n", 0),
         ("G0 Z-4.9\nX70.\n", 0),
@@ -43,14 +43,14 @@ def test_a_forgotten_retract_is_a_warning_with_its_line(control: str) -> None:
         ("G0 X70.\nX20.\n", 2),
     ],
 )
-def test_only_rapids_no_higher_than_the_cut_are_told_and_only_where_they_cut(behind: str, count: int) -> None:
-    told = rapids(f"{BORE}{behind}G0 Z50.\nM30\n")
-    assert len(told) == count
-    if "X26." in behind:
-        assert told[0].value == pytest.approx(1.0)  # by hand: 6 from the middle and 5 of the tool reach 11 of 10
+def test_rapids_that_gouge_at_or_below_the_depth_of_cut_are_reported(after: str, count: int) -> None:
+    findings = rapids(f"{BORE}{after}G0 Z50.\nM30\n")
+    assert len(findings) == count
+    if "X26." in after:
+        assert findings[0].value == pytest.approx(1.0)  # by hand: 6 from the middle and 5 of the tool reach 11 of 10
 
 
-def test_a_rapid_before_the_cut_and_one_on_the_way_to_the_next_are_told() -> None:
+def test_rapids_before_a_cut_and_between_cuts_are_reported() -> None:
     before = BORE.replace("Z5.\nG1 Z-5. F300\n", "Z-5.\nX70.\nX20.\nF300\n")
     assert [finding.line for finding in rapids(f"{before}G0 Z5.\nM30\n")] == [5, 6]
     after = "G0 X70.\nG41 D1 G1 X80.\nG3 I-10.\nG40 G1 X70.\nG0 Z5.\nM30\n"
@@ -58,39 +58,39 @@ def test_a_rapid_before_the_cut_and_one_on_the_way_to_the_next_are_told() -> Non
 
 
 @pytest.mark.parametrize(("begin", "count"), [("2.", 0), ("-1.", 1)])
-def test_a_helix_that_begins_in_the_air_cuts_nothing_there(begin: str, count: int) -> None:
-    """The rapid to the middle is higher than the part, or the same height below its top."""
+def test_a_rapid_above_the_start_of_a_helix_is_not_reported(begin: str, count: int) -> None:
+    """The rapid to the center is above the part or at the height of the start below its top."""
     helix = f"G41 D1 X30.\nG3 I-10. Z-5.\nG3 I-10.\nG40 G1 X20.\nG0 Z{begin}\nX70.\n"
     text = f"G21 G17 G90 G40\nT1 M6\nG0 X20. Y20.\nZ5.\nZ{begin}\nG1 F300\n{helix}Z50.\nM30\n"
     assert len(rapids(text)) == count
 
 
 @pytest.mark.parametrize(("height", "lines"), [("-5.", [8]), ("-6.", [8]), ("5.", [])])
-def test_a_rapid_along_a_wall_at_depth_is_told(height: str, lines: list[int]) -> None:
+def test_a_rapid_along_a_wall_at_depth_is_reported(height: str, lines: list[int]) -> None:
     wall = f"G41 D1 X-20. Y0.\nX0.\nG0 Z{height} X60.\nG1 Z-5. X100.\nG40 Y20.\nG0 Z50.\nM30\n"
     text = f"G21 G17 G90 G40\nT1 M6\nG0 X-30. Y10.\nZ5.\nG1 Z-5. F300\n{wall}"
-    told = rapids(text)
-    assert [finding.line for finding in told] == lines
-    assert all("under compensation" in finding.text for finding in told)
+    findings = rapids(text)
+    assert [finding.line for finding in findings] == lines
+    assert all("under compensation" in finding.text for finding in findings)
 
 
 @pytest.mark.parametrize(
-    ("behind", "lines"),
+    ("after", "lines"),
     [("G1 X70.\n", [9]), ("G1 X24.\nX70.\n", [10]), ("G1 Z-4.\nX70.\n", []), ("G0 Z5.\nG1 Z-5.\nX70.\n", []), ("", [])],
 )
-def test_a_feed_move_that_goes_on_from_the_contour_through_its_wall_is_told(behind: str, lines: list[int]) -> None:
-    run = ran(f"{BORE}{behind}G0 Z50.\nM30\n", "fanuc:a", t1=10.0)
-    told = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
-    assert [finding.line for finding in told] == lines
-    assert all(finding.severity is Severity.WARNING for finding in told)
+def test_a_feed_move_from_the_contour_through_its_wall_is_reported(after: str, lines: list[int]) -> None:
+    run = ran(f"{BORE}{after}G0 Z50.\nM30\n", "fanuc:a", t1=10.0)
+    findings = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
+    assert [finding.line for finding in findings] == lines
+    assert all(finding.severity is Severity.WARNING for finding in findings)
 
 
-def test_the_highest_pass_counts() -> None:
+def test_rapids_are_compared_with_the_highest_pass() -> None:
     deeper = "G1 Z-10.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
     assert [finding.line for finding in rapids(f"{BORE}{deeper}G0 Z-7.\nX70.\nZ5.\nM30\n")] == [14]
 
 
-def test_klartext_rapids_are_told_too() -> None:
+def test_rapids_in_klartext_are_reported() -> None:
     program = (
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
         "C X+30 Y+20 DR+\nL X+20 R0\nL X+70 FMAX\nL Z+50 FMAX\nEND PGM A MM\n"
@@ -100,29 +100,29 @@ def test_klartext_rapids_are_told_too() -> None:
 
 @pytest.mark.parametrize("home", ["G91 G28 Z0.\nG90\n", "G53 G0 Z0.\n", "G91 G28 X0. Y0. Z0.\nG90\n"])
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
-def test_behind_a_move_to_the_machines_point_nothing_is_at_the_old_depth(home: str, control: str) -> None:
+def test_a_move_to_a_machine_position_ends_the_known_depth(home: str, control: str) -> None:
     assert not rapids(f"{BORE}{home}G0 X70.\nX20.\nG43 H1 Z5.\nX70.\nM30\n", control)
-    assert [one.line for one in rapids(f"{BORE}{home}G0 X0. Y20.\nZ-5.\nX70.\nZ5.\nM30\n", control)] == [
+    assert [finding.line for finding in rapids(f"{BORE}{home}G0 X0. Y20.\nZ-5.\nX70.\nZ5.\nM30\n", control)] == [
         11 + home.count("\n")
     ]
 
 
 @pytest.mark.parametrize("home", ["G91 G28 X0. Y0.\nG90\n", "G53 G0 X0. Y0.\n"])
-def test_a_rapid_that_ends_in_a_wall_is_told_wherever_it_begins(home: str) -> None:
-    """Only X and Y are at the machine's point: the tool is as deep as before, and its end is known."""
-    assert [one.line for one in rapids(f"{BORE}{home}G0 X28. Y20.\nZ5.\nM30\n")] == [9 + home.count("\n")]
+def test_a_rapid_that_ends_in_a_wall_is_reported_wherever_it_starts(home: str) -> None:
+    """Only X and Y are at the machine position: the depth and the end of the rapid are known."""
+    assert [finding.line for finding in rapids(f"{BORE}{home}G0 X28. Y20.\nZ5.\nM30\n")] == [9 + home.count("\n")]
 
 
 @pytest.mark.parametrize(("height", "lines"), [("-2.", [6, 7, 8, 9]), ("2.", [])])
-def test_a_contour_run_in_rapid_alone_is_told_where_it_is_below_zero(height: str, lines: list[int]) -> None:
-    """The G1 was forgotten, and nothing is cut at feed to compare with."""
+def test_a_contour_cut_only_by_rapids_below_zero_is_reported(height: str, lines: list[int]) -> None:
+    """The G1 is missing, so no cut at feed exists for comparison."""
     program = (
         f"G21 G17 G90 G40\nT1 M6\nG0 X-20. Y-20.\nZ{height}\nG41 D1 X0. F300.\nY40.\nX40.\nY0.\nX-20.\nG40 Y-20.\nM30\n"
     )
-    assert [one.line for one in rapids(program)] == lines
+    assert [finding.line for finding in rapids(program)] == lines
 
 
-def test_klartext_stands_elsewhere_behind_m91_too() -> None:
+def test_m91_in_klartext_ends_the_known_depth() -> None:
     program = (
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
         "C X+30 Y+20 DR+\nL X+20 R0\n{}L X+70 FMAX\nL Z+50 FMAX\nEND PGM A MM\n"
@@ -132,7 +132,7 @@ def test_klartext_stands_elsewhere_behind_m91_too() -> None:
 
 
 @pytest.mark.parametrize(
-    ("behind", "count"),
+    ("after", "count"),
     [
         ("L Z-1 R0 FMAX M91\nL Z-5 R0 FMAX\nL X+60 R0 FMAX\n", 1),
         ("L Z-1 R0 FMAX M91\nL IZ-5 R0 F100\nL X+60 R0 FMAX\nL IX-60 R0 FMAX\n", 0),
@@ -141,14 +141,14 @@ def test_klartext_stands_elsewhere_behind_m91_too() -> None:
         ("L M140 MB MAX FMAX\nL Z-5 R0 FMAX\nL X+60 Y+20 R0 FMAX\n", 1),
     ],
 )
-def test_in_klartext_absolute_words_end_the_loss_of_a_place(behind: str, count: int) -> None:
+def test_absolute_words_in_klartext_make_a_position_known_again(after: str, count: int) -> None:
     head = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+20 Y+20 Z+5 R0 FMAX\nL Z-5 F300\nL X+30 RL\nCC X+20 Y+20\n"
-    program = f"{head}C X+30 Y+20 DR+\nL X+20 R0\n{behind}L Z+50 FMAX\nEND PGM A MM\n"
+    program = f"{head}C X+30 Y+20 DR+\nL X+20 R0\n{after}L Z+50 FMAX\nEND PGM A MM\n"
     assert len(rapids(program, "heidenhain")) == count
 
 
-def test_the_wall_that_is_cut_already_is_named() -> None:
-    """The rapid runs out of the first hole into the place of the second one, which is cut later."""
+def test_a_rapid_names_the_wall_that_is_already_cut() -> None:
+    """The rapid runs from the first hole to the place of the second, which is cut later."""
     second = "G41 D1 G1 X80.\nG3 I-10.\nG40 G1 X70.\nG0 Z5.\nM30\n"
-    (found,) = rapids(f"{BORE}G0 X70.\n{second}")
-    assert "contour of line 7 at X 30.000" in sentence(found, Unit.MM)
+    (warning,) = rapids(f"{BORE}G0 X70.\n{second}")
+    assert "contour of line 7 at X 30.000" in sentence(warning, Unit.MM)

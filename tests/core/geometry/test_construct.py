@@ -1,4 +1,4 @@
-"""Constructions: cases checked by hand, and laws that hold for any drawing."""
+"""Constructions: cases calculated by hand, and properties of any drawing."""
 
 from __future__ import annotations
 
@@ -23,39 +23,39 @@ turns = st.sampled_from((Turn.CW, Turn.CCW))
 laws = settings(derandomize=True, max_examples=200)
 
 
-def near(one: Point, other: Point, tolerance: float = NEAR) -> bool:
-    return dist(one, other) <= tolerance
+def near(first: Point, second: Point, tolerance: float = NEAR) -> bool:
+    return dist(first, second) <= tolerance
 
 
-def test_polar():
+def test_polar_gives_the_point_at_an_angle_and_distance():
     assert near(construct.polar((1.0, 2.0), pi / 2, 3.0), (1.0, 5.0))
     assert near(construct.polar((1.0, 2.0), pi, 3.0), (-2.0, 2.0))
 
 
-def test_reach():
-    found = construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 3.0)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, (3.0, 3.0))
-    found = construct.ray_to_coordinate((1.0, 1.0), pi / 6, 1, 2.0)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, (1 + sqrt(3), 2.0))
-    assert found.point[1] == 2.0
+def test_a_ray_reaches_a_coordinate():
+    result = construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 3.0)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, (3.0, 3.0))
+    result = construct.ray_to_coordinate((1.0, 1.0), pi / 6, 1, 2.0)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, (1 + sqrt(3), 2.0))
+    assert result.point[1] == 2.0
 
 
-def test_reach_says_why_not():
+def test_a_ray_that_does_not_reach_a_coordinate_gives_the_reason():
     assert construct.ray_to_coordinate((1.0, 1.0), pi / 2, 0, 1.0) == NotDetermined()
     assert construct.ray_to_coordinate((1.0, 1.0), pi, 1, 5.0) == NotDetermined()
     assert construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 0.0) == OppositeDirection()
 
 
-def test_on_circle():
+def test_on_circle_finds_the_points_at_a_coordinate():
     assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == TwoPoints((4.0, 5.0), (4.0, -3.0))
     assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == TwoPoints((5.0, -2.0), (-3.0, -2.0))
     assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == OnePoint((6.0, 1.0))
     assert construct.on_circle((1.0, 1.0), 5.0, 0, 7.0) == OutOfReach(6.0)
 
 
-def test_on_circle_takes_a_coordinate_rounded_outwards():
+def test_on_circle_accepts_a_coordinate_rounded_outwards():
     assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == OnePoint((0.0, 5.0 + ARC_RADII))
     assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.01) == OutOfReach(5.01)
 
@@ -64,25 +64,25 @@ def test_on_circle_takes_a_coordinate_rounded_outwards():
     ("turn", "first", "second"),
     [(Turn.CCW, (0.0, 3.0), (0.0, -3.0)), (Turn.CW, (0.0, -3.0), (0.0, 3.0))],
 )
-def test_centers_of_the_shorter_arc_first(turn, first, second):
-    found = construct.centers((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
-    assert isinstance(found, TwoPoints)
-    assert near(found.first, first)
-    assert near(found.second, second)
+def test_the_center_of_the_shorter_arc_comes_first(turn, first, second):
+    result = construct.centers((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
+    assert isinstance(result, TwoPoints)
+    assert near(result.first, first)
+    assert near(result.second, second)
 
 
-def test_a_chord_of_typed_numbers_is_the_diameter_to_the_last_bit():
+def test_a_typed_chord_equal_to_the_diameter_has_one_center():
     rng = Random(2)
     for _ in range(300):
         radius, x = round(rng.uniform(1, 20), 3), round(rng.uniform(-50, 100), 3)
         end = round(x - 2 * radius, 3)
         assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius, Turn.CCW), OnePoint)
         assert isinstance(construct.on_circle((x, 10.0), radius, 0, round(x + radius, 3)), OnePoint)
-        # a digit more is an arc of its own, on either side
+        # one more digit makes two different arcs
         assert isinstance(construct.centers((x, 10.0), (end, 10.0), radius + 0.0001, Turn.CCW), TwoPoints)
 
 
-def test_centers_of_half_circles_and_of_none():
+def test_half_circles_have_one_center_and_short_radii_none():
     assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == OnePoint((0.0, 0.0))
     assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == OnePoint((0.0, 0.0))
     assert construct.centers((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == OutOfReach(4.0)
@@ -91,7 +91,7 @@ def test_centers_of_half_circles_and_of_none():
 
 @laws
 @given(points, points, st.floats(0.1, 500), turns)
-def test_centers_are_as_far_as_the_radius_and_short_comes_first(start, end, radius, turn):
+def test_centers_are_the_radius_away_with_the_shorter_arc_first(start, end, radius, turn):
     assume(dist(start, end) > 0.01)
     match construct.centers(start, end, radius, turn):
         case TwoPoints(first, second):
@@ -109,55 +109,55 @@ def test_centers_are_as_far_as_the_radius_and_short_comes_first(start, end, radi
             pytest.fail(f"unexpected {other}")
 
 
-def test_center_by_sweep():
-    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, (0.0, 0.0))
-    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, (1.0, 1.0))
-    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, (1.0, 1.0))
+def test_the_sweep_determines_the_center():
+    result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, (0.0, 0.0))
+    result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, (1.0, 1.0))
+    result = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, (1.0, 1.0))
     assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == NotDetermined()
     assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == NotDetermined()
 
 
 @laws
 @given(points, st.floats(0.5, 100), angles, st.floats(0.05, tau - 0.05), turns)
-def test_an_arc_is_found_again_from_its_sweep(center, radius, angle, sweep, turn):
+def test_the_center_is_found_again_from_the_sweep(center, radius, angle, sweep, turn):
     start = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
     end = construct.rotated(start, center, turn * sweep)
     assert abs(Arc(start, end, center, turn).sweep) == pytest.approx(sweep, abs=1e-9)
-    found = construct.center_by_sweep(start, end, sweep, turn)
-    assert isinstance(found, OnePoint)
-    assert near(found.point, center, 1e-7)
+    result = construct.center_by_sweep(start, end, sweep, turn)
+    assert isinstance(result, OnePoint)
+    assert near(result.point, center, 1e-7)
 
 
 @laws
 @given(points, st.floats(0.5, 100), angles, st.floats(0.5, tau - 0.5), st.sampled_from((0, 1)))
-def test_an_arc_is_found_again_from_one_coordinate_of_its_center(center, radius, angle, sweep, axis):
+def test_the_center_is_found_again_from_one_of_its_coordinates(center, radius, angle, sweep, axis):
     start = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
     end = construct.rotated(start, center, sweep)
     assume(abs(end[1 - axis] - start[1 - axis]) > 0.01 * dist(start, end))
-    found = construct.center_by_coordinate(start, end, axis, center[axis])
-    assert isinstance(found, OnePoint)
-    assert near(found.point, center, 1e-6)
+    result = construct.center_by_coordinate(start, end, axis, center[axis])
+    assert isinstance(result, OnePoint)
+    assert near(result.point, center, 1e-6)
 
 
-def test_a_coordinate_along_the_bisector_says_nothing():
+def test_a_center_coordinate_along_the_chord_determines_nothing():
     assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == NotDetermined()
     assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == NotDetermined()
     assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == OnePoint((2.0, 7.0))
 
 
-def test_an_even_arc_keeps_a_center_that_fits():
+def test_even_arc_keeps_a_center_that_fits():
     assert construct.even_arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
         (1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW
     )
 
 
-def test_an_even_arc_moves_the_center_onto_the_bisector():
+def test_even_arc_moves_the_center_onto_the_bisector():
     arc = construct.even_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
     assert near(arc.center, (1.0, 0.5))
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
@@ -167,7 +167,7 @@ def test_an_even_arc_moves_the_center_onto_the_bisector():
     assert (arc.start, arc.end) == ((3.0, -3.0), (11.0, 3.0))
 
 
-def test_an_even_arc_closes_a_circle_that_ends_at_its_start():
+def test_even_arc_closes_a_circle_that_ends_at_its_start():
     arc = construct.even_arc((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
     assert arc == Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == tau
@@ -175,8 +175,8 @@ def test_an_even_arc_closes_a_circle_that_ends_at_its_start():
 
 @pytest.mark.parametrize("off", [0.001, -0.002])
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
-def test_an_even_arc_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
-    """The end moved onto the circle by rounding behind the start or before it: the circle was there or vanished."""
+def test_even_arc_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
+    """Rounding may move the end onto the circle after or before the start; the circle must not vanish."""
     for x in (0.1, 0.3, -0.7):
         center = (x, -10.0)
         size = dist((0.0, 0.0), center)
@@ -185,14 +185,14 @@ def test_an_even_arc_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn
         assert arc == Arc((0.0, 0.0), (0.0, 0.0), center, turn)
 
 
-def test_an_even_arc_leaves_a_tiny_arc_tiny():
-    """Two microns of a circle are no full circle."""
+def test_even_arc_keeps_a_tiny_arc_tiny():
+    """An arc of two microns is no full circle."""
     arc = construct.even_arc((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
-def test_an_even_arc_moves_the_end_where_the_center_would_go_far():
-    """On a chord of 0.1 a radius of 50 that differs by 0.002 would push the center by a whole millimeter."""
+def test_even_arc_moves_the_end_if_the_center_would_move_far():
+    """On a chord of 0.1, radii of 50 that differ by 0.002 would move the center by a millimeter."""
     end = (50.002 * cos(0.002), 50.002 * sin(0.002))
     arc = construct.even_arc((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
     assert arc.center == (0.0, 0.0)
@@ -202,7 +202,7 @@ def test_an_even_arc_moves_the_end_where_the_center_would_go_far():
 
 @laws
 @given(points, st.floats(0.1, 200), angles, angles, st.floats(-ARC_RADII, ARC_RADII), turns)
-def test_an_even_arc_is_exact_and_moves_nothing_by_more_than_the_tolerance(center, radius, first, last, off, turn):
+def test_even_arc_is_exact_and_moves_points_within_the_tolerance(center, radius, first, last, off, turn):
     start = (center[0] + radius * cos(first), center[1] + radius * sin(first))
     end = (center[0] + (radius + off) * cos(last), center[1] + (radius + off) * sin(last))
     arc = construct.even_arc(start, end, center, turn)
@@ -212,10 +212,10 @@ def test_an_even_arc_is_exact_and_moves_nothing_by_more_than_the_tolerance(cente
     assert near(arc.center, center, ARC_RADII + NEAR)
 
 
-def test_chord_factor():
+def test_chord_factor_is_the_chord_of_a_unit_arc():
     assert construct.chord_factor(pi) == 2.0
     assert construct.chord_factor(pi / 3) == pytest.approx(1.0)
 
 
-def test_nothing_reaches_infinitely_far():
+def test_an_infinite_coordinate_is_out_of_reach():
     assert construct.on_circle((0.0, 0.0), 1.0, 0, inf) == OutOfReach(inf)

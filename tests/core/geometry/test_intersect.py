@@ -1,4 +1,4 @@
-"""Meetings of lines and arcs: cases found by hand, then laws that hold for all of them."""
+"""Meetings of lines and arcs: cases calculated by hand, then properties of all meetings."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def _meet(a: Piece, b: Piece) -> Meetings:
     return meet(Path.from_pieces([a]), ONLY, Path.from_pieces([b]), ONLY)
 
 
-def _points(met: Meetings) -> list[tuple[float, float]]:
-    return [(x, y) for x, y in met.points.tolist()]
+def _points(meetings: Meetings) -> list[tuple[float, float]]:
+    return [(x, y) for x, y in meetings.points.tolist()]
 
 
 def _expect(a: Piece, b: Piece, kind: Meeting, *points: tuple[float, float]) -> None:
-    met = _meet(a, b)
-    assert met.kinds.tolist() == [kind]
-    assert _points(met) == [pytest.approx(point, abs=1e-12) for point in points]
+    meetings = _meet(a, b)
+    assert meetings.kinds.tolist() == [kind]
+    assert _points(meetings) == [pytest.approx(point, abs=1e-12) for point in points]
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def _expect(a: Piece, b: Piece, kind: Meeting, *points: tuple[float, float]) -> 
     ],
 )
 @pytest.mark.parametrize("shift", [(0, 0), (7, -3)])
-def test_line_and_line(a, b, kind, points, shift):
+def test_two_lines_meet_as_expected(a, b, kind, points, shift):
     (x, y), first, second = shift, _shifted(a, shift), _shifted(b, shift)
     _expect(first, second, kind, *((px + x, py + y) for px, py in points))
 
@@ -81,11 +81,11 @@ def _shifted(line: Line, shift: tuple[float, float]) -> Line:
         (Line((0, 0), (0, 0)), CIRCLE, APART, []),
     ],
 )
-def test_line_and_arc_either_way(line, arc, kind, points):
-    met, other = _meet(line, arc), _meet(arc, line)
-    assert met.kinds.tolist() == other.kinds.tolist() == [kind]
-    assert _points(met) == [pytest.approx(point, abs=1e-9) for point in points]
-    assert sorted(_points(other)) == sorted(_points(met))
+def test_a_line_and_an_arc_meet_alike_in_both_orders(line, arc, kind, points):
+    meetings, other = _meet(line, arc), _meet(arc, line)
+    assert meetings.kinds.tolist() == other.kinds.tolist() == [kind]
+    assert _points(meetings) == [pytest.approx(point, abs=1e-9) for point in points]
+    assert sorted(_points(other)) == sorted(_points(meetings))
 
 
 @pytest.mark.parametrize(
@@ -106,49 +106,49 @@ def test_line_and_arc_either_way(line, arc, kind, points):
         (UPPER, Arc((0, 1), (1, 0), (0, 0), Turn.CW), OVERLAP, []),
     ],
 )
-def test_arc_and_arc(a, b, kind, points):
+def test_two_arcs_meet_as_expected(a, b, kind, points):
     _expect(a, b, kind, *points)
 
 
-def test_two_arcs_of_one_circle_of_kilometers_share_only_their_ends():
+def test_two_arcs_of_one_huge_circle_share_only_their_ends():
     start, end = (-5706746.431163, -3219422.0117399995), (5706746.431163, 3219422.01174)
     center = (-1662944.930787329, 2947735.653910788)
     _expect(Arc(start, end, center, Turn.CCW), Arc(end, start, center, Turn.CCW), APART)
 
 
-def test_distances_along_and_rests():
-    met = _meet(UPPER, Line((0, 0), (0, 3)))
-    assert met.along_a.tolist() == [pytest.approx(pi / 2)]
-    assert met.rest_a.tolist() == [pytest.approx(pi / 2)]
-    assert met.along_b.tolist() == [pytest.approx(1)]
-    assert met.rest_b.tolist() == [pytest.approx(2)]
+def test_meetings_have_the_distance_along_both_pieces_and_the_rest():
+    meetings = _meet(UPPER, Line((0, 0), (0, 3)))
+    assert meetings.along_a.tolist() == [pytest.approx(pi / 2)]
+    assert meetings.rest_a.tolist() == [pytest.approx(pi / 2)]
+    assert meetings.along_b.tolist() == [pytest.approx(1)]
+    assert meetings.rest_b.tolist() == [pytest.approx(2)]
 
 
-def test_clockwise_arcs_are_measured_as_traveled():
-    met = _meet(Arc((-1, 0), (1, 0), (0, 0), Turn.CW), Line((-2, 0.5), (2, 0.5)))
-    assert met.along_a.tolist() == [pytest.approx(pi / 6), pytest.approx(5 * pi / 6)]
+def test_distances_along_clockwise_arcs_follow_the_travel():
+    meetings = _meet(Arc((-1, 0), (1, 0), (0, 0), Turn.CW), Line((-2, 0.5), (2, 0.5)))
+    assert meetings.along_a.tolist() == [pytest.approx(pi / 6), pytest.approx(5 * pi / 6)]
 
 
-def test_touch_of_parallel_lines_has_its_place():
-    met = _meet(Line((0, 0), (2, 0)), Line((5, 0), (2, 0)))
-    assert (met.along_a.tolist(), met.rest_a.tolist()) == ([2], [0])
-    assert (met.along_b.tolist(), met.rest_b.tolist()) == ([3], [0])
+def test_lines_that_touch_end_to_end_have_their_place():
+    meetings = _meet(Line((0, 0), (2, 0)), Line((5, 0), (2, 0)))
+    assert (meetings.along_a.tolist(), meetings.rest_a.tolist()) == ([2], [0])
+    assert (meetings.along_b.tolist(), meetings.rest_b.tolist()) == ([3], [0])
 
 
-def test_no_pairs_are_no_meetings():
+def test_no_pairs_have_no_meetings():
     none = np.empty(0, np.intp)
-    met = meet(Path.from_pieces([CIRCLE]), none, Path.from_pieces([CIRCLE]), none)
-    assert len(met.kinds) == len(met.points) == 0
+    meetings = meet(Path.from_pieces([CIRCLE]), none, Path.from_pieces([CIRCLE]), none)
+    assert len(meetings.kinds) == len(meetings.points) == 0
 
 
 def test_many_pairs_keep_their_order():
     pieces: list[Piece] = [Line((-2, 0), (2, 0)), Arc((2, 0), (2, 0), (0, 0), Turn.CCW), Line((2, 0), (0, 3))]
     path = Path.from_pieces(pieces)
     across = Path.from_pieces([Line((0, -5), (0, 5)), Line((0, 5), (9, 5)), Arc((9, 5), (7, 5), (8, 5), Turn.CW)])
-    met = meet(path, np.array([0, 1, 2, 0, 1]), across, np.array([0, 0, 0, 2, 0]))
-    assert met.kinds.tolist() == [CROSS, CROSS, CROSS, APART, CROSS]
-    assert met.pair.tolist() == [0, 1, 1, 2, 4, 4]
-    assert met.points.tolist() == [
+    meetings = meet(path, np.array([0, 1, 2, 0, 1]), across, np.array([0, 0, 0, 2, 0]))
+    assert meetings.kinds.tolist() == [CROSS, CROSS, CROSS, APART, CROSS]
+    assert meetings.pair.tolist() == [0, 1, 1, 2, 4, 4]
+    assert meetings.points.tolist() == [
         pytest.approx(point, abs=1e-12) for point in [(0, 0), (0, 2), (0, -2), (0, 3), (0, 2), (0, -2)]
     ]
 
@@ -162,9 +162,9 @@ def _line(start: complex, end: complex) -> Line:
 
 
 def _arc(center: complex, radius: float, begin: float, sweep: float) -> Arc:
-    one, two = center + rect(radius, begin), center + rect(radius, begin + sweep)
+    start, end = center + rect(radius, begin), center + rect(radius, begin + sweep)
     turn = Turn.CCW if sweep > 0 else Turn.CW
-    return Arc((one.real, one.imag), (two.real, two.imag), (center.real, center.imag), turn)
+    return Arc((start.real, start.imag), (end.real, end.imag), (center.real, center.imag), turn)
 
 
 sweeps = st.floats(0.05, 6.2) | st.floats(-6.2, -0.05)
@@ -174,48 +174,48 @@ any_piece = any_line | any_arc
 
 
 def _distance(piece: Piece, point: complex) -> float:
-    """How far a point is from the whole line or circle of a piece."""
+    """The distance of a point from the infinite line or full circle of a piece."""
     if isinstance(piece, Arc):
         return abs(abs(point - complex(*piece.center)) - piece.radius)
     along = complex(*piece.end) - complex(*piece.start)
     return abs((along.conjugate() * (point - complex(*piece.start))).imag) / abs(along)
 
 
-def _clear(met: Meetings) -> bool:
-    """Are all points well inside both pieces, and none near tangent?  Only there must rounding not decide."""
-    ends = np.concatenate((met.along_a, met.along_b, met.rest_a, met.rest_b))
-    return bool((ends > 1e-4).all()) and met.kinds[0] in (APART, CROSS)
+def _clear(meetings: Meetings) -> bool:
+    """Whether all points are well inside both pieces and none is near tangent, so rounding does not decide."""
+    ends = np.concatenate((meetings.along_a, meetings.along_b, meetings.rest_a, meetings.rest_b))
+    return bool((ends > 1e-4).all()) and meetings.kinds[0] in (APART, CROSS)
 
 
 @must_exercise(0.12)
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
-def test_points_lie_on_both_pieces(a, b):
-    met = _meet(a, b)
-    if len(met.points):
+def test_meeting_points_lie_on_both_pieces(a, b):
+    meetings = _meet(a, b)
+    if len(meetings.points):
         exercised()
-    for x, y in met.points.tolist():
+    for x, y in meetings.points.tolist():
         assert _distance(a, complex(x, y)) < 1e-8
         assert _distance(b, complex(x, y)) < 1e-8
-    assert np.allclose(met.along_a + met.rest_a, a.length, atol=1e-9)
-    assert np.allclose(met.along_b + met.rest_b, b.length, atol=1e-9)
-    assert (np.diff(met.along_a) >= 0).all()
+    assert np.allclose(meetings.along_a + meetings.rest_a, a.length, atol=1e-9)
+    assert np.allclose(meetings.along_b + meetings.rest_b, b.length, atol=1e-9)
+    assert (np.diff(meetings.along_a) >= 0).all()
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
-def test_order_of_the_pair_does_not_matter(a, b):
-    one, two = _meet(a, b), _meet(b, a)
-    assert one.kinds.tolist() == two.kinds.tolist()
-    order = np.argsort(two.along_b)
-    assert np.allclose(one.points, two.points[order], atol=1e-6)
+def test_the_order_of_a_pair_does_not_matter(a, b):
+    forward, backward = _meet(a, b), _meet(b, a)
+    assert forward.kinds.tolist() == backward.kinds.tolist()
+    order = np.argsort(backward.along_b)
+    assert np.allclose(forward.points, backward.points[order], atol=1e-6)
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(any_piece, any_piece, st.floats(0, tau), st.builds(complex, st.floats(-1e4, 1e4), st.floats(-1e4, 1e4)))
-def test_moving_and_turning_moves_the_points(a, b, angle, shift):
-    met = _meet(a, b)
-    assume(_clear(met))
+def test_meeting_points_move_and_rotate_with_the_pieces(a, b, angle, shift):
+    meetings = _meet(a, b)
+    assume(_clear(meetings))
     turned = rect(1.0, angle)
 
     def moved(point: tuple[float, float]) -> tuple[float, float]:
@@ -228,14 +228,14 @@ def test_moving_and_turning_moves_the_points(a, b, angle, shift):
         return Arc(moved(piece.start), moved(piece.end), moved(piece.center), piece.turn)
 
     other = _meet(carried(a), carried(b))
-    assume(len(other.points) == len(met.points) or _steep(a, b, met))
-    assert len(other.points) == len(met.points)
-    assert np.allclose(other.along_a, met.along_a, atol=1e-6)
+    assume(len(other.points) == len(meetings.points) or _steep(a, b, meetings))
+    assert len(other.points) == len(meetings.points)
+    assert np.allclose(other.along_a, meetings.along_a, atol=1e-6)
 
 
-def _steep(a: Piece, b: Piece, met: Meetings) -> bool:
-    """Is a pair that does not meet far from doing so?  Points of a, densely taken, keep a distance from b's curve."""
-    if len(met.points):
+def _steep(a: Piece, b: Piece, meetings: Meetings) -> bool:
+    """Whether a pair that does not meet is clearly apart: sampled points of a are not near the curve of b."""
+    if len(meetings.points):
         return True
     path = Path.from_pieces([a])
     shares = np.linspace(0.0, 1.0, 400)
@@ -249,17 +249,17 @@ def _steep(a: Piece, b: Piece, met: Meetings) -> bool:
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
-def test_traveled_backwards_pieces_meet_at_the_same_points(a, b):
-    met = _meet(a, b)
+def test_reversed_pieces_meet_at_the_same_points(a, b):
+    meetings = _meet(a, b)
     back = meet(Path.from_pieces([a]).reversed(), ONLY, Path.from_pieces([b]), ONLY)
-    assume(_clear(met))
-    assert len(back.points) == len(met.points)
-    assert np.allclose(back.along_a[::-1], met.rest_a, atol=1e-7)
-    assert np.allclose(back.points[::-1], met.points, atol=1e-7)
+    assume(_clear(meetings))
+    assert len(back.points) == len(meetings.points)
+    assert np.allclose(back.along_a[::-1], meetings.rest_a, atol=1e-7)
+    assert np.allclose(back.points[::-1], meetings.points, atol=1e-7)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_line_through_an_end_of_an_arc_meets_it_there_wherever_rounding_puts_it(seed: int) -> None:
+def test_a_line_through_an_end_of_an_arc_meets_it_there(seed: int) -> None:
     random = np.random.default_rng(seed)
     for _ in range(100):
         radius, begin, sweep = random.uniform((0.5, 0.0, 0.2), (5.0, tau, 3.0)).tolist()
@@ -269,5 +269,5 @@ def test_a_line_through_an_end_of_an_arc_meets_it_there_wherever_rounding_puts_i
         arc = Path.from_pieces([Arc(ends[0], ends[1], (x, y), turn)])
         for end_x, end_y in ends:
             line = Path.from_pieces([Line((end_x - dx, end_y - dy), (end_x + dx, end_y + dy))])
-            found = meet(arc, ONLY, line, ONLY)
-            assert np.hypot(*(found.points - (end_x, end_y)).T).min(initial=inf) < 1e-6
+            result = meet(arc, ONLY, line, ONLY)
+            assert np.hypot(*(result.points - (end_x, end_y)).T).min(initial=inf) < 1e-6

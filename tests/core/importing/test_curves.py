@@ -1,4 +1,4 @@
-"""Curves to arcs: ellipses and B-splines within FIT, tangent everywhere, and with few arcs."""
+"""Ellipses and B-splines become few tangent arcs within FIT."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.core.importing.drawings import ELLIPSES
 
 
 def sampled(pieces: list[Piece], step: float) -> np.ndarray:
-    """Points of the pieces, a step apart at most."""
+    """Points on the pieces, at most a step apart."""
     points = [complex(*pieces[0].start)]
     for piece in pieces:
         count = max(math.ceil(piece.length / step), 1)
@@ -26,7 +26,7 @@ def sampled(pieces: list[Piece], step: float) -> np.ndarray:
 
 
 def apart(pieces: list[Piece], curve: np.ndarray, fit: float) -> float:
-    """How far pieces and the points of a curve are from one another, both ways (Hausdorff)."""
+    """The Hausdorff distance between pieces and the points of a curve."""
     ours = sampled(pieces, max(fit * 5, 0.02))
     return max(_farthest(ours, curve), _farthest(curve, ours))
 
@@ -41,7 +41,7 @@ def _farthest(points: np.ndarray, curve: np.ndarray) -> float:
 
 
 def turns_at_joints(pieces: list[Piece]) -> float:
-    """The largest change of direction from a piece to the next, in radians."""
+    """The largest change of direction between consecutive pieces, in radians."""
     changes = []
     for first, second in itertools.pairwise(pieces):
         u, v = complex(*first.direction_at(first.end)), complex(*second.direction_at(second.start))
@@ -70,7 +70,7 @@ def test_part_of_a_slanted_ellipse_keeps_its_ends() -> None:
     assert apart(pieces, curve, 0.002) <= 0.002
 
 
-def test_an_ellipse_seen_from_its_edge_is_lines() -> None:
+def test_a_degenerate_ellipse_becomes_lines() -> None:
     pieces = pieces_of_ellipse(EllipseArc(0j, 10 + 0j, 0j, 0.0, 2 * math.pi), 0.005)
     assert all(isinstance(piece, Line) for piece in pieces)
     assert sum(piece.length for piece in pieces) == pytest.approx(40.0)
@@ -83,7 +83,7 @@ def spline(points: list[complex], degree: int = 3, weights: list[float] | None =
 
 
 def de_boor(shape: BSpline, count: int) -> np.ndarray:
-    """Points of a B-spline by the textbook's recursion, as a judge of the Bezier spans: so many in each span."""
+    """`count` points in each span of a B-spline by de Boor's recursion, independent of the Bezier spans."""
     p, knots = shape.degree, shape.knots
     spans = itertools.pairwise(np.unique(knots))
     rows = np.column_stack((shape.points * shape.weights, shape.weights.astype(complex)))
@@ -102,7 +102,7 @@ def de_boor(shape: BSpline, count: int) -> np.ndarray:
 
 @pytest.mark.parametrize("degree", [2, 3, 4])
 @pytest.mark.parametrize("fit", [0.01, 0.001])
-def test_a_spline_is_within_fit_both_ways(degree: int, fit: float) -> None:
+def test_a_spline_is_within_fit_in_both_directions(degree: int, fit: float) -> None:
     points = [0j, 10 + 15j, 25 - 5j, 40 + 20j, 55 + 3j, 60 + 30j, 30 + 45j]
     shape = spline(points, degree)
     pieces = pieces_of_spline(shape, fit)
@@ -141,7 +141,7 @@ def test_a_weighted_spline_that_is_a_circle_is_one_arc() -> None:
 
 
 def test_a_spline_keeps_its_corners() -> None:
-    # a knot as often as the degree: two straight halves
+    # a knot repeated as often as the degree gives two straight halves
     shape = BSpline(
         3,
         np.array([0j, 5 + 0j, 8 + 0j, 10 + 0j, 10 + 2j, 10 + 5j, 10 + 10j]),
@@ -152,8 +152,8 @@ def test_a_spline_keeps_its_corners() -> None:
     assert pieces == [Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0))]
 
 
-def test_a_curve_that_ends_at_a_corner_has_no_more_arcs_than_alone() -> None:
-    # two arches that meet in a corner; each end has the direction in which the curve arrives there
+def test_a_curve_that_ends_at_a_corner_has_no_extra_arcs() -> None:
+    # two arches that meet at a corner; each end has the direction of the curve there
     arch = [0j, 2 + 8j, 12 + 9j, 20 + 0j]
     knots = np.array([0.0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2])
     both = BSpline(3, np.array([*arch, *(20 + point for point in arch[1:])]), np.ones(7), knots)
@@ -163,22 +163,22 @@ def test_a_curve_that_ends_at_a_corner_has_no_more_arcs_than_alone() -> None:
     assert apart(pieces, de_boor(both, 20001), 0.005) <= 0.005 * 1.001
 
 
-def test_a_spline_of_degree_one_is_its_lines() -> None:
+def test_a_spline_of_degree_one_becomes_its_lines() -> None:
     pieces = pieces_of_spline(spline([0j, 10 + 0j, 10 + 5j, 3 + 9j], 1), 0.005)
     assert [piece.end for piece in pieces] == [(10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]
 
 
-def test_no_arc_is_shorter_than_ten_times_fit_where_fit_allows_longer_ones() -> None:
-    chance = np.random.default_rng(15)
-    count, fit = int(chance.integers(6, 12)), 0.05
-    points = np.cumsum(np.exp(1j * np.cumsum(chance.normal(scale=0.9, size=count)))) * 6
+def test_arcs_are_at_least_ten_times_fit_long_if_fit_allows() -> None:
+    rng = np.random.default_rng(15)
+    count, fit = int(rng.integers(6, 12)), 0.05
+    points = np.cumsum(np.exp(1j * np.cumsum(rng.normal(scale=0.9, size=count)))) * 6
     knots = np.concatenate((np.zeros(3), np.arange(count - 2), np.full(3, count - 3))).astype(float)
     pieces = pieces_of_spline(BSpline(3, points, np.ones(count), knots), fit)
     assert min(piece.length for piece in pieces) >= 10.0 * fit
     assert turns_at_joints(pieces) < 1e-6
 
 
-def test_the_quarters_of_an_ellipse_are_alike_and_equal_ellipses_have_equal_arcs() -> None:
+def test_quarters_of_an_ellipse_and_equal_ellipses_have_equal_arcs() -> None:
     near = pieces_of_ellipse(EllipseArc(0j, 30 + 0j, 20j, 0.0, math.tau), 0.005)
     far = pieces_of_ellipse(EllipseArc(300 + 70j, 30 + 0j, 20j, 0.0, math.tau), 0.005)
     lengths = sorted(piece.length for piece in near)

@@ -1,4 +1,4 @@
-"""NC in: programs of every control and of the tool's center come back as the contours they were posted from."""
+"""NC import: posted control programs and center paths come back as their contours."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from core.units import Unit, from_mm
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
 POSTED = [example for example in EXAMPLES if example.stem in ("flange", "overrun-square", "plate-mm")]
-"""Those that controls are posted for: one of the others gouges, and the look-ahead deletes segments of the last."""
+"""The examples that can be posted for controls: the others gouge or lose segments to the look-ahead."""
 
 CASES = [(example, control) for example in POSTED for control in names()]
 
@@ -39,27 +39,27 @@ def program(example: Path) -> Program:
     return loads(example.read_text(), example.name)
 
 
-def tools_of(made: Program) -> ToolTable:
+def tools_of(part: Program) -> ToolTable:
     """The tools of a program, in its unit."""
-    sizes = [(tool.number, tool.diameter) for tool in made.tools]
+    sizes = [(tool.number, tool.diameter) for tool in part.tools]
     return ToolTable.of(
-        *(CutterTool(number, size.value, unit=made.unit) for number, size in sizes if isinstance(size, Number))
+        *(CutterTool(number, size.value, unit=part.unit) for number, size in sizes if isinstance(size, Number))
     )
 
 
 def offsets_in(text: str, unit: Unit) -> ToolTable:
-    """The offsets that the head of a program tells to enter."""
+    """The offsets that the header of a program lists."""
     rows = re.findall(r"OFFSET D(\d+) RADIUS ([\d.]+)", text)
     return ToolTable.of(*(CutterTool(int(number), 2 * float(radius), unit=unit) for number, radius in rows))
 
 
 def largest_difference(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> float:
-    """How far the starts, middles and ends of pieces are apart; infinite where there are more of one."""
+    """The largest distance of starts, middles and ends of pieces; infinite if the counts differ."""
     if len(first) != len(second):
         return float("inf")
     return max(
-        abs(complex(*one.point_at(share)) - complex(*other.point_at(share)))
-        for one, other in zip(first, second, strict=True)
+        abs(complex(*piece.point_at(share)) - complex(*other_piece.point_at(share)))
+        for piece, other_piece in zip(first, second, strict=True)
         for share in (0.0, 0.5, 1.0)
     )
 
@@ -69,13 +69,13 @@ def surfaces(derived: Derived) -> list[tuple[Piece, ...]]:
 
 
 def imported(read: NcProgram) -> Program:
-    """The blocks of an NC program alone."""
-    made, _ = nc_blocks(Program(unit=read.unit), read)
-    return made
+    """A program with only the blocks of an NC program."""
+    part, _ = nc_blocks(Program(unit=read.unit), read)
+    return part
 
 
 @pytest.mark.parametrize(("example", "control"), CASES, ids=lambda case: getattr(case, "stem", case))
-def test_a_control_program_comes_back_as_its_contour(example: Path, control: str) -> None:
+def test_a_posted_control_program_is_imported_as_its_contour(example: Path, control: str) -> None:
     original = program(example)
     derived = derive(original)
     posted = post_control_program(derived, name=example.stem, control=control)
@@ -97,7 +97,7 @@ CUT = [example for example in EXAMPLES if example.stem != "notch"]
 
 
 @pytest.mark.parametrize("example", CUT, ids=lambda path: path.stem)
-def test_a_center_path_comes_back_as_a_contour_of_that_path(example: Path) -> None:
+def test_a_posted_center_path_is_imported_as_a_contour_with_that_path(example: Path) -> None:
     original = program(example)
     # one pass at one radius: the path of one contour
     single = replace(
@@ -143,7 +143,7 @@ def _plain(comp: CutterComp) -> CutterComp:
 SQUARE = b"G21 G90 G17\nT1 M6\nS900 M3\nG0 X-10 Y0\nG1 Z-2 F100\n%s\nG1 X20 Y0\nX20 Y20\nX0 Y20\nX0 Y0\n%s\nM30\n"
 
 
-def test_a_second_round_changes_nothing() -> None:
+def test_a_second_round_trip_changes_nothing() -> None:
     example = next(path for path in EXAMPLES if path.stem == "flange")
     original = program(example)
     tools = tools_of(original)
@@ -155,7 +155,7 @@ def test_a_second_round_changes_nothing() -> None:
     assert programs[1].blocks == programs[2].blocks
 
 
-def test_depths_in_even_steps_are_pecks_and_feeds_stay_with_their_segments() -> None:
+def test_even_depth_steps_become_pecks_and_feeds_stay_with_their_segments() -> None:
     ring = b"G1 Z%d F50\nG41 D1 X0 Y0 F200\nX20 Y0\nX20 Y20 F300\nX0 Y20\nX0 Y0\nG40 X-10 Y-10\nG0 X-10 Y-10\n"
     text = b"G21 G90 G17\nT1 M6\nS900 M3\nG0 X-10 Y-10\n" + ring % -2 + ring % -4 + ring % -6 + b"M30\n"
     read = read_nc(text, "linuxcnc", TOOLS)
@@ -167,27 +167,27 @@ def test_depths_in_even_steps_are_pecks_and_feeds_stay_with_their_segments() -> 
     assert block.cutter_comp is CutterComp.LEFT
 
 
-def test_a_contour_brings_its_tool_into_the_table_and_the_block() -> None:
+def test_an_imported_contour_adds_its_tool() -> None:
     text = b"G21 G90 G17\nT7 M6\nG0 X-9 Y-9\nG1 G41 D7 X0 Y0 F200\nX20 Y0\nX20 Y20\nX0 Y0\nG40 X-9 Y-9\nM30\n"
-    made = imported(read_nc(text, "linuxcnc", ToolTable.of(CutterTool(7, 6.0))))
-    assert made.blocks[0].tool == Number(7.0)
-    assert [tool.diameter for tool in made.tools if tool.number == 7] == [Number(6.0)]
+    part = imported(read_nc(text, "linuxcnc", ToolTable.of(CutterTool(7, 6.0))))
+    assert part.blocks[0].tool == Number(7.0)
+    assert [tool.diameter for tool in part.tools if tool.number == 7] == [Number(6.0)]
 
 
-def test_a_program_of_the_center_needs_side_and_diameter() -> None:
+def test_a_center_path_needs_side_and_diameter() -> None:
     text = SQUARE % (b"G1 X0 Y0", b"")
     with pytest.raises(NcError, match="its side and the tool's diameter are needed"):
         read_nc(text, "linuxcnc", TOOLS)
     read = read_nc(text, "linuxcnc", TOOLS, center=CenterPathTool(None, 4.0))
     assert len(read.contours[0].pieces) == 5
     assert imported(read).blocks[0].cutter_comp is CutterComp.ON
-    # to the left of the square's own travel is its inside
+    # the inside of the square is to the left of its travel
     inside = read_nc(text, "linuxcnc", TOOLS, center=CenterPathTool(Side.LEFT, 4.0))
     corners = {tuple(round(value, 6) for value in piece.start) for piece in inside.contours[0].pieces}
     assert corners == {(10.0, -2.0), (-2.0, -2.0), (-2.0, 22.0), (22.0, -2.0), (22.0, 22.0)}
 
 
-def test_an_arc_smaller_than_the_tool_is_refused_by_its_line() -> None:
+def test_an_arc_smaller_than_the_tool_is_refused_with_its_line() -> None:
     text = b"G21 G90 G17 G0 X0 Y0\nG1 Z-1 F100\nG1 X10 Y0\nG2 X12 Y-2 I0 J-2\nG1 X12 Y-20\nM30\n"
     with pytest.raises(NcError, match=r"Line 4: an arc of the path is smaller than the tool"):
         read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(Side.LEFT, 10.0))
@@ -201,8 +201,8 @@ SIZES = ToolTable.of(*(CutterTool(number, 10.0, unit=Unit.MM) for number in rang
 @pytest.mark.parametrize(
     "center", [None, CenterPathTool(Side.LEFT, 2.0), CenterPathTool(None, 2.0)], ids=["own", "left", "on"]
 )
-def test_any_program_gives_contours_or_a_sentence(center: CenterPathTool | None) -> None:
-    taken, refusals = 0, list[str]()
+def test_any_program_gives_contours_or_a_reason(center: CenterPathTool | None) -> None:
+    imported_count, refusals = 0, list[str]()
     for path in PROGRAMS[::3]:
         text = path.read_bytes()
         for control in ("linuxcnc", "klartext", "nine-series:a"):
@@ -211,8 +211,8 @@ def test_any_program_gives_contours_or_a_sentence(center: CenterPathTool | None)
             except (NcError, DoesNotFitError) as error:
                 refusals.append(str(error))
             else:
-                taken += 1
-    assert taken >= 5
+                imported_count += 1
+    assert imported_count >= 5
     assert all(refusals)
 
 
@@ -221,7 +221,7 @@ def test_an_alarm_names_the_line() -> None:
         read_nc(b"G21 G90 G17\nG41 D9 G1 X1 F100\nM30\n", "linuxcnc", ToolTable())
 
 
-def test_units_of_the_program_stay() -> None:
+def test_the_unit_of_the_program_is_kept() -> None:
     text = b"G20 G90 G17\nG0 X0 Y0\nG1 Z-.1 F10\nX1.\nY1.\nM30\n"
     read = read_nc(text, "linuxcnc", ToolTable(), center=CenterPathTool(None, 1.0))
     assert read.unit is Unit.IN
@@ -246,11 +246,13 @@ M2
 """
 
 
-def test_quarter_circles_that_are_left_out_of_an_open_contour_are_told() -> None:
+def test_quarter_circles_taken_as_leads_of_an_open_contour_are_reported() -> None:
     read = read_nc(OPEN_WITH_LEADS, "linuxcnc", TOOLS)
     assert len(read.contours[0].pieces) == 2
-    _, made = nc_blocks(Program(unit=read.unit), read)
-    assert any("quarter circles of lines 8 and 11 are taken for lead-in and lead-out" in note for note in made[0].notes)
+    _, items = nc_blocks(Program(unit=read.unit), read)
+    assert any(
+        "quarter circles of lines 8 and 11 are taken for lead-in and lead-out" in note for note in items[0].notes
+    )
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
-"""Rounded drawings: contours with tangent arcs, 3 to 6 decimals, give closed best paths and clean verdicts.
+"""Drawings rounded to 3 to 6 decimals with tangent arcs give closed best paths and clean verdicts.
 
-And the whole way: from a drawing to segments, to the program of a control, and back to the same contour.
+The round trip from a drawing to segments, to the program of a control, and back gives the same contour.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ SEEDS = range(12)
 
 
 def rounded_polygon(seed: int) -> tuple[Piece, ...]:
-    """A star-shaped polygon whose corners are all rounded by tangent arcs, as CAD draws parts."""
-    chance = random.Random(f"rounded {seed}")
-    count = chance.randint(4, 9)
+    """A star-shaped polygon with all corners rounded by tangent arcs, as in CAD drawings."""
+    rng = random.Random(f"rounded {seed}")
+    count = rng.randint(4, 9)
     corners = []
     for number in range(count):
-        angle = 2 * pi * (number + 0.5 * chance.random()) / count
-        reach = chance.uniform(40.0, 60.0)
+        angle = 2 * pi * (number + 0.5 * rng.random()) / count
+        reach = rng.uniform(40.0, 60.0)
         corners.append((reach * cos(angle), reach * sin(angle)))
-    return _filleted(corners, [chance.uniform(2.0, 6.0) for _ in corners])
+    return _filleted(corners, [rng.uniform(2.0, 6.0) for _ in corners])
 
 
 def _filleted(corners: list[Point], radii: list[float]) -> tuple[Piece, ...]:
@@ -83,7 +83,7 @@ def contour_of(pieces: tuple[Piece, ...], decimals: int) -> Contour:
 
 
 def typed_surface(contour: Contour) -> Path:
-    """The contour as it stands on the form."""
+    """The contour as typed on the form."""
     program = Program(unit=Unit.MM)
     solved = solve_block(block_of(contour, program).block, program)
     return Path.from_pieces([piece for _, piece in solved.pieces])
@@ -106,7 +106,7 @@ def test_a_rounded_drawing_has_closed_best_paths_and_clean_verdicts(decimals: in
     assert judged == 2 * len(SEEDS)
 
 
-def test_typed_numbers_have_the_digits_of_the_form() -> None:
+def test_imported_numbers_have_the_digits_of_the_form() -> None:
     for seed in SEEDS:
         contour = contour_of(rounded_polygon(seed), 12)
         for unit, decimals in ((Unit.MM, 3), (Unit.IN, 4)):
@@ -118,7 +118,7 @@ def test_typed_numbers_have_the_digits_of_the_form() -> None:
             assert item.block.segments[-1].x_end == item.block.x_start
 
 
-def test_arcs_too_small_for_the_digits_of_the_form_have_more_and_say_so() -> None:
+def test_arcs_too_small_for_the_digits_of_the_form_get_more_digits_and_a_note() -> None:
     corners = [(0.0, 0.0), (40.0, 1.0), (41.0, 30.0), (1.0, 29.0)]
     contour = contour_of(_filleted(corners, [0.02] * 4), 12)
     assert contour.drawn == 8
@@ -151,13 +151,13 @@ def test_a_drawing_posted_and_read_back_is_the_same_contour(control: str) -> Non
 
 
 @pytest.mark.parametrize("unit", list(Unit))
-def test_a_contour_of_arcs_alone_ends_on_its_start_and_is_cut_clean(unit: Unit) -> None:
+def test_a_contour_of_arcs_closes_and_is_clean(unit: Unit) -> None:
     diameter = Number(1.0 if unit is Unit.MM else 0.04)
     empty = Program(unit=unit, tools=(Tool(1, diameter=diameter, speed=Number(3000.0), plunge_feed=Number(20.0)),))
     for seed in SEEDS:
-        chance = random.Random(f"ellipse {seed}")
-        center, axis = ((chance.uniform(-80.0, 80.0), chance.uniform(-80.0, 80.0)) for _ in range(2))
-        contour = listed(dxf(ellipse(center, axis, chance.uniform(0.3, 0.95)))).contours[0]
+        rng = random.Random(f"ellipse {seed}")
+        center, axis = ((rng.uniform(-80.0, 80.0), rng.uniform(-80.0, 80.0)) for _ in range(2))
+        contour = listed(dxf(ellipse(center, axis, rng.uniform(0.3, 0.95)))).contours[0]
         assert all(isinstance(piece, Arc) for piece in contour.pieces)
         program, (made,) = with_contours(empty, [contour])
         program = replace(program, blocks=(replace(program.blocks[0], z_bottom=Number(-1.0)),))
@@ -165,7 +165,7 @@ def test_a_contour_of_arcs_alone_ends_on_its_start_and_is_cut_clean(unit: Unit) 
         assert not codes & {"GOUGE", "NEARLY_CLOSED"}, (seed, made.decimals, codes)
 
 
-def test_an_export_of_2000_lines_becomes_few_arcs() -> None:
+def test_a_curve_of_2000_lines_becomes_few_arcs() -> None:
     at = np.linspace(0.0, 2.0 * pi, 2001)
     points = [(float(40 * cos(t) + 6 * cos(3 * t)), float(25 * sin(t))) for t in at]
     points[-1] = points[0]
@@ -180,5 +180,5 @@ def test_an_export_of_2000_lines_becomes_few_arcs() -> None:
     middles = (curve[1:] + curve[:-1]) / 2
     every = np.concatenate((curve, middles))
     nearest = [float(np.abs(every - sample).min()) for sample in samples[::7]]
-    # samples lie between points of the curve that are up to 0.07 mm apart
+    # the points of the curve are up to 0.07 mm apart
     assert max(nearest) <= 0.05

@@ -1,4 +1,4 @@
-"""Programs that a control compensates itself: header, remarks and refusals, from jobs made by hand."""
+"""Programs for compensating controls: header, remarks and refusals, from hand-made jobs."""
 
 from __future__ import annotations
 
@@ -57,15 +57,15 @@ def posted(
     name: str = "KEY",
     part: str = "",
 ) -> Posted:
-    found = control_program(jobs or (square(),), cuts or (cut(),), Unit.IN, name=name, control=control, part=part)
-    assert isinstance(found, Posted), found
-    return found
+    result = control_program(jobs or (square(),), cuts or (cut(),), Unit.IN, name=name, control=control, part=part)
+    assert isinstance(result, Posted), result
+    return result
 
 
 def refused(*jobs: Job, control: str = "linuxcnc") -> Refusal:
-    found = control_program(jobs, [cut() for _ in jobs], Unit.IN, name="KEY", control=control)
-    assert isinstance(found, Refusal)
-    return found
+    result = control_program(jobs, [cut() for _ in jobs], Unit.IN, name="KEY", control=control)
+    assert isinstance(result, Refusal)
+    return result
 
 
 CONTOUR = [
@@ -84,10 +84,10 @@ CONTOUR = [
 ]
 
 
-def test_a_whole_program_for_linuxcnc() -> None:
-    found = posted("linuxcnc", name="key way/1", part="PART; 7")
-    assert found.notes == ()
-    assert found.text.splitlines() == [
+def test_a_whole_program_is_written_for_linuxcnc() -> None:
+    result = posted("linuxcnc", name="key way/1", part="PART; 7")
+    assert result.notes == ()
+    assert result.text.splitlines() == [
         "(PROGRAM key way/1)",
         "(PART PART, 7)",
         "(WRITTEN BY CUTCOMP FOR linuxcnc: THE CONTOUR AS TYPED, THE CONTROL)",
@@ -108,9 +108,9 @@ def test_a_whole_program_for_linuxcnc() -> None:
     ]
 
 
-def test_a_whole_program_in_klartext() -> None:
-    found = posted("klartext", name="key way/1", part="PART 7")
-    assert found.text.splitlines()[:16] == [
+def test_a_whole_program_is_written_in_klartext() -> None:
+    result = posted("klartext", name="key way/1", part="PART 7")
+    assert result.text.splitlines()[:16] == [
         "0 BEGIN PGM key-way-1 INCH",
         "1 ; PROGRAM key way/1",
         "2 ; PART PART 7",
@@ -139,7 +139,7 @@ def test_the_first_plunge_of_every_tool_has_its_feed(control: str) -> None:
     assert all("F20" in line for line in plunges), plunges
 
 
-def test_offsets_that_an_operator_enters_stand_in_the_header_once() -> None:
+def test_the_header_lists_each_offset_to_enter_once() -> None:
     lines = posted("nine-series:b-g39", cut(0.02), cut(0.02), cut(), cut(tool=2, diameter=0.375)).text.splitlines()
     assert [line for line in lines if line.startswith(("(TOOL", "(OFFSET"))] == [
         "(TOOL 1 DIAMETER 0.5000: THE CONTROL'S TABLE MUST SAY THE SAME)",
@@ -150,35 +150,39 @@ def test_offsets_that_an_operator_enters_stand_in_the_header_once() -> None:
     ]
 
 
-def test_a_control_that_has_the_stock_in_its_block_needs_no_offset() -> None:
+def test_a_control_with_the_stock_in_its_block_needs_no_offset() -> None:
     assert "OFFSET" not in posted("rosettacnc:nist", cut(0.02), cut()).text
     assert "OFFSET" not in posted("linuxcnc", cut()).text
     assert "OFFSET" not in posted("nine-series:b-g39", plain(), jobs=(job(polyline((0, 0), (2, 0))),)).text
 
 
-def test_what_differs_from_the_path_of_the_block_is_noted_with_its_segment() -> None:
-    found = posted("nine-series:a")
-    assert [(note.code, note.severity, note.segment) for note in found.notes] == [("DIFFERS", Severity.WARNING, 2.0)]
-    assert "(NOTE DIFFERS SEGMENT 2: allen-bradley:a takes corners differently, by up)" in found.text
-    assert "(to 0.1036. It does not gouge or leave more.)" in found.text
+def test_a_difference_from_the_path_of_the_block_is_noted_with_its_segment() -> None:
+    result = posted("nine-series:a")
+    assert [(note.code, note.severity, note.segment) for note in result.notes] == [("DIFFERS", Severity.WARNING, 2.0)]
+    assert "(NOTE DIFFERS SEGMENT 2: allen-bradley:a takes corners differently, by up)" in result.text
+    assert "(to 0.1036. It does not gouge or leave more.)" in result.text
 
 
-def test_without_compensation_the_header_says_so() -> None:
+def test_the_header_says_that_nothing_is_compensated() -> None:
     text = posted("linuxcnc", plain(), jobs=(job(polyline((0, 0), (2, 0))),)).text
     assert "(WRITTEN BY CUTCOMP FOR linuxcnc: THE CONTOUR AS TYPED, NOTHING IS)\n(COMPENSATED)\n" in text
     assert "CUTTER COMP. ON" in text
     assert "G41" not in text.replace("G40", "")
 
 
-def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> None:
+def test_a_work_offset_is_reported_for_a_control_without_work_offsets() -> None:
     for control in ("threeblock", "klartext"):
-        (note,) = (one for one in posted(control, jobs=(square(work_offset=56),)).notes if one.code == "WORK_OFFSET")
+        (note,) = (
+            finding
+            for finding in posted(control, jobs=(square(work_offset=56),)).notes
+            if finding.code == "WORK_OFFSET"
+        )
         assert note.severity is Severity.WARNING
         assert (
             note.text == f"Work offset G56 cannot be written for {shown_name(control)}; set its origin on the control."
         )
-        assert not [one for one in posted(control).notes if one.code == "WORK_OFFSET"]
-    assert "WORK_OFFSET" not in [one.code for one in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]
+        assert not [finding for finding in posted(control).notes if finding.code == "WORK_OFFSET"]
+    assert "WORK_OFFSET" not in [finding.code for finding in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]
     assert "G56" in posted("linuxcnc", jobs=(square(work_offset=56),)).text
     assert "; NOTE WORK_OFFSET Work offset G56" in posted("klartext", jobs=(square(work_offset=56),)).text
 
@@ -201,14 +205,14 @@ def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
         ("a" * 30, "a" * 24),
     ],
 )
-def test_the_name_is_one_that_every_control_takes(name: str, short: str) -> None:
+def test_the_program_name_is_made_acceptable_to_the_control(name: str, short: str) -> None:
     assert posted("klartext", name=name).text.startswith(f"0 BEGIN PGM {short} INCH\n")
 
 
-def test_no_block_is_refused() -> None:
-    found = refused()
-    assert [finding.code for finding in found.findings] == ["NO_BLOCK"]
-    assert found.text == "There is no block to post."
+def test_a_program_without_blocks_is_refused() -> None:
+    result = refused()
+    assert [finding.code for finding in result.findings] == ["NO_BLOCK"]
+    assert result.text == "There is no block to post."
 
 
 def test_a_segment_that_climbs_is_refused_under_compensation_only() -> None:
@@ -220,17 +224,17 @@ def test_a_segment_that_climbs_is_refused_under_compensation_only() -> None:
     assert control_program_errors([square()], Unit.IN) == ()
 
 
-def test_what_forbids_posting_forbids_it_here_too_and_is_named_once() -> None:
+def test_a_finding_that_prevents_posting_is_named_once() -> None:
     gouge = Finding("GOUGE", Severity.ERROR, "Gouges.", 2)
     assert [finding.code for finding in refused(square(findings=(gouge, gouge))).findings] == ["GOUGE"]
     assert [finding.code for finding in refused(square(cutter=None)).findings] == ["TOOL_MISSING"]
     assert refused(square(), square(block=2, work_offset=55)).text == "The blocks name different work offsets."
 
 
-def test_a_contour_that_a_control_cannot_run_is_refused_by_its_reason() -> None:
+def test_a_contour_that_a_control_cannot_run_is_refused() -> None:
     tiny = cut(diameter=5.0)
     inside = replace(tiny, compensated=compensate(SQUARE, Side.LEFT, 2.5 * INCH, 1, closed=True))
-    found = control_program([square()], [inside], Unit.IN, name="KEY", control="linuxcnc")
-    assert isinstance(found, Refusal)
-    assert {finding.severity for finding in found.findings} == {Severity.ERROR}
-    assert found.unit is Unit.IN
+    result = control_program([square()], [inside], Unit.IN, name="KEY", control="linuxcnc")
+    assert isinstance(result, Refusal)
+    assert {finding.severity for finding in result.findings} == {Severity.ERROR}
+    assert result.unit is Unit.IN

@@ -33,7 +33,7 @@ def test_y_is_up_and_arcs_are_arcs():
 
 
 @pytest.mark.parametrize(("turn", "flag"), [(Turn.CCW, 0), (Turn.CW, 1)])
-def test_the_sweep_flag_is_that_of_a_drawing_turned_over(turn, flag):
+def test_the_sweep_flag_is_that_of_a_flipped_drawing(turn, flag):
     quarter = Arc((1, 0), (0, 1) if turn is Turn.CCW else (0, -1), (0, 0), turn)
     assert outline(quarter).startswith(f"A1 1 0 0 {flag} 0 ")
 
@@ -42,14 +42,14 @@ def test_a_full_circle_is_two_halves():
     assert outline(Arc((1, 0), (1, 0), (0, 0), Turn.CCW)) == "A1 1 0 0 0 -1 0 A1 1 0 0 0 1 0"
 
 
-def test_dashed_layers_say_so():
+def test_dashed_layers_have_the_dashed_class():
     assert "\n.dashed { stroke-dasharray: 6 4 }\n" in svg(Scene(), title="A")
     assert "\n.rapid { stroke: #7a8894; stroke-width: 0.8px; stroke-dasharray: 2 3 }\n" in svg(Scene(), title="A")
     scene = Scene((Layer(CORNER, Style.DELETED, dashed=True),))
     assert len(paths(scene, "deleted dashed")) == 1
 
 
-def test_the_legend_names_what_is_drawn_and_nothing_else():
+def test_the_legend_names_only_drawn_items():
     scene = contour_scene(CORNER, path=CORNER, cutter=((1, 1), 0.5), unit=Unit.MM)
     words = [element.text for element in drawing(scene).iter(f"{SPACE}text")]
     assert words == ["PART", "part surface", "center path", "blend moves", "cutter", "start, direction", "1 MM"]
@@ -62,16 +62,16 @@ def test_the_cutter_is_a_circle():
 
 @pytest.mark.parametrize("title", ["<script>alert(1)</script>", 'a & b "c"', "]]>", "line\nbreak\x00\x1b", "Ø 12"])
 def test_no_text_becomes_markup(title):
-    found = drawing(Scene((Layer(CORNER, Style.SURFACE),)), title)
-    assert {element.tag for element in found.iter()} <= {
+    root = drawing(Scene((Layer(CORNER, Style.SURFACE),)), title)
+    assert {element.tag for element in root.iter()} <= {
         f"{SPACE}{name}" for name in ("svg", "title", "style", "rect", "path", "circle", "text")
     }
-    shown = found.find(f"{SPACE}title")
+    shown = root.find(f"{SPACE}title")
     assert shown is not None
     assert shown.text == "".join(character if character.isprintable() else " " for character in title)
 
 
-def test_everything_lies_in_the_view_box():
+def test_the_view_box_contains_everything():
     scene = contour_scene(CORNER, cutter=((5, 3), 2.0), unit=Unit.IN)
     x, y, wide, high = map(float, drawing(scene).attrib["viewBox"].split())
     assert x < 0
@@ -80,7 +80,7 @@ def test_everything_lies_in_the_view_box():
     assert y + high > 0
 
 
-def test_an_empty_scene_and_one_that_is_not_finite_are_drawings_too():
+def test_empty_scenes_and_scenes_with_invalid_numbers_are_drawn():
     nan = Path.from_pieces([Line((0, 0), (1, 0)), Line((1, 0), (float("nan"), 0)), Line((0, 0), (2, 2))])
     broken = Scene(
         (Layer(nan, Style.SURFACE),),
@@ -88,10 +88,10 @@ def test_an_empty_scene_and_one_that_is_not_finite_are_drawings_too():
         (Mark((float("inf"), 0), Style.START, Symbol.START), Mark((0, 0), Style.START, Symbol.ARROW, (0.0, 0.0))),
     )
     for scene in (Scene(), Scene(unit=Unit.IN), broken):
-        found = svg(scene, title="")
-        ElementTree.fromstring(found)
-        assert "nan" not in found
-        assert "inf" not in found
+        markup = svg(scene, title="")
+        ElementTree.fromstring(markup)
+        assert "nan" not in markup
+        assert "inf" not in markup
     assert paths(broken, "surface")[0] == "M0 0 L1 0"
 
 
@@ -99,14 +99,14 @@ TALL = Path.from_pieces([Line((-20, -10), (80, -10)), Line((80, -10), (80, 90))]
 
 
 def drawn(scene: Scene) -> list[str]:
-    """The lines of a drawing without its style sheet."""
+    """The lines of a drawing, without the style sheet."""
     return [
         line for line in svg(scene, title="A").splitlines() if line.startswith(("<svg", "<rect", "<path", "<c", "<te"))
     ]
 
 
-def test_a_whole_drawing():
-    """100 mm large: the margin is 6, letters 2.4, a line of the legend 3.84; axes go 3 beyond what is drawn."""
+def test_a_whole_drawing_is_written():
+    """For 100 mm the margin is 6, letters 2.4, a line of the legend 3.84; axes extend 3 beyond the drawing."""
     arrow = Mark((0, 0), Style.START, Symbol.ARROW, (0.0, 2.0))
     marks = (arrow, Mark((10, 20), Style.GOUGE, Symbol.GOUGE), Mark((50, 60), Style.LEAD, Symbol.PLUNGE))
     layers = (Layer(TALL, Style.SURFACE), Layer(TALL, Style.DELETED, dashed=True))
@@ -139,7 +139,7 @@ def test_a_whole_drawing():
     ]
 
 
-def test_the_scale_of_a_drawing_in_inches():
+def test_the_scale_bar_of_an_inch_drawing_is_half_an_inch():
     """A quarter of 100 mm is 0.98 in: the bar is half an inch, 12.7 mm."""
     assert drawn(Scene((Layer(TALL, Style.SURFACE),), unit=Unit.IN))[-2:] == [
         '<path class="scale" d="M67.3 19.84 L67.3 17.44 M80 19.84 L80 17.44 M67.3 18.64 L80 18.64"/>',
@@ -147,7 +147,7 @@ def test_the_scale_of_a_drawing_in_inches():
     ]
 
 
-def test_axes_that_pass_by_are_left_out():
+def test_axes_outside_the_drawing_are_left_out():
     away = Path.from_pieces([Line((10, 10), (20, 30))])
     assert paths(Scene((Layer(away, Style.SURFACE),)), "axis") == []
     over_x = Path.from_pieces([Line((10, -10), (20, 30))])
@@ -159,7 +159,7 @@ def test_axes_that_pass_by_are_left_out():
     assert paths(Scene((Layer(touching, Style.SURFACE),), axes=False), "axis") == []
 
 
-def test_each_part_of_a_layer_is_drawn_by_itself():
+def test_each_part_of_a_layer_is_drawn_separately():
     scene = Scene((Layer(CORNER, Style.UNCUT, drawn=np.array([True, False, True])),), axes=False)
     assert paths(scene, "uncut")[:-1] == ["M0 0 L4 0", "M5 -1 L5 -3"]
 
@@ -172,12 +172,12 @@ def test_each_part_of_a_layer_is_drawn_by_itself():
 )
 @settings(derandomize=True, max_examples=150)
 def test_halves_of_arcs_join_on_the_circle(radius, begin, sweep, turn):
-    """No arc is more than half a turn, so its radius, flags and end say all; each end lies on the circle."""
+    """No arc exceeds half a turn, so its radius, flags and end define it; each end is on the circle."""
     end = begin + turn * sweep
     arc = Arc((radius * cos(begin), radius * sin(begin)), (radius * cos(end), radius * sin(end)), (0.0, 0.0), turn)
-    found = re.findall(r"A\S+ \S+ 0 0 (\d) (\S+) (\S+)", outline(arc))
-    assert len(found) == (2 if sweep > pi + 1e-9 else 1) or abs(sweep - pi) < 1e-6
-    for flag, x, y in found:
+    parts = re.findall(r"A\S+ \S+ 0 0 (\d) (\S+) (\S+)", outline(arc))
+    assert len(parts) == (2 if sweep > pi + 1e-9 else 1) or abs(sweep - pi) < 1e-6
+    for flag, x, y in parts:
         assert flag == ("0" if turn is Turn.CCW else "1")
         assert abs(hypot(float(x), float(y)) - radius) < 2e-6
-    assert hypot(float(found[-1][1]) - arc.end[0], -float(found[-1][2]) - arc.end[1]) < 2e-6
+    assert hypot(float(parts[-1][1]) - arc.end[0], -float(parts[-1][2]) - arc.end[1]) < 2e-6

@@ -1,4 +1,4 @@
-"""The table of fields against the model and the screens' words, and what a text in a field is."""
+"""The table of fields against the model and the labels of the screens, and texts in fields."""
 
 from __future__ import annotations
 
@@ -48,8 +48,8 @@ PARTS = {
 @pytest.mark.parametrize("form", Form)
 def test_every_attribute_has_its_field(form):
     part, others = PARTS[form]
-    assert {one.name for one in TABLES[form]} | others == {one.name for one in attributes(part)}
-    assert all(field_of(form, one.name) is one for one in TABLES[form])
+    assert {item.name for item in TABLES[form]} | others == {item.name for item in attributes(part)}
+    assert all(field_of(form, item.name) is item for item in TABLES[form])
 
 
 @pytest.mark.parametrize("form", Form)
@@ -60,7 +60,7 @@ def test_every_field_has_a_label_a_prompt_and_the_choices_of_its_kind(form):
         assert bool(one.choices) == (one.kind is Kind.CHOICE)
 
 
-def test_start_reads_as_on_the_control():
+def test_the_labels_of_start_are_those_of_the_control():
     assert [one.label for one in fields.START] == [
         "TOOL",
         "CUTTER COMP.",
@@ -78,7 +78,7 @@ def test_start_reads_as_on_the_control():
     assert field_of(Form.START, "cutter_comp").choices == ("ON", "LEFT", "RIGHT", "PROFILE LEFT", "PROFILE RIGHT")
 
 
-def test_segments_read_as_on_the_control():
+def test_the_labels_of_segments_are_those_of_the_control():
     assert [one.label for one in fields.LINE] == [
         "X END",
         "Y END",
@@ -111,19 +111,19 @@ def test_segments_read_as_on_the_control():
     assert [one.label for one in fields.BLEND] == ["RADIUS", "FEED"]
 
 
-def test_the_lookahead_prompt_says_what_the_control_says():
+def test_the_lookahead_prompt_is_that_of_the_control():
     words = "Enter a cutter comp lookahead value to override the calculated value. Not recommended unless necessary."
     assert field_of(Form.START, "lookahead").prompt.startswith(words)
     assert "1 to 20" in fields.LOOKAHEAD_PROMPT
 
 
-def test_the_field_of_a_solution_is_known_where_there_may_be_two():
+def test_only_lines_and_arcs_have_a_solution_field():
     assert field_of(Form.ARC, "choice") is field_of(Form.LINE, "choice") is fields.SOLUTION
     with pytest.raises(KeyError):
         field_of(Form.BLEND, "choice")
 
 
-def test_form_of():
+def test_form_of_names_the_form_of_a_segment():
     assert [form_of(one) for one in (LineSegment(), ArcSegment(), BlendSegment())] == [Form.LINE, Form.ARC, Form.BLEND]
 
 
@@ -145,7 +145,7 @@ def test_form_of():
         (Form.PARAMETERS, "pocket_overlap", 100.0, "POCKET OVERLAP must be from 0 to 99."),
     ],
 )
-def test_check_refuses(form, name, value, text):
+def test_value_refusal_names_the_range(form, name, value, text):
     assert value_refusal(field_of(form, name), value, Unit.IN) == text
 
 
@@ -161,11 +161,11 @@ def test_check_refuses(form, name, value, text):
         (Form.ARC, "radius", 1e-9),
     ],
 )
-def test_check_takes(form, name, value):
+def test_value_refusal_accepts_values_in_range(form, name, value):
     assert value_refusal(field_of(form, name), value, Unit.IN) is None
 
 
-def test_defaults():
+def test_default_values_depend_on_the_unit():
     assert default_value("blend_offset", Unit.IN) == 0.125
     assert default_value("blend_offset", Unit.MM) == 3.0
     assert default_value("pocket_overlap", Unit.MM) == 50.0
@@ -175,7 +175,7 @@ def test_defaults():
     assert default_value("x_start", Unit.IN) is None
 
 
-def test_a_field_takes_the_same_part_in_both_units():
+def test_the_ranges_of_a_field_are_the_same_in_both_units():
     place, feed = field_of(Form.START, "x_start"), field_of(Form.LINE, "feed")
     assert value_refusal(place, 10000.0, Unit.IN) is None
     assert value_refusal(place, 254000.0, Unit.MM) is None
@@ -186,14 +186,14 @@ def test_a_field_takes_the_same_part_in_both_units():
     assert value_refusal(angle, 360.0, Unit.IN) == value_refusal(angle, 360.0, Unit.MM) is None
 
 
-def test_a_standing_spindle_is_refused_where_it_is_typed():
+def test_a_speed_of_zero_is_refused():
     speed = field_of(Form.START, "speed")
     assert value_refusal(speed, 0.0, Unit.MM) == "SPEED (RPM) must be a whole number from 1 to 100000."
     assert value_refusal(speed, 1.0, Unit.MM) is None
 
 
 @pytest.mark.parametrize("unit", Unit)
-def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit):
+def test_every_parameter_has_a_default_within_its_range(unit):
     for one in (*fields.PARAMETERS, *fields.SETUP):
         if one.kind not in (Kind.CHOICE, Kind.TEXT):
             value = default_value(one.name, unit)
@@ -201,7 +201,7 @@ def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit)
             assert value_refusal(one, value, unit) is None
 
 
-def test_read_keeps_what_it_cannot_read():
+def test_read_typed_keeps_unreadable_text():
     one = field_of(Form.LINE, "x_end")
     assert read_typed("  ", one, Unit.IN) is None
     assert read_typed("1 1/2", one, Unit.IN) == Number(1.5)
@@ -218,13 +218,13 @@ def test_read_keeps_what_it_cannot_read():
         (Form.LINE, "feed", " 0 ", "FEED must be above 0, at most 10000, not 0."),
     ],
 )
-def test_a_number_the_field_does_not_take_is_kept_as_it_was_typed(form: Form, name: str, text: str, why: str) -> None:
+def test_a_number_out_of_range_is_kept_as_typed(form: Form, name: str, text: str, why: str) -> None:
     one = field_of(form, name)
     assert read_typed(text, one, Unit.IN) == Unread(text, why)
     assert text_refusal(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
 
 
-def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
+def test_a_text_that_the_field_would_now_accept_must_be_typed_again() -> None:
     one = field_of(Form.START, "x_start")
     assert text_refusal("99999", one, Unit.MM) is None
     assert unread_reason("99999", one, Unit.MM) == TYPE_AGAIN
@@ -246,7 +246,7 @@ def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
         (Form.SETUP, "work_offset", 54, 59),
     ],
 )
-def test_a_number_is_taken_up_to_both_its_limits_and_not_beyond(form, name, least, most):
+def test_numbers_are_accepted_up_to_their_limits(form, name, least, most):
     field = field_of(form, name)
     assert [value_refusal(field, float(value), Unit.IN) for value in (least, most)] == [None, None]
     assert all(value_refusal(field, float(value), Unit.IN) for value in (least - 1, most + 1))

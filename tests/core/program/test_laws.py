@@ -1,4 +1,4 @@
-"""Laws of the calculated fields for any contour: moved, mirrored, turned, in the other unit, typed back in."""
+"""Properties of calculated fields of any contour: moved, mirrored, rotated, in the other unit, typed in again."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ laws = settings(derandomize=True, max_examples=60, deadline=None)
 
 @dataclass(frozen=True)
 class Corner:
-    """A point of a random contour and how it is reached: straight, or by an arc that bulges to one side."""
+    """A point of a random contour, reached by a line or by an arc that bulges to one side."""
 
     point: Point
     bulge: float
@@ -47,7 +47,7 @@ def typed_segment(start: Point, corner: Corner) -> Segment:
 
 @st.composite
 def contours(draw: st.DrawFn) -> Program:
-    """A contour of lines and arcs with a blend here and there, all of it determined."""
+    """A determined contour of lines and arcs with some blends."""
     chain = draw(st.lists(corners, min_size=3, max_size=7))
     points = [corner.point for corner in chain]
     assume(all(dist(*pair) > 5.0 for pair in pairwise(points)))
@@ -57,9 +57,9 @@ def contours(draw: st.DrawFn) -> Program:
         if segments and blended:
             segments.append(blend(0.5))
         segments.append(typed_segment(start, corner))
-    found = program(*segments, x=points[0][0], y=points[0][1])
-    assume(solved(found).determined == len(segments))
-    return found
+    part = program(*segments, x=points[0][0], y=points[0][1])
+    assume(solved(part).determined == len(segments))
+    return part
 
 
 def solved(given_program: Program) -> SolvedBlock:
@@ -79,14 +79,14 @@ def same(block: SolvedBlock, other: SolvedBlock, tolerance: float = 1e-6) -> boo
     assert [number for number, _ in block.pieces] == [number for number, _ in other.pieces]
     pairs = zip(block.pieces, other.pieces, strict=True)
     return turns(block) == turns(other) and all(
-        dist(here, there) <= tolerance
-        for (_, one), (_, two) in pairs
-        for here, there in zip(places(one), places(two), strict=True)
+        dist(place, other_place) <= tolerance
+        for (_, piece), (_, other_piece) in pairs
+        for place, other_place in zip(places(piece), places(other_piece), strict=True)
     )
 
 
 def moved(part: Program, dx: float, dy: float) -> Program:
-    """The same part elsewhere: every typed coordinate shifted."""
+    """The same part with every typed coordinate shifted."""
     block = part.blocks[0]
     segments = tuple(shifted(segment, dx, dy) for segment in block.segments)
     x, y = Number(value(block.x_start) + dx), Number(value(block.y_start) + dy)
@@ -101,15 +101,15 @@ def value(typed: object) -> float:
 def shifted(segment: Segment, dx: float, dy: float) -> Segment:
     if isinstance(segment, CornerSegment):
         return segment
-    found = replace(segment, x_end=Number(value(segment.x_end) + dx), y_end=Number(value(segment.y_end) + dy))
-    if isinstance(found, ArcSegment):
-        x, y = value(found.x_center) + dx, value(found.y_center) + dy
-        return replace(found, x_center=Number(x), y_center=Number(y))
-    return found
+    result = replace(segment, x_end=Number(value(segment.x_end) + dx), y_end=Number(value(segment.y_end) + dy))
+    if isinstance(result, ArcSegment):
+        x, y = value(result.x_center) + dx, value(result.y_center) + dy
+        return replace(result, x_center=Number(x), y_center=Number(y))
+    return result
 
 
 def mirrored(part: Program) -> Program:
-    """The same part seen in a mirror along Y."""
+    """The same part mirrored in the Y axis."""
     block = part.blocks[0]
     segments = tuple(mirrored_segment(segment) for segment in block.segments)
     return replace(part, blocks=(replace(block, x_start=Number(-value(block.x_start)), segments=segments),))
@@ -118,39 +118,39 @@ def mirrored(part: Program) -> Program:
 def mirrored_segment(segment: Segment) -> Segment:
     if isinstance(segment, CornerSegment):
         return segment
-    found = replace(segment, x_end=Number(-value(segment.x_end)))
-    if isinstance(found, ArcSegment):
-        turned = Direction.CW if found.direction is Direction.CCW else Direction.CCW
-        return replace(found, x_center=Number(-value(found.x_center)), direction=turned)
-    return found
+    result = replace(segment, x_end=Number(-value(segment.x_end)))
+    if isinstance(result, ArcSegment):
+        turned = Direction.CW if result.direction is Direction.CCW else Direction.CCW
+        return replace(result, x_center=Number(-value(result.x_center)), direction=turned)
+    return result
 
 
 @laws
 @given(contours(), coordinates, coordinates)
-def test_a_part_moved(part, dx, dy):
-    here, there = solved(part), solved(moved(part, dx, dy))
-    assert turns(here) == turns(there)
-    for (_, one), (_, two) in zip(here.pieces, there.pieces, strict=True):
-        for (x, y), place in zip(places(one), places(two), strict=True):
+def test_a_moved_part_has_moved_pieces(part, dx, dy):
+    original, changed = solved(part), solved(moved(part, dx, dy))
+    assert turns(original) == turns(changed)
+    for (_, piece), (_, changed_piece) in zip(original.pieces, changed.pieces, strict=True):
+        for (x, y), place in zip(places(piece), places(changed_piece), strict=True):
             assert dist((x + dx, y + dy), place) < 1e-6
 
 
 @laws
 @given(contours())
-def test_a_part_mirrored(part):
-    here, there = solved(part), solved(mirrored(part))
-    assert turns(here) == [-turn for turn in turns(there)]
-    for (_, one), (_, two) in zip(here.pieces, there.pieces, strict=True):
-        for (x, y), place in zip(places(one), places(two), strict=True):
+def test_a_mirrored_part_has_mirrored_pieces(part):
+    original, changed = solved(part), solved(mirrored(part))
+    assert turns(original) == [-turn for turn in turns(changed)]
+    for (_, piece), (_, changed_piece) in zip(original.pieces, changed.pieces, strict=True):
+        for (x, y), place in zip(places(piece), places(changed_piece), strict=True):
             assert dist((-x, y), place) < 1e-6
 
 
 @laws
 @given(contours(), st.floats(0, 360))
-def test_lines_by_length_and_angle_turn_with_the_part(part, degrees):
-    """A part typed by lengths and angles alone is the same part when every angle grows by the same."""
-    found = solved(part)
-    lines = [one for one in found.segments if one.piece is not None and "angle" in one.values]
+def test_lines_of_length_and_angle_rotate_with_their_angles(part, degrees):
+    """A part of lengths and angles only is rotated when all angles grow by the same amount."""
+    block = solved(part)
+    lines = [one for one in block.segments if one.piece is not None and "angle" in one.values]
     assume(len(lines) > 1)
     typed = [(number(one.values["length"]), number(one.values["angle"])) for one in lines]
     plain = solved(program(*(line(length=length, angle=angle) for length, angle in typed)))
@@ -169,7 +169,7 @@ def number(given_value: object) -> float:
 
 @laws
 @given(contours())
-def test_the_other_unit_is_the_same_part(part):
+def test_the_part_is_the_same_in_the_other_unit(part):
     inches = edit.set_unit(part, Unit.IN)
     assert same(solved(part), solved(inches))
     assert solved(part).closed is solved(inches).closed
@@ -178,18 +178,22 @@ def test_the_other_unit_is_the_same_part(part):
 
 @laws
 @given(contours())
-def test_what_was_calculated_may_be_typed_and_changes_nothing(part):
-    """Every CAL number typed in agrees with the rest, so there is no finding and no other path."""
+def test_typing_calculated_values_changes_nothing(part):
+    """Every typed CAL number agrees with the others: there is no finding and the path stays the same."""
     before = solved(part)
     typed = part
     for segment in before.segments:
-        for name, found in segment.values.items():
-            if isinstance(found, Solved):
-                typed = program_of(edit.type_field(typed, FormPlace(1, segment.number), name, Number(found.value)))
+        for name, solved_value in segment.values.items():
+            if isinstance(solved_value, Solved):
+                typed = program_of(
+                    edit.type_field(typed, FormPlace(1, segment.number), name, Number(solved_value.value))
+                )
     after = solved(typed)
     assert after.every_finding == ()
     assert same(before, after)
-    assert not any(isinstance(found, Solved) for segment in after.segments for found in segment.values.values())
+    assert not any(
+        isinstance(solved_value, Solved) for segment in after.segments for solved_value in segment.values.values()
+    )
 
 
 def program_of(edited: edit.Edited) -> Program:
@@ -199,11 +203,11 @@ def program_of(edited: edit.Edited) -> Program:
 
 @laws
 @given(contours())
-def test_calculated_numbers_are_ones_the_fields_would_take(part):
-    for typed, found in zip(part.blocks[0].segments, solved(part).segments, strict=True):
-        for name, one in found.values.items():
-            if isinstance(one, Solved):
-                assert value_refusal(field_of(form_of(typed), name), one.value, part.unit) is None
+def test_calculated_numbers_are_within_the_range_of_their_fields(part):
+    for typed, result in zip(part.blocks[0].segments, solved(part).segments, strict=True):
+        for name, field_value in result.values.items():
+            if isinstance(field_value, Solved):
+                assert value_refusal(field_of(form_of(typed), name), field_value.value, part.unit) is None
 
 
 @laws
@@ -211,8 +215,8 @@ def test_calculated_numbers_are_ones_the_fields_would_take(part):
 def test_pieces_join_and_arcs_are_exact(part):
     block = solved(part)
     pieces = [piece for _, piece in block.pieces]
-    for before, behind in pairwise(pieces):
-        assert before.end == behind.start
+    for before, after in pairwise(pieces):
+        assert before.end == after.start
     for piece in pieces:
         if isinstance(piece, Arc):
             (x, y), (cx, cy) = piece.end, piece.center
@@ -221,10 +225,10 @@ def test_pieces_join_and_arcs_are_exact(part):
 
 @laws
 @given(contours(), st.integers(1, 6))
-def test_deleting_what_was_inserted_changes_nothing(part, at):
-    where = FormPlace(1, min(at, len(part.blocks[0].segments) + 1))
-    longer = program_of(edit.insert_segment(part, where, line(x_end=1.0, y_end=2.0)))
-    assert program_of(edit.delete_segment(longer, where)) == part
+def test_deleting_an_inserted_segment_restores_the_part(part, at):
+    place = FormPlace(1, min(at, len(part.blocks[0].segments) + 1))
+    longer = program_of(edit.insert_segment(part, place, line(x_end=1.0, y_end=2.0)))
+    assert program_of(edit.delete_segment(longer, place)) == part
 
 
 @laws

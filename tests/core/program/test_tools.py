@@ -1,4 +1,4 @@
-"""The tool table: which tool a field calls, and LinuxCNC tables read."""
+"""The tool table: tools that fields call, and the import of LinuxCNC tables."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from tests.properties import exercised, must_exercise
 TABLE = Program(tools=(Tool(1, "END MILL", Number(0.5)), Tool(4, "BALL MILL")))
 
 
-def test_find():
+def test_find_tool_returns_the_tool_or_none():
     assert find_tool(TABLE, 1) == Tool(1, "END MILL", Number(0.5))
     assert find_tool(TABLE, 2) is None
 
 
-def test_a_tool_that_is_there():
+def test_a_called_tool_has_its_type_and_diameter():
     tool = called_tool(TABLE, Number(1.0), "tool")
     assert (tool.type, tool.diameter, tool.findings) == ("END MILL", 12.7, ())
 
 
-def test_a_missing_tool():
+def test_a_missing_tool_is_an_error():
     (finding,) = called_tool(TABLE, Number(2.0), "finish_tool").findings
     assert (finding.code, finding.severity, finding.field) == ("TOOL_MISSING", Severity.ERROR, "finish_tool")
     assert finding.text == "Tool 2 is not in the tool table: add it on TOOL SETUP, or call another."
@@ -42,7 +42,7 @@ def test_a_missing_tool():
 @pytest.mark.parametrize(
     ("typed", "name"), [(None, "tool"), (Unread("x", "why"), "tool"), (Number(0.0), "finish_tool")]
 )
-def test_nothing_is_called(typed, name):
+def test_a_blank_or_zero_tool_calls_nothing(typed, name):
     tool = called_tool(TABLE, typed, name)
     assert (tool.type, tool.diameter, tool.findings) == ("", None, ())
 
@@ -57,19 +57,19 @@ def test_nothing_is_called(typed, name):
         (Unread("1,5", "why"), "1,5 cannot be read"),
     ],
 )
-def test_a_diameter_that_cannot_be_used(typed, words):
+def test_an_unusable_diameter_is_reported(typed, words):
     tool = Tool(3, diameter=typed)
-    found = called_tool(Program(tools=(tool,)), Number(3.0), "tool", Severity.WARNING)
-    assert found.diameter is None
-    assert (found.findings[0].code, found.findings[0].severity) == ("TOOL_DIAMETER", Severity.WARNING)
-    assert words in found.findings[0].text
+    called = called_tool(Program(tools=(tool,)), Number(3.0), "tool", Severity.WARNING)
+    assert called.diameter is None
+    assert (called.findings[0].code, called.findings[0].severity) == ("TOOL_DIAMETER", Severity.WARNING)
+    assert words in called.findings[0].text
 
 
-def test_a_diameter_beyond_any_tool_is_refused_as_a_typed_one_is():
+def test_a_diameter_out_of_range_is_refused():
     part = Program(tools=(Tool(1, diameter=Number(20000.0)),))
-    found = called_tool(part, Number(1.0), "tool")
-    assert found.diameter is None
-    assert [one.text for one in found.findings] == ["Tool 1: TOOL DIAMETER must be above 0, at most 10000."]
+    called = called_tool(part, Number(1.0), "tool")
+    assert called.diameter is None
+    assert [finding.text for finding in called.findings] == ["Tool 1: TOOL DIAMETER must be above 0, at most 10000."]
 
 
 LINUXCNC_TABLE = """\
@@ -92,7 +92,7 @@ def refused(text: str) -> Finding:
     return table.errors[0]
 
 
-def test_a_table_in_order_of_numbers_with_remarks_as_types():
+def test_a_table_is_sorted_by_number_with_remarks_as_types():
     table = read(LINUXCNC_TABLE)
     assert table.tools == (
         Tool(1, "END MILL", Number(0.5)),
@@ -106,12 +106,12 @@ def test_a_table_in_order_of_numbers_with_remarks_as_types():
     ("unit", "program", "value"),
     [(Unit.MM, Unit.IN, 0.5), (Unit.MM, Unit.MM, 12.7), (Unit.IN, Unit.MM, 322.58)],
 )
-def test_lengths_are_converted_from_the_tables_unit(unit, program, value):
+def test_diameters_are_converted_from_the_unit_of_the_table(unit, program, value):
     assert read("T1 D12.7", unit, program).tools == (Tool(1, "END MILL", Number(value)),)
 
 
 @pytest.mark.parametrize("line", ["T3 P3", "T3 P3 D0", "T3 P3 D-0.0"])
-def test_a_tool_without_a_diameter_stays_blank_and_is_told(line):
+def test_a_tool_without_a_diameter_stays_blank_and_is_reported(line):
     table = read(f"T1 D.5\n{line}")
     assert table.tools[1] == Tool(3, "END MILL", None)
     (finding,) = table.findings
@@ -141,26 +141,26 @@ def test_a_tool_without_a_diameter_stays_blank_and_is_told(line):
         ("G1 X0 Y0 F100", 1, 1, "G is not a word"),
     ],
 )
-def test_nothing_is_imported_of_a_table_with_a_fault(text, line, column, words):
+def test_a_table_with_a_fault_is_not_imported(text, line, column, words):
     finding = refused(text)
     assert (finding.line, finding.column) == (line, column)
     assert words in finding.text
 
 
-def test_what_a_message_repeats_moves_no_cursor_and_holds_no_place_for_a_length():
+def test_text_quoted_in_a_message_is_made_harmless():
     assert refused("T1 \x1b[2J{value}").text == "?[2J?value? is not a word of a tool table; write T1 P1 D.25 Z0."
 
 
-def test_a_remark_becomes_a_type_without_control_signs():
+def test_a_remark_becomes_a_type_without_control_characters():
     assert read("T1 D.5 ;END\x1b[31m\x07 MILL").tools[0].type == "END[31m MILL"
     assert len(read(f"T1 D.5 ;{'x' * 500}").tools[0].type) == 40
 
 
-def test_a_file_that_is_no_table_is_refused_for_its_length():
+def test_a_file_with_too_many_lines_is_refused():
     assert "more than" in refused("T1 D.5\n" + ";\n" * MAX_TABLE_LINES).text
 
 
-def test_line_ends_and_encodings():
+def test_all_line_ends_and_encodings_are_read():
     assert len(read("T1 D1\rT2 D2\r\nT3 D3\n").tools) == 3
     assert decode_table(b"\xef\xbb\xbfT1 ;\xc3\xb8") == "T1 ;\u00f8"
     assert decode_table(b"T1 ;\xf8") == "T1 ;\u00f8"
@@ -186,7 +186,7 @@ tables = st.one_of(
 @must_exercise(0.2, "imported", "refused")
 @settings(max_examples=300)
 @given(tables)
-def test_never_half_imported_whatever_the_text(text):
+def test_a_table_is_imported_whole_or_not_at_all(text):
     table = read(text)
     exercised("imported" if table.tools else "refused")
     assert bool(table.errors) == (table.tools == ())
@@ -199,7 +199,7 @@ def test_never_half_imported_whatever_the_text(text):
 
 
 @given(st.text(alphabet="TDPZQ ;.-+0123456789\nex{\x1b", max_size=60))
-def test_any_text_is_a_table_or_is_refused(text):
+def test_any_text_is_a_table_or_refused(text):
     table = read(text)
     assert bool(table.errors) == (table.tools == ())
 
@@ -207,11 +207,11 @@ def test_any_text_is_a_table_or_is_refused(text):
 @must_exercise(0.2)
 @settings(max_examples=300)
 @given(tables)
-def test_a_controls_table_has_the_same_tools_where_both_take_it(text):
+def test_the_reader_of_the_control_finds_the_same_tools(text):
     table, control = read(text), read_table(text.encode())[0]
     if table.tools:
         exercised()
     for tool in table.tools:
-        held = control.get(tool.number)
-        assert held is not None
-        assert held.diameter == (tool.diameter.value if tool.diameter else 0.0)
+        control_tool = control.get(tool.number)
+        assert control_tool is not None
+        assert control_tool.diameter == (tool.diameter.value if tool.diameter else 0.0)

@@ -1,6 +1,6 @@
-"""The judge against a slow one over many contours, and over their paths spoiled in all ways.
+"""The judge against a slow one on many contours, with correct and spoiled paths.
 
-`python -m tests.core.verify.test_brute [seeds]` compares as many more as wanted.
+`python -m tests.core.verify.test_brute [seeds]` compares more of them.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ def _spots(random: Random, count: int) -> list[tuple[float, float]]:
 
 
 def wander(random: Random) -> Path:
-    """Any chain, which mostly crosses itself."""
+    """A random chain that usually crosses itself."""
     spots = _spots(random, random.randint(2, 7))
     return Chain(tuple(spots), tuple(random.choice((0.0, 0.0, 0.4, -0.7, 1.0)) for _ in spots[1:])).path()
 
 
 def convex(random: Random) -> Path:
-    """A closed convex outline, started anywhere on its first side."""
+    """A closed convex outline that starts at a corner or mid-side."""
     count = random.randint(3, 14)
     angles = sorted(random.uniform(0, tau) for _ in range(count))
     spots = [(5 * cos(a), 5 * sin(a)) for a in angles]
@@ -50,7 +50,7 @@ def convex(random: Random) -> Path:
 
 
 def walls(random: Random) -> Path:
-    """Slots and fins as wide as the cutter, a little wider or narrower: walls side by side, to and fro."""
+    """Slots and fins about as wide as the cutter, with parallel walls."""
     width, x, spots = random.choice((1.0, 1.0, 0.98, 1.02, 1.3)), 0.0, [(0.0, 0.0)]
     for k in range(random.randint(2, 6)):
         y = 3.0 if k % 2 == 0 else random.choice((0.0, 0.5))
@@ -61,7 +61,7 @@ def walls(random: Random) -> Path:
 
 
 def spiral(random: Random) -> Path:
-    """Turns nearer and farther apart than the cutter is wide, of lines or of arcs."""
+    """A spiral of lines or arcs, with turns closer or farther apart than the cutter is wide."""
     grow, step = random.choice((0.1, 0.16, 0.3)), random.choice((0.3, 0.7, 1.2))
     angles = np.arange(0.0, random.uniform(6.0, 16.0), step)
     spots = [((0.5 + grow * a) * cos(a), (0.5 + grow * a) * sin(a)) for a in angles.tolist()]
@@ -77,7 +77,7 @@ def waves(random: Random) -> Path:
 
 
 def rounds(random: Random) -> Path:
-    """A full circle, or big arcs about one center that follow each other, in and out."""
+    """A full circle, or consecutive large arcs about one center."""
     if random.random() < 0.4:
         return circle((random.uniform(-2, 2), 1.0), random.choice((0.4, 0.5, 2.0)), random.choice((Turn.CW, Turn.CCW)))
     pieces, radius, angle = [], 2.0, 0.0
@@ -93,12 +93,12 @@ FAMILIES: tuple[Callable[[Random], Path], ...] = (wander, convex, walls, spiral,
 
 
 def centers(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]:
-    """Paths beside a surface: the control's, the best one's loops, of another radius, spoiled a little or much."""
+    """Paths beside a surface: those of the control and the best path, with other radii, slightly or badly spoiled."""
     side, radius = random.choice(list(Side)), random.choice((0.1, 0.5, 0.5, 1.3))
     closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
-    made = compensate(surface, side, radius, random.choice((1, 3, 20)), closed=closed).path
+    control_path = compensate(surface, side, radius, random.choice((1, 3, 20)), closed=closed).path
     loops = best_path(surface, side, radius, closed=closed).loops
-    for path in (made, *loops[:1]):
+    for path in (control_path, *loops[:1]):
         if not len(path):
             continue
         yield side, radius, path
@@ -112,12 +112,12 @@ def centers(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_the_judge_and_the_slow_judge_agree(family: Callable[[Random], Path]) -> None:
+def test_the_judge_agrees_with_the_slow_judge(family: Callable[[Random], Path]) -> None:
     assert compared(family, 0, 4) > 13
 
 
 def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
-    """How many paths were judged by both."""
+    """The number of paths judged by both."""
     random, count = Random(f"{family.__name__} {seed}"), 0
     for _ in range(contours):
         surface = family(random)
@@ -129,17 +129,17 @@ def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
 
 
 def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
-    """The judge says what the slow judge finds; that one knows no over-runs, and gets the contour without them."""
-    told = judge(surface, side, radius, path)
-    if told.over_run is not None:
-        surface = _between_leads(surface, told.over_run.at)
+    """The judge agrees with the slow judge, which knows no over-runs and gets the contour without them."""
+    verdict = judge(surface, side, radius, path)
+    if verdict.over_run is not None:
+        surface = _between_leads(surface, verdict.over_run.at)
     truth = slow(surface, radius, path, STOCK)
-    _agree(told, truth, surface, radius, path)
-    _as_deep(told, truth, surface, side, path)
+    _agree(verdict, truth, surface, radius, path)
+    _as_deep(verdict, truth, surface, side, path)
 
 
 def _between_leads(surface: Path, crossing: tuple[float, float]) -> Path:
-    """The contour with its first and its last element cut at their crossing."""
+    """The contour with its first and last piece cut at their crossing."""
     points, centers = surface.points.copy(), surface.centers.copy()
     points[0] = points[-1] = crossing
     if not surface.turns[0]:
@@ -147,41 +147,41 @@ def _between_leads(surface: Path, crossing: tuple[float, float]) -> Path:
     return Path.of(points, centers, surface.turns, surface.numbers)
 
 
-def _as_deep(told: Verdict, truth: Slow, surface: Path, side: Side, path: Path) -> None:
-    """The depth, and behind an open contour at least that of the nearest place."""
-    behind, radius = -inf, told.radius
+def _as_deep(verdict: Verdict, truth: Slow, surface: Path, side: Side, path: Path) -> None:
+    """The depth agrees; behind an open contour it is at least that of the nearest place."""
+    inside_depth, radius = -inf, verdict.radius
     closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
-    if closed and not told.crosses_itself:
+    if closed and not verdict.crosses_itself:
         room_inside = (oracle.turning(surface) > 0.0) == (side is Side.LEFT)
-        behind = oracle.deepest(path, surface, truth.step, room_inside=room_inside)
-    depth = gouged(radius, truth.clearance, behind)
-    if behind > 0.0:
-        assert told.depth == pytest.approx(depth, abs=1e-6)
-        assert told.wrong_side or behind < 1e-5
-    elif closed or told.crosses_itself or told.depth <= radius:
-        assert told.depth == pytest.approx(depth, abs=1e-9)
+        inside_depth = oracle.deepest(path, surface, truth.step, room_inside=room_inside)
+    depth = gouged(radius, truth.clearance, inside_depth)
+    if inside_depth > 0.0:
+        assert verdict.depth == pytest.approx(depth, abs=1e-6)
+        assert verdict.wrong_side or inside_depth < 1e-5
+    elif closed or verdict.crosses_itself or verdict.depth <= radius:
+        assert verdict.depth == pytest.approx(depth, abs=1e-9)
     else:
-        assert depth < told.depth <= 2.0 * radius
-        assert told.wrong_side
+        assert depth < verdict.depth <= 2.0 * radius
+        assert verdict.wrong_side
 
 
-def _agree(told: Verdict, truth: Slow, surface: Path, radius: float, path: Path) -> None:
-    assert told.judged
-    assert told.clearance == pytest.approx(truth.clearance, abs=1e-9)
-    steps = truth.step * (2.0 * len(path) + 2.0 * len(told.gouges) + 2.0)
-    assert sum(gouge.extent for gouge in told.gouges) == pytest.approx(truth.gouging, abs=steps)
-    thickest = max((stretch.thickness for stretch in told.uncut), default=0.0)
-    # dense points may miss a short stretch, and then it is seen from what is told of it
+def _agree(verdict: Verdict, truth: Slow, surface: Path, radius: float, path: Path) -> None:
+    assert verdict.judged
+    assert verdict.clearance == pytest.approx(truth.clearance, abs=1e-9)
+    steps = truth.step * (2.0 * len(path) + 2.0 * len(verdict.gouges) + 2.0)
+    assert sum(gouge.extent for gouge in verdict.gouges) == pytest.approx(truth.gouging, abs=steps)
+    thickest = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
+    # dense points may miss a short stretch, which its own values then prove
     assert thickest > (truth.farthest - radius if truth.farthest - radius > STOCK else 0.0) - 1e-6
-    for stretch in told.uncut:
+    for stretch in verdict.uncut:
         farthest = min(point_to(piece, *stretch.thickest) for piece in path)
         assert stretch.thickness == pytest.approx(farthest - radius, abs=1e-8)
     # stretches are told whole where they are thicker than STOCK somewhere, dense points count only where they are
-    # what runs along the first wall again counts once
-    left = min(truth.left, told.surface_length)
-    assert told.uncut_length > left - truth.step * (2.0 * len(surface) + 2.0 * len(told.uncut) + 2.0)
-    for stretch in told.uncut:
-        assert stretch.length <= told.surface_length + 1e-9
+    # an overlap along the first wall counts once
+    left = min(truth.left, verdict.surface_length)
+    assert verdict.uncut_length > left - truth.step * (2.0 * len(surface) + 2.0 * len(verdict.uncut) + 2.0)
+    for stretch in verdict.uncut:
+        assert stretch.length <= verdict.surface_length + 1e-9
 
 
 if __name__ == "__main__":
