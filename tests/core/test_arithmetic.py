@@ -1,4 +1,4 @@
-"""Sums an operator types, checked against hand-made values and against Python's own fractions."""
+"""Typed sums against hand-made values and Python's fractions."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def read(text: str) -> Fraction:
         ("2\N{MULTIPLICATION SIGN}3", "6"),
     ],
 )
-def test_reads(text, value):
+def test_evaluate_reads_numbers_sums_and_units(text, value):
     assert read(text) == Fraction(value)
 
 
@@ -101,19 +101,19 @@ def test_reads(text, value):
         ("(" * MAX_CHARACTERS, "A number is missing at the end"),
     ],
 )
-def test_refuses(text, word):
+def test_evaluate_refuses_with_a_reason(text, word):
     with pytest.raises(CannotReadError, match=word):
         read(text)
 
 
-def test_a_dash_before_a_fraction_may_mean_two_things():
+def test_a_dash_before_a_fraction_of_an_inch_is_refused_as_ambiguous():
     with pytest.raises(CannotReadError, match=r"1-1/2 is not clear: type 1 1/2 with a blank, or 1 - 1/2"):
         read("1-1/2")
     with pytest.raises(CannotReadError, match=r"type -2 3/16 with a blank"):
         read("-2-3/16in")
 
 
-def test_a_dash_before_what_is_no_fraction_of_an_inch_is_a_sum():
+def test_a_dash_before_any_other_fraction_is_a_minus():
     assert read("2-3/2") == Fraction(1, 2)
     assert read("2-1/3") == Fraction(5, 3)
     assert read("2-1/2-1") == Fraction(1, 2)
@@ -133,7 +133,7 @@ signs = st.sampled_from(["+", " - ", "*"])
 
 @settings(derandomize=True, max_examples=200)
 @given(st.lists(st.tuples(numbers, signs), min_size=1, max_size=4), numbers)
-def test_agrees_with_exact_arithmetic(terms, last):
+def test_evaluate_agrees_with_exact_arithmetic(terms, last):
     text = "".join(number + sign for number, sign in terms) + last
     exact = "".join(f"Fraction('{number}'){sign}" for number, sign in terms) + f"Fraction('{last}')"
     assert read(text) == eval(exact, {"Fraction": Fraction})
@@ -147,5 +147,5 @@ def test_any_text_is_a_number_or_has_a_reason(text):
 
 @settings(derandomize=True, max_examples=300)
 @given(st.text(alphabet='0123456789./*-+() inm"', max_size=MAX_CHARACTERS))
-def test_any_text_of_the_right_signs_is_a_number_or_has_a_reason(text):
+def test_any_text_of_allowed_characters_is_a_number_or_has_a_reason(text):
     assert outcome(text).endswith(".") or Fraction(outcome(text)) == read(text)

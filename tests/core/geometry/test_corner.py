@@ -1,4 +1,4 @@
-"""Blends of two pieces: by hand for lines, by law for every pair of line and arc."""
+"""Blends of two pieces: hand calculations, and properties of all pairs of lines and arcs."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from tests.properties import exercised, must_exercise
 
 
-def near(one: Point, other: Point, tolerance: float = 1e-9) -> bool:
-    return dist(one, other) <= tolerance
+def near(first: Point, second: Point, tolerance: float = 1e-9) -> bool:
+    return dist(first, second) <= tolerance
 
 
 def blended(before: Piece, after: Piece, radius: float) -> Corner:
-    found = fillet(before, after, radius)
-    assert isinstance(found, Corner)
-    return found
+    result = fillet(before, after, radius)
+    assert isinstance(result, Corner)
+    return result
 
 
 def largest_of(before: Piece, after: Piece) -> float | None:
@@ -30,27 +30,27 @@ def largest_of(before: Piece, after: Piece) -> float | None:
     return refused.largest
 
 
-def test_a_square_corner():
-    found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0)), 2.0)
-    assert found.before == Line((0.0, 0.0), (8.0, 0.0))
-    assert near(found.between.center, (8.0, 2.0))
-    assert found.between.turn is Turn.CCW
-    assert found.after == Line((10.0, 2.0), (10.0, 10.0))
+def test_a_square_corner_is_blended():
+    result = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0)), 2.0)
+    assert result.before == Line((0.0, 0.0), (8.0, 0.0))
+    assert near(result.between.center, (8.0, 2.0))
+    assert result.between.turn is Turn.CCW
+    assert result.after == Line((10.0, 2.0), (10.0, 10.0))
 
 
-def test_a_corner_to_the_right():
-    found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, -10.0)), 2.0)
-    assert near(found.between.center, (8.0, -2.0))
-    assert found.between.turn is Turn.CW
+def test_a_corner_to_the_right_is_blended_clockwise():
+    result = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, -10.0)), 2.0)
+    assert near(result.between.center, (8.0, -2.0))
+    assert result.between.turn is Turn.CW
 
 
 def test_a_blend_may_use_a_whole_line():
-    found = blended(Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0)), 2.0)
-    assert found.before is None
-    assert near(found.between.start, (0.0, 0.0))
+    result = blended(Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0)), 2.0)
+    assert result.before is None
+    assert near(result.between.start, (0.0, 0.0))
 
 
-def test_a_radius_that_does_not_fit_says_the_largest_that_does():
+def test_a_radius_that_does_not_fit_gives_the_largest_that_fits():
     short, long = Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0))
     assert largest_of(short, long) == pytest.approx(2.0)
     sharp = Line((2.0, 0.0), (0.0, 2.0))
@@ -60,42 +60,42 @@ def test_a_radius_that_does_not_fit_says_the_largest_that_does():
     assert isinstance(fillet(short, sharp, 2.0 * largest - 1e-6), Corner)
 
 
-def test_no_corner_no_blend():
+def test_tangent_pieces_and_reversals_are_not_blended():
     line = Line((0.0, 0.0), (2.0, 0.0))
     assert fillet(line, Line((2.0, 0.0), (5.0, 0.0)), 1.0) == NoCorner(Reason.TANGENT)
     assert fillet(line, Arc((2.0, 0.0), (3.0, 1.0), (2.0, 1.0), Turn.CCW), 1.0) == NoCorner(Reason.TANGENT)
     assert fillet(line, Line((2.0, 0.0), (0.0, 0.0)), 1.0) == NoCorner(Reason.REVERSAL)
 
 
-def test_line_and_arc_by_hand():
-    """Along X into a circle of radius 5 about (5, 0) that starts upwards at (0, 0): the blend of 1 lies at (h, 1)."""
+def test_a_line_and_an_arc_are_blended():
+    """A line along X meets a circle of radius 5 about (5, 0) at (0, 0): the blend of radius 1 is at (h, 1)."""
     before = Line((-10.0, 0.0), (0.0, 0.0))
     after = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
-    found = blended(before, after, 1.0)
-    assert found.between.turn is Turn.CCW
-    assert near(found.between.center, (5.0 - sqrt(35.0), 1.0))
-    assert near(found.between.start, (5.0 - sqrt(35.0), 0.0))
-    assert dist(found.between.end, (5.0, 0.0)) == pytest.approx(5.0)
+    result = blended(before, after, 1.0)
+    assert result.between.turn is Turn.CCW
+    assert near(result.between.center, (5.0 - sqrt(35.0), 1.0))
+    assert near(result.between.start, (5.0 - sqrt(35.0), 0.0))
+    assert dist(result.between.end, (5.0, 0.0)) == pytest.approx(5.0)
 
 
-def test_two_arcs_by_hand():
-    """Two half circles of radius 3 beside each other meet at a cusp; the blend of radius 1 stands above it."""
+def test_two_arcs_are_blended():
+    """Two half circles of radius 3 meet at a cusp; the blend of radius 1 is above it."""
     before = Arc((-6.0, 0.0), (0.0, 0.0), (-3.0, 0.0), Turn.CW)
     after = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
-    found = blended(before, after, 1.0)
-    assert near(found.between.center, (0.0, sqrt(7.0)))
-    assert found.between.turn is Turn.CCW
-    assert near(found.between.start, (-0.75, sqrt(7.0) * 0.75))
+    result = blended(before, after, 1.0)
+    assert near(result.between.center, (0.0, sqrt(7.0)))
+    assert result.between.turn is Turn.CCW
+    assert near(result.between.start, (-0.75, sqrt(7.0) * 0.75))
 
 
-def test_an_arc_too_short_for_the_radius():
+def test_an_arc_too_short_for_the_radius_is_refused():
     before = Line((-10.0, 0.0), (0.0, 0.0))
     after = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
     assert fillet(before, after, 3.0) == NoCorner(Reason.TOO_LARGE)
 
 
 def piece_from(corner: Point, heading: float, length: float, bend: float) -> Piece:
-    """A piece that starts at a corner: straight, or turning by `bend` on its way."""
+    """A piece that starts at a corner: a line, or an arc that turns by `bend`."""
     if abs(bend) < 0.1:
         return Line(corner, (corner[0] + length * cos(heading), corner[1] + length * sin(heading)))
     radius, turn = length / abs(bend), Turn.CCW if bend > 0 else Turn.CW
@@ -115,40 +115,40 @@ pieces = st.tuples(st.floats(0, tau), st.floats(2, 30), st.floats(-3.0, 3.0))
 
 @settings(derandomize=True, max_examples=400)
 @given(pieces, pieces, st.floats(0.05, 3.0))
-def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
+def test_a_blend_is_tangent_to_both_pieces_and_within_them(first, second, radius):
     before, after = back(piece_from((1.0, 2.0), *first)), piece_from((1.0, 2.0), *second)
-    found = fillet(before, after, radius)
-    assume(isinstance(found, Corner))
-    assert isinstance(found, Corner)
-    arc = found.between
+    result = fillet(before, after, radius)
+    assume(isinstance(result, Corner))
+    assert isinstance(result, Corner)
+    arc = result.between
     assert arc.radius == pytest.approx(radius, abs=1e-7)
     assert dist(arc.end, arc.center) == pytest.approx(radius, abs=1e-7)
-    for piece, point, left in ((before, arc.start, found.before), (after, arc.end, found.after)):
+    for piece, point, left in ((before, arc.start, result.before), (after, arc.end, result.after)):
         assert near(piece.direction_at(point), arc.direction_at(point), 1e-6)
         assert (left.length if left else 0.0) <= piece.length + 1e-7
-    if found.before:
-        assert (found.before.start, found.before.end) == (before.start, arc.start)
-    if found.after:
-        assert (found.after.start, found.after.end) == (arc.end, after.end)
+    if result.before:
+        assert (result.before.start, result.before.end) == (before.start, arc.start)
+    if result.after:
+        assert (result.after.start, result.after.end) == (arc.end, after.end)
 
 
 @must_exercise(0.2)
 @settings(derandomize=True, max_examples=200)
 @given(pieces, pieces, st.floats(0.05, 3.0))
-def test_a_blend_is_the_same_traveled_back(first, second, radius):
+def test_a_reversed_corner_has_the_same_blend(first, second, radius):
     before, after = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
-    one, other = fillet(before, after, radius), fillet(back(after), back(before), radius)
-    assert type(one) is type(other)
-    if isinstance(one, Corner) and isinstance(other, Corner):
+    forward, backward = fillet(before, after, radius), fillet(back(after), back(before), radius)
+    assert type(forward) is type(backward)
+    if isinstance(forward, Corner) and isinstance(backward, Corner):
         exercised()
-        assert near(one.between.center, other.between.center, 1e-6)
-        assert one.between.turn == -other.between.turn
+        assert near(forward.between.center, backward.between.center, 1e-6)
+        assert forward.between.turn == -backward.between.turn
 
 
 @settings(derandomize=True, max_examples=100)
 @given(st.floats(0.2, pi - 0.2), st.floats(5, 20), st.floats(5, 20))
-def test_the_largest_radius_of_a_corner_fits(corner, one, other):
-    before, after = Line((-one, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, other, 0.0)
+def test_the_largest_radius_of_a_corner_fits(corner, before_length, after_length):
+    before, after = Line((-before_length, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, after_length, 0.0)
     largest = largest_of(before, after)
     assert largest is not None
     assert isinstance(fillet(before, after, largest * (1 - 1e-9)), Corner)

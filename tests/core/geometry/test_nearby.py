@@ -1,4 +1,4 @@
-"""The searches for what is near find what comparing every pair finds, and never miss a pair."""
+"""The searches for near pieces find the same pairs as comparing all pairs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SIZES = [(1, 1), (3, 40), (57, 5), (130, 131), (300, 700)]
 
 
 def walk(seed: int, count: int, *, arcs: bool = True) -> PieceArrays:
-    """A random walk of lines and arcs of all angles, which meets itself often."""
+    """A random walk of lines and arcs that often meets itself."""
     random = np.random.default_rng(seed)
     points = np.cumsum(random.normal(size=(count + 1, 2)), axis=0)
     turns = (random.integers(-1, 2, count) * arcs).astype(np.int8)
@@ -48,7 +48,7 @@ def pairs(found: tuple[Rows, ...]) -> set[tuple[int, int]]:
 
 @pytest.mark.parametrize(("n", "m"), SIZES)
 @pytest.mark.parametrize("reach", [0.0, 0.7])
-def test_near_boxes_are_those_no_farther_apart_than_the_reach(n: int, m: int, reach: float) -> None:
+def test_near_boxes_are_within_the_reach(n: int, m: int, reach: float) -> None:
     a, b = walk(1, n).boxes, walk(2, m).boxes
     batches = list(near_pairs(a, b, reach))
     assert pairs(sorted_pairs(batches)) == pairs(np.nonzero(boxes_apart(a, b) <= reach))
@@ -56,21 +56,21 @@ def test_near_boxes_are_those_no_farther_apart_than_the_reach(n: int, m: int, re
 
 
 @pytest.mark.parametrize("n", [1, 2, 40, 700])
-def test_near_boxes_of_one_set_come_once_each(n: int) -> None:
+def test_each_pair_of_near_boxes_of_one_set_comes_once(n: int) -> None:
     a = walk(3, n).boxes
     i, j = sorted_pairs(near_pairs_within(a, 0.2))
     assert len(i) == len(pairs((i, j)))
     assert pairs((i, j)) == pairs(np.nonzero(np.triu(boxes_apart(a, a) <= 0.2, 1)))
 
 
-def test_no_boxes_are_near_none() -> None:
+def test_empty_sets_have_no_near_boxes() -> None:
     none, some = np.zeros((4, 0)), walk(1, 5).boxes
     assert not list(near_pairs(none, some, 1.0))
     assert not list(near_pairs(some, none, 1.0))
     assert len(sorted_pairs(near_pairs(none, none, 1.0))[0]) == 0
 
 
-def test_boxes_on_top_of_each_other_come_in_batches() -> None:
+def test_overlapping_boxes_come_in_batches() -> None:
     a = np.tile([[0.0], [0.0], [1.0], [1.0]], (1, 3000))
     sizes = [len(i) for i, _ in near_pairs(a, a, 0.0)]
     assert sum(sizes) == 9_000_000
@@ -78,12 +78,12 @@ def test_boxes_on_top_of_each_other_come_in_batches() -> None:
 
 
 @pytest.mark.parametrize("bound", range(4))
-def test_a_box_with_a_bound_that_is_no_number_is_near_all_and_hides_none(bound: int) -> None:
+def test_an_invalid_box_hides_no_other_pair(bound: int) -> None:
     a, b = walk(1, 130).boxes, walk(2, 131).boxes
     wanted = pairs(np.nonzero(boxes_apart(a, b) <= 0.7))
     a[bound, ::7] = np.nan
-    for found in (sorted_pairs(near_pairs(a, b, 0.7)), sorted_pairs(near_pairs(b, a, 0.7))[::-1]):
-        assert pairs(found) >= wanted
+    for near in (sorted_pairs(near_pairs(a, b, 0.7)), sorted_pairs(near_pairs(b, a, 0.7))[::-1]):
+        assert pairs(near) >= wanted
 
 
 def waves(count: int, radius: float) -> PieceArrays:
@@ -96,17 +96,17 @@ def waves(count: int, radius: float) -> PieceArrays:
 @pytest.mark.parametrize("scattered", [False, True])
 @pytest.mark.parametrize("arcs", [False, True])
 @pytest.mark.parametrize(("n", "m"), SIZES)
-def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool, scattered: bool) -> None:
-    one, other = walk(4, n, arcs=arcs), walk(5, m, arcs=arcs)
+def test_nearest_pairs_contain_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool, scattered: bool) -> None:
+    first, second = walk(4, n, arcs=arcs), walk(5, m, arcs=arcs)
     if scattered:
-        # pieces that follow each other have gaps between them
+        # consecutive pieces then have gaps between them
         random = np.random.default_rng(6)
-        one, other = one.take(random.permutation(n)), other.take(random.permutation(m))
-    found = pairs(nearest_pairs(one, other, 1e-9))
+        first, second = first.take(random.permutation(n)), second.take(random.permutation(m))
+    near = pairs(nearest_pairs(first, second, 1e-9))
     for part in np.linspace(0.0, 1.0, 9):
-        places = at(one, np.full(len(one), part))
-        nearest = distance(other, np.repeat(places[:, None], len(other), axis=1)).argmin(axis=1)
-        assert set(enumerate(nearest.tolist())) <= found
+        places = at(first, np.full(len(first), part))
+        nearest = distance(second, np.repeat(places[:, None], len(second), axis=1)).argmin(axis=1)
+        assert set(enumerate(nearest.tolist())) <= near
 
 
 def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
@@ -114,7 +114,7 @@ def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
     assert len(nearest_pairs(move, wall, 1e-9)[0]) < 8 * 2000
 
 
-def test_nearest_pairs_of_a_move_that_gouges_fine_chords_stay_few_as_the_chords_get_finer() -> None:
+def test_nearest_pairs_stay_few_for_fine_chords_that_are_gouged() -> None:
     for count in (1000, 8000):
         wall, move = waves(count, 1.0), waves(count, 1.3)
         assert len(nearest_pairs(move, wall, 1e-9)[0]) < 4 * count
@@ -123,16 +123,16 @@ def test_nearest_pairs_of_a_move_that_gouges_fine_chords_stay_few_as_the_chords_
 
 @pytest.mark.parametrize("aside", [0.0, 1e-9, 1e-7, 1e-4])
 @pytest.mark.parametrize("origin", [0.0, 1e3, 1e6])
-def test_nearest_pairs_miss_nothing_where_pieces_all_but_lie_on_each_other(aside: float, origin: float) -> None:
+def test_nearest_pairs_miss_nothing_for_nearly_coincident_pieces(aside: float, origin: float) -> None:
     random = np.random.default_rng(7)
     points = np.cumsum(random.normal(size=(201, 2)), axis=0) + origin
-    again = points + random.normal(scale=aside, size=points.shape)
-    one, other = (piece_arrays(Path.of(way, way[:-1], np.zeros(200, np.int8))) for way in (points, again))
+    shifted = points + random.normal(scale=aside, size=points.shape)
+    first, second = (piece_arrays(Path.of(way, way[:-1], np.zeros(200, np.int8))) for way in (points, shifted))
     tie = 1e-9 + 1e-15 * origin
-    i, j = nearest_pairs(one, other, tie)
+    i, j = nearest_pairs(first, second, tie)
     for part in random.uniform(size=40):
-        places = at(one, np.full(len(one), part))
-        least = distance(other, np.repeat(places[:, None], len(other), axis=1)).min(axis=1)
-        held = np.full(len(one), np.inf)
-        np.minimum.at(held, i, distance(other.take(j), places[i]))
-        assert np.all(held <= least + tie)
+        places = at(first, np.full(len(first), part))
+        least = distance(second, np.repeat(places[:, None], len(second), axis=1)).min(axis=1)
+        found_distance = np.full(len(first), np.inf)
+        np.minimum.at(found_distance, i, distance(second.take(j), places[i]))
+        assert np.all(found_distance <= least + tie)

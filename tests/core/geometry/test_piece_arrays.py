@@ -1,4 +1,4 @@
-"""Pieces as arrays: lengths, boxes, places, and pieces that are hardly there."""
+"""Pieces as arrays: lengths, boxes, places, and tiny pieces."""
 
 from __future__ import annotations
 
@@ -19,33 +19,33 @@ from tests.core.verify.shapes import lines, paths
 QUARTER = Path.from_pieces([Line((0, 0), (3, 4)), Arc((3, 4), (4, 5), (4, 4), Turn.CW), Line((4, 5), (4, 9))])
 
 
-def test_lengths_and_stations() -> None:
+def test_pieces_have_lengths_and_stations() -> None:
     pieces = piece_arrays(QUARTER)
     assert pieces.length == pytest.approx([5.0, pi / 2, 4.0])
     assert pieces.stations == pytest.approx([0.0, 5.0, 5.0 + pi / 2, 9.0 + pi / 2])
     assert pieces.radius[1] == 1.0
 
 
-def test_points_and_directions() -> None:
+def test_pieces_have_points_and_directions() -> None:
     pieces, half = piece_arrays(QUARTER), np.full(3, 0.5)
     assert at(pieces, half) == pytest.approx([1.5 + 2j, 4 + 4j + (-1 + 1j) / sqrt(2), 4 + 7j])
     assert direction(pieces, half) == pytest.approx([0.6 + 0.8j, (1 + 1j) / sqrt(2), 1j])
 
 
-def test_a_joint_belongs_to_the_piece_that_begins_there() -> None:
+def test_a_joint_belongs_to_the_piece_that_starts_there() -> None:
     pieces = piece_arrays(QUARTER)
     index, t = place(pieces, pieces.stations, np.array((-1.0, 0.0, 5.0, 5.0 + pi / 4, 100.0)))
     assert index.tolist() == [0, 0, 1, 1, 2]
     assert t == pytest.approx([0.0, 0.0, 0.0, 0.5, 1.0])
 
 
-def test_pieces_without_length_are_left_out_but_for_a_lone_one() -> None:
+def test_pieces_without_length_are_left_out_unless_all_are() -> None:
     assert piece_arrays(lines((0, 0), (0, 0), (1, 0), (1, 0))).rows.tolist() == [1]
     assert piece_arrays(lines((1, 1), (1, 1), (1, 1))).rows.tolist() == [0]
     assert len(piece_arrays(EMPTY)) == 0
 
 
-def test_a_piece_that_is_no_number_is_not_one_of_no_length() -> None:
+def test_an_invalid_piece_is_not_left_out() -> None:
     path = lines((0, 0), (1, 0), (1, 0), (nan, 1), (2, 1))
     assert piece_arrays(path).rows.tolist() == [0, 2, 3]
 
@@ -60,7 +60,7 @@ def test_an_uneven_arc_gets_a_circle_through_both_ends() -> None:
 
 @settings(deadline=None, max_examples=80, derandomize=True)
 @given(paths())
-def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
+def test_boxes_contain_all_points_tightly(path: Path) -> None:
     box = piece_arrays(path).boxes
     for index, piece in enumerate(path):
         x, y = oracle.along(piece, np.linspace(0.0, 1.0, 400)).T
@@ -74,10 +74,8 @@ def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
 
 @settings(deadline=None, max_examples=300, derandomize=True)
 @given(st.floats(-6.0, 0.0), st.floats(-7.0, -2.6), st.sampled_from((-1, 1)), st.sampled_from((-1, 1)))
-def test_an_uneven_arc_is_nowhere_farther_from_its_circle_than_its_radii_are_apart(
-    power: float, differ: float, out: int, way: int
-) -> None:
-    """The chord decides nothing: a short one once took the center of a nearly full arc millimeters away."""
+def test_an_uneven_arc_is_near_its_circle_everywhere(power: float, differ: float, out: int, way: int) -> None:
+    """The length of the chord does not matter, even for a nearly full arc with a short chord."""
     chord, off = 10.0**power, 10.0**differ
     last = (10.0 + out * off) * np.exp(1j * way * chord / 10.0)
     arc = piece_arrays(Path.from_pieces([Arc((10.0, 0.0), (last.real, last.imag), (0.0, 0.0), Turn.CCW)]))
@@ -88,8 +86,8 @@ def test_an_uneven_arc_is_nowhere_farther_from_its_circle_than_its_radii_are_apa
         assert abs(abs(at(arc, np.array((part,)))[0]) - 10.0) <= off * (1.0 + 1e-3) + 1e-9
 
 
-def test_a_gouge_of_a_nearly_full_arc_is_not_taken_for_its_uneven_radii() -> None:
-    """It ends 0.01 from its start, its radii 0.001 apart: the path is 0.3 too near on the far side."""
+def test_uneven_radii_of_a_nearly_full_arc_hide_no_gouge() -> None:
+    """The arc ends 0.01 from its start with radii 0.001 apart; the path is 0.3 too near on the far side."""
     hole = Path.from_pieces([Arc((10.0, 0.0), (10.001, -0.01), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.2, 0.0), (9.2, 0.0), (-0.3, 0.0), Turn.CCW)])
     verdict = judge(hole, Side.LEFT, 0.5, path)
@@ -100,8 +98,8 @@ def test_a_gouge_of_a_nearly_full_arc_is_not_taken_for_its_uneven_radii() -> Non
 def test_every_pair_is_in_one_block_and_large_blocks_are_of_one_kind(count: int) -> None:
     random = np.random.default_rng(1)
     first, second = random.random((2, count)) < 0.5
-    found = list(blocks(first, second))
-    assert sorted(np.concatenate([np.empty(0, np.intp), *found]).tolist()) == list(range(count))
-    for rows in found if count > FEW_PAIRS else ():
+    result = list(blocks(first, second))
+    assert sorted(np.concatenate([np.empty(0, np.intp), *result]).tolist()) == list(range(count))
+    for rows in result if count > FEW_PAIRS else ():
         assert 0 < len(rows) <= BLOCK_PAIRS
         assert len(np.unique(first[rows])) == len(np.unique(second[rows])) == 1

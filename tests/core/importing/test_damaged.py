@@ -1,4 +1,4 @@
-"""Damaged drawings: a sample of the mutants of six files; the report `tests.reports.dxf_mutants` runs thousands."""
+"""Damaged drawings: a sample of mutants of six files; the report `tests.reports.dxf_mutants` runs thousands."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ MUTANTS = 40
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_mutant_is_refused_in_a_sentence_or_taken_with_all_that_is_said(name: str) -> None:
+def test_a_mutant_is_refused_or_read_without_silent_loss(name: str) -> None:
     whole = outcome(FILES[name])
     assert whole.code == ""
     refused = 0
     for number in range(MUTANTS):
         result = outcome(mutant(FILES[name], random.Random(f"{SEED} {name} {number}")))
-        # plain ASCII: xdist ends the whole run at a message with half a surrogate pair
+        # plain ASCII: xdist aborts the run at a message with half a surrogate pair
         seconds, lost, message = result.seconds, lost_in_silence(whole, result), ascii((number, result))
         assert seconds < TIME_LIMIT, message
         assert not lost, message
@@ -39,21 +39,21 @@ def test_a_mutant_is_refused_in_a_sentence_or_taken_with_all_that_is_said(name: 
     assert refused >= MUTANTS / 20
 
 
-def test_a_file_cut_off_anywhere_is_never_taken_in_silence() -> None:
+def test_a_file_cut_off_anywhere_is_refused() -> None:
     data = made("d14-layers.dxf")
     for length in range(60, len(data) - 6, 7):
         with pytest.raises(DrawingError):
             read_dxf(data[:length], "cut.dxf")
 
 
-def test_a_damaged_file_is_taken_as_far_as_it_is_whole() -> None:
+def test_a_damaged_file_is_read_as_far_as_it_is_intact() -> None:
     data = dxf(*square(0, 0, 10))
     taken = read_dxf(data[: len(data) - 40], "cut.dxf", damaged=True)
     assert taken.entities == 3
     assert "breaks off" in taken.notes[0]
 
 
-def test_an_entity_that_has_lost_its_kind_is_never_lost_in_silence() -> None:
+def test_an_entity_without_a_kind_is_reported() -> None:
     data = dxf(*square(0, 0, 10), line((20, 0), (30, 0)))
     for faulty in (data.replace(b"ENTITIES\n0\nLINE\n", b"ENTITIES\n6\nLINE\n", 1), data.replace(b"0\nLINE\n", b"", 1)):
         with pytest.raises(DrawingError, match=r"The entity at line \d+ has no kind \(group code 0\)") as error:
@@ -64,7 +64,7 @@ def test_an_entity_that_has_lost_its_kind_is_never_lost_in_silence() -> None:
         assert any("it is not read" in note for note in taken.notes)
 
 
-def test_a_section_within_a_section_is_named_without_the_packages_words() -> None:
+def test_a_section_within_a_section_is_reported_as_damage() -> None:
     data = dxf(*square(0, 0, 10))
     with pytest.raises(DrawingError) as error:
         read_dxf(b"0\nSECTION\n2\nHEADER\n" + data, "twice.dxf")
@@ -72,12 +72,12 @@ def test_a_section_within_a_section_is_named_without_the_packages_words() -> Non
     assert error.value.readable == 4
 
 
-def test_trash_after_the_end_is_no_damage() -> None:
+def test_garbage_after_the_end_is_no_damage() -> None:
     assert read_dxf(dxf(*square(0, 0, 10)) + b"\x00\xff trash\n12\n", "trash.dxf").entities == 4
 
 
 @pytest.mark.parametrize("ends", [b"\r\n", b"\r"])
-def test_line_ends_of_any_system_are_read(ends: bytes) -> None:
+def test_line_ends_of_all_systems_are_read(ends: bytes) -> None:
     assert read_dxf(dxf(*square(0, 0, 10)).replace(b"\n", ends), "ends.dxf").entities == 4
 
 
@@ -87,13 +87,13 @@ def test_more_entities_than_the_limit_are_refused_with_both_numbers(monkeypatch:
         read_dxf(dxf(*square(0, 0, 10)), "many.dxf")
 
 
-def test_without_ezdxf_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_message_without_ezdxf_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "ezdxf", None)
     with pytest.raises(DrawingError, match="DXF files need the package ezdxf: pip install ezdxf"):
         read_dxf(dxf(*square(0, 0, 10)), "part.dxf")
 
 
-def test_a_file_that_can_only_be_repaired_is_taken_on_demand_and_says_so() -> None:
+def test_a_file_that_needs_repair_is_read_on_demand_with_a_note() -> None:
     before, after = text_of(full_document()).rsplit(b"\n  5\n", 1)
     data = before + b"\n x5\n" + after
     with pytest.raises(DrawingError) as refused:

@@ -21,7 +21,7 @@ def example(name: str) -> tuple[Program, list[SolvedBlock]]:
     return part, [solve_block(block, part) for block in part.blocks]
 
 
-def test_all_examples_are_here():
+def test_the_tested_examples_are_all_examples():
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == set(NAMES)
 
 
@@ -33,7 +33,7 @@ def test_every_example_is_determined(name):
         assert block.postable
 
 
-def test_the_overrun_square_is_the_controls_own_screen():
+def test_the_overrun_square_has_the_values_of_the_screen_of_the_control():
     part, (solved,) = example("overrun-square")
     block = part.blocks[0]
     assert part.unit is Unit.IN

@@ -1,4 +1,4 @@
-"""What the tool table proposes for a tool, and COOLANT: filled into blanks, kept in files, posted."""
+"""Proposals of the tool table and COOLANT: filled into blanks, kept in files, posted."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def solved(given: Program) -> SolvedBlock:
     return solve_block(given.blocks[0], given)
 
 
-def test_blanks_take_what_the_tool_table_has_for_the_tool():
+def test_blanks_take_the_values_of_the_tool_table():
     block = solved(part())
     assert block.values["speed"] == Solved(2400.0, Origin.TOOL)
     assert block.values["plunge_feed"] == Solved(5.0, Origin.TOOL)
@@ -41,7 +41,7 @@ def test_blanks_take_what_the_tool_table_has_for_the_tool():
     assert block.findings == ()
 
 
-def test_what_is_typed_in_the_block_comes_before_the_tool_table():
+def test_typed_values_take_precedence_over_the_tool_table():
     block = solved(part(speed=Number(900.0), coolant=Coolant.OFF))
     assert block.speed == 900.0
     assert (block.coolant, block.coolant_origin) == (Coolant.OFF, None)
@@ -53,14 +53,14 @@ def test_what_is_typed_in_the_block_comes_before_the_tool_table():
     assert feeds[2].values["feed"] == Solved(7.0)
 
 
-def test_without_proposals_speed_and_plunge_feed_are_missing():
+def test_speed_and_plunge_feed_are_missing_without_proposals():
     block = solved(part(Tool(1, diameter=Number(0.5))))
     assert [finding.field for finding in block.findings] == ["plunge_feed", "speed"]
     assert (block.coolant, block.coolant_origin) == (Coolant.OFF, Origin.USUAL)
 
 
 @pytest.mark.parametrize("speed", [Number(0.0), Unread("12o0", "Type a number.")])
-def test_a_proposal_that_cannot_be_used_proposes_nothing(speed):
+def test_an_unusable_proposal_is_ignored(speed):
     block = solved(part(replace(PROPOSING, speed=speed)))
     assert "speed" in [finding.field for finding in block.findings]
 
@@ -78,13 +78,13 @@ def test_proposals_and_coolant_are_kept_in_a_file_of_format_2():
     assert loads(text, "part.toml") == given
 
 
-def test_a_coolant_that_there_is_not_is_refused_by_its_line():
+def test_an_unknown_coolant_is_refused():
     text = dumps(part(coolant=Coolant.MIST)).replace('"MIST"', '"OIL"')
     with pytest.raises(StoreError, match="coolant cannot be OIL: write one of OFF, MIST, FLOOD"):
         loads(text, "part.toml")
 
 
-def test_coolant_is_picked_and_blanked_again():
+def test_coolant_can_be_chosen_and_blanked():
     picked = choose(part(), FormPlace(1), "coolant", "MIST")
     assert isinstance(picked, Program)
     assert picked.blocks[0].coolant is Coolant.MIST

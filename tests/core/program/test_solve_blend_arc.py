@@ -1,4 +1,4 @@
-"""BLEND ARCs in their places, and out of place."""
+"""BLEND ARCs at right and wrong places."""
 
 from __future__ import annotations
 
@@ -18,20 +18,23 @@ def solved(*segments: Segment) -> SolvedBlock:
 
 
 def texts(block: SolvedBlock) -> list[str]:
-    return [f"{one.code} {one.segment} {one.field}: {sentence(one, Unit.MM)}" for one in block.every_finding]
+    return [
+        f"{finding.code} {finding.segment} {finding.field}: {sentence(finding, Unit.MM)}"
+        for finding in block.every_finding
+    ]
 
 
 RIGHT, UP, LEFT = line(x_end=10.0, y_end=0.0), line(x_end=10.0, y_end=10.0), line(x_end=0.0, y_end=10.0)
 
 
-def test_a_line_between_two_blends_loses_both_its_ends():
+def test_a_line_between_two_blends_is_shortened_at_both_ends():
     block = solved(RIGHT, blend(2.0), UP, blend(3.0), LEFT)
     assert texts(block) == []
     assert block.segments[2].piece == Line((10.0, 2.0), (10.0, 7.0))
     assert [number for number, _ in block.pieces] == [1, 2, 3, 4, 5]
 
 
-def test_the_second_blend_has_what_the_first_leaves():
+def test_the_second_blend_must_fit_into_the_rest_of_the_line():
     block = solved(RIGHT, blend(6.0), UP, blend(5.0), LEFT)
     assert texts(block) == [
         "BLEND_RADIUS 4 radius: RADIUS 5.000 does not fit between segments 3 and 5: the largest that fits is 4.000."
@@ -41,7 +44,7 @@ def test_the_second_blend_has_what_the_first_leaves():
     assert block.segments[4].piece == Line((10.0, 10.0), (0.0, 10.0))
 
 
-def test_nothing_left_to_blend():
+def test_a_line_used_up_by_a_blend_leaves_no_room_for_another():
     block = solved(RIGHT, blend(10.0), UP, blend(1.0), LEFT)
     words = "Segment 3 has no length left to blend: correct it or delete this BLEND ARC."
     assert texts(block) == [f"BLEND_RADIUS 4 radius: {words}"]
@@ -72,14 +75,14 @@ def test_blends_of_arcs_keep_their_centers():
         ),
     ],
 )
-def test_out_of_place(segments, at, words):
+def test_a_blend_at_a_wrong_place_is_refused(segments, at, words):
     block = solved(*segments)
     assert f"BLEND_PLACE {at} radius: A BLEND ARC {words}" in texts(block)
     assert not block.postable
     assert block.determined < len(segments)
 
 
-def test_no_corner():
+def test_a_blend_without_a_corner_is_refused():
     block = solved(RIGHT, blend(1.0), line(x_end=20.0, y_end=0.0))
     words = "There is no corner to blend: segments 1 and 3 already run smoothly into each other."
     assert texts(block) == [f"BLEND_TANGENT 2 radius: {words}"]
@@ -88,7 +91,7 @@ def test_no_corner():
     assert texts(back) == [f"BLEND_RADIUS 2 radius: {words}"]
 
 
-def test_too_large_for_an_arc():
+def test_a_blend_too_large_for_an_arc_is_refused():
     quarter = arc("CW", x_end=15.0, y_end=5.0, x_center=15.0, y_center=0.0)
     block = solved(RIGHT, blend(30.0), quarter)
     words = "RADIUS 30.000 does not fit between segments 1 and 3: enter a smaller one."
@@ -97,21 +100,21 @@ def test_too_large_for_an_arc():
 
 def test_a_blend_waits_for_its_neighbors():
     block = solved(RIGHT, blend(1.0), LineSegment(), UP)
-    assert [one.segment for one in block.every_finding] == [3]
+    assert [finding.segment for finding in block.every_finding] == [3]
     assert block.determined == 1
     assert block.segments[0].piece == Line((0.0, 0.0), (10.0, 0.0))
-    behind = solved(RIGHT, LineSegment(), blend(1.0), UP)
-    assert [one.segment for one in behind.every_finding] == [2]
+    after = solved(RIGHT, LineSegment(), blend(1.0), UP)
+    assert [finding.segment for finding in after.every_finding] == [2]
 
 
-def test_beside_a_segment_without_length():
+def test_a_blend_beside_a_segment_without_length_is_refused():
     block = solved(RIGHT, blend(1.0), line(x_end=10.0, y_end=0.0), UP)
     words = "Segment 3 has no length left to blend: correct it or delete this BLEND ARC."
     assert f"BLEND_RADIUS 2 radius: {words}" in texts(block)
     assert block.determined == 1
 
 
-def test_without_a_radius():
+def test_a_blend_without_a_radius_is_incomplete():
     block = solved(RIGHT, BlendSegment(), UP)
     assert texts(block) == ["MISSING 2 radius: More data needed: type RADIUS."]
     assert block.segments[1].missing == ("radius",)

@@ -1,4 +1,4 @@
-"""What is no number is never clean: no finding goes by a comparison that is false."""
+"""Invalid numbers are never clean: no finding is lost in a false comparison."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ODD = (1e7, -1e7, 9.9e6, 1e6, 1e-7, 1e-9, 1e-10, 1e-160, 5e-324, 0.0)
 
 
 def _odd_path(random: np.random.Generator) -> Path:
-    """Pieces of any size at all: points upon points, arcs about their own ends or from kilometers away."""
+    """Pieces of any size, repeated points, and arcs about their own ends or distant centers."""
     count, size = int(random.integers(1, 8)), 10.0 ** float(random.integers(-9, 7))
     points = random.integers(-4, 5, (count + 1, 2)) * (size if random.random() < 0.5 else 10.0)
     odd = np.flatnonzero(random.random(points.size) < 0.05)
@@ -43,7 +43,7 @@ def _odd_path(random: np.random.Generator) -> Path:
 
 
 def _places(path: Path) -> NDArray[np.float64]:
-    """(17 n, 2) points on pieces; of an arc whose radii differ they are between both."""
+    """(17 n, 2) points on pieces; on an uneven arc they are between both radii."""
     share, radial = np.linspace(0.0, 1.0, 17)[:, None, None], path.starts - path.centers
     angle = share[..., 0] * path.sweeps
     turned = np.stack(
@@ -58,23 +58,23 @@ def _places(path: Path) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_of_any_path_at_all_no_finding_goes_by_a_number_that_is_none(seed: int) -> None:
+def test_findings_on_odd_paths_have_finite_numbers(seed: int) -> None:
     random, judged, gouged = np.random.default_rng(seed), 0, 0
     for _ in range(120):
         surface, center = _odd_path(random), _odd_path(random)
         radius = float(10.0 ** random.uniform(-6.0, 6.0))
         verdict = judge(surface, Side.LEFT, radius, center)
         air_cuts(surface, radius, center)
-        # the runs beyond a crossing are no surface
+        # the ends beyond a crossing are no surface
         if not verdict.judged or verdict.over_run_at is not None:
             continue
         judged += 1
-        told = [number for one in verdict.gouges for number in (one.depth, *one.at, *one.surface_at, one.extent)]
-        told += [number for one in verdict.uncut for number in (one.length, one.thickness, *one.thickest)]
-        assert np.isfinite([verdict.clearance, verdict.surface_length, *told]).all()
+        values = [number for one in verdict.gouges for number in (one.depth, *one.at, *one.surface_at, one.extent)]
+        values += [number for one in verdict.uncut for number in (one.length, one.thickness, *one.thickest)]
+        assert np.isfinite([verdict.clearance, verdict.surface_length, *values]).all()
         one, other = _places(surface), _places(center)
         least = np.hypot(*(one[:, None] - other).transpose(2, 0, 1)).min()
-        # an uneven arc's radii, and the last digits of ten kilometers
+        # allows for uneven radii and the last digits of ten kilometers
         assert verdict.clearance <= least + 0.006
         gouged += least < radius - 0.01
         assert verdict.depth >= radius - least - 0.01
@@ -86,8 +86,8 @@ ROUND = Path.from_pieces([Arc((0.0, 0.0), (20.0, 0.0), (10.0, 0.0), Turn.CCW)])
 
 
 @pytest.mark.parametrize(("contour", "column"), [(WALL, "vector"), (WALL, "start"), (ROUND, "start")])
-def test_a_wall_whose_distance_is_not_a_number_is_not_judged(contour: Path, column: str) -> None:
-    """A comparison passes it over: the path beside it would be clean."""
+def test_a_wall_at_an_invalid_distance_is_not_judged(contour: Path, column: str) -> None:
+    """A comparison would ignore it, and the path beside it would be clean."""
     surface = Surface.prepare(contour, Side.LEFT)
     far = lines((-50, 30), (-60, 30))
     for path in (DEEP, far):
@@ -101,7 +101,7 @@ def test_a_wall_whose_distance_is_not_a_number_is_not_judged(contour: Path, colu
 
 
 @pytest.mark.parametrize("column", ["start", "arm"])
-def test_gouges_at_a_distance_that_is_not_a_number_are_not_left_out(column: str) -> None:
+def test_gouges_at_an_invalid_distance_are_not_left_out(column: str) -> None:
     contour, path = (ROUND, Path.from_pieces([Arc((1.0, 0.0), (19.0, 0.0), (10.0, 0.0), Turn.CCW)]))
     walls, moves = piece_arrays(contour), piece_arrays(path)
     with np.errstate(all="ignore"):
@@ -114,7 +114,7 @@ def test_gouges_at_a_distance_that_is_not_a_number_are_not_left_out(column: str)
 
 @pytest.mark.parametrize("bad", [nan, np.inf, -np.inf, 1e300, 1.1e7])
 @pytest.mark.parametrize("where", ["points", "centers"])
-def test_no_number_is_let_in_anywhere(bad: float, where: str) -> None:
+def test_invalid_numbers_are_never_judged(bad: float, where: str) -> None:
     for row in range(2):
         for axis in range(2):
             arrays = {"points": DEEP.points.copy(), "centers": DEEP.centers.copy()}

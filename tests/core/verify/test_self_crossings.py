@@ -1,4 +1,4 @@
-"""Contours that cross or touch themselves, and those that only seem to."""
+"""Contours that cross or touch themselves, and contours that only seem to."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def verdict(surface: Path) -> Verdict:
     ],
 )
 def test_crossings_and_touches_are_found(surface: Path, at: Point) -> None:
-    told = verdict(surface)
-    assert told.crosses_itself
-    assert told.crossing_at == pytest.approx(at, abs=1e-9)
+    result = verdict(surface)
+    assert result.crosses_itself
+    assert result.crossing_at == pytest.approx(at, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_a_curve_of_many_small_arcs_does_not_cross_itself() -> None:
 
 
 def _about(a: Point, b: Point) -> Point:
-    """A center two chords to the left of the chord's middle."""
+    """A center two chord lengths to the left of the middle of the chord."""
     return (a[0] + b[0]) / 2 - 2 * (b[1] - a[1]), (a[1] + b[1]) / 2 + 2 * (b[0] - a[0])
 
 
@@ -81,7 +81,7 @@ def _about(a: Point, b: Point) -> Point:
 @settings(max_examples=60)
 @given(paths(most=4), st.floats(0.5, 3.0), st.floats(0.0, 2 * pi))
 def test_a_straight_cut_across_a_contour_is_found(surface: Path, length: float, angle: float) -> None:
-    """A contour that begins with a line and is continued by a line back through its middle crosses itself there."""
+    """A contour that starts with a line and ends with a line through the middle of the first crosses itself there."""
     begun = surface.points[0] - length * np.array((cos(angle), sin(angle)))
     first = Line(tuple(begun.tolist()), tuple(surface.points[0].tolist()))
     middle, last = (surface.points[0] + begun) / 2.0, surface.points[-1]
@@ -92,13 +92,13 @@ def test_a_straight_cut_across_a_contour_is_found(surface: Path, length: float, 
     back = Line(tuple(last.tolist()), tuple((middle + 0.5 * out).tolist()))
     longer = Path.from_pieces([first, *surface, back])
     for crossed in (longer, moved(longer, 1.0, (100.0, 50.0))):
-        found = verdict(crossed)
-        assert found.crosses_itself or found.over_run_at is not None
+        result = verdict(crossed)
+        assert result.crosses_itself or result.over_run_at is not None
 
 
 @given(paths(), paths())
-def test_directions_at_joints_are_those_of_the_pieces(one: Path, other: Path) -> None:
-    pieces = piece_arrays(Path.from_pieces([*one, *other]))
+def test_directions_at_joints_are_those_of_the_pieces(first: Path, second: Path) -> None:
+    pieces = piece_arrays(Path.from_pieces([*first, *second]))
     rows = np.arange(len(pieces))
     for row in rows.tolist():
         end, begin = at_joints(pieces, rows, np.roll(rows, row))
