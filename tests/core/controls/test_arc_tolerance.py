@@ -1,4 +1,4 @@
-"""Arcs whose radii differ at start and end: what each control accepts, and its alarm beyond that."""
+"""Arcs whose radii differ at start and end: the limit of each control, and its alarm beyond that."""
 
 from __future__ import annotations
 
@@ -36,9 +36,7 @@ def program(control: str, unit: Unit, radius: float, difference: float) -> str:
 
 @pytest.mark.parametrize(("unit", "radius"), CASES)
 @pytest.mark.parametrize("control", CONTROLS)
-def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
-    control: str, unit: Unit, radius: float
-) -> None:
+def test_radii_may_differ_up_to_the_limit_of_the_control(control: str, unit: Unit, radius: float) -> None:
     limit = arc_tolerance(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
     assert within.stopped_at is None
@@ -59,19 +57,19 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
         ("threeblock", "X10. Y1.", "J10.", "If I and J are meant from the arc's start, write I10. J11."),
     ],
 )
-def test_an_alarm_says_what_to_write_where_the_center_is_right_counted_in_the_other_way(
+def test_the_alarm_suggests_the_center_that_is_right_in_the_other_mode(
     control: str, start: str, center: str, hint: str
 ) -> None:
     assert quarter_turn(control, start, center).text.endswith(f" {hint}")
 
 
 @pytest.mark.parametrize(("control", "center"), [("fanuc:a", "I12. J10."), ("threeblock", "I1. J10.")])
-def test_of_a_center_that_is_wrong_in_both_ways_nothing_else_is_said(control: str, center: str) -> None:
+def test_the_alarm_suggests_nothing_if_the_center_is_wrong_in_both_modes(control: str, center: str) -> None:
     assert "meant" not in quarter_turn(control, "X10. Y1.", center).text
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "linuxcnc", "threeblock"])
-def test_a_full_circle_has_no_other_center(control: str) -> None:
+def test_the_alarm_of_a_full_circle_suggests_no_other_center(control: str) -> None:
     metric = "G71" if control == "threeblock" else "G21"
     run = ran(
         f"{metric} G17 G90 F100.\nG1 X10. Y5.\nG3 X10. Y5. {'I10. J5.' if control == 'threeblock' else 'I0. J0.'}\n",
@@ -82,7 +80,7 @@ def test_a_full_circle_has_no_other_center(control: str) -> None:
 
 
 def quarter_turn(control: str, start: str, center: str) -> Finding:
-    """The alarm at a quarter from X10 up to ten farther in X and Y, with another center."""
+    """The alarm of a quarter circle from `start` to ten more in X and Y, with this center."""
     metric, (x, y) = "G71" if control == "threeblock" else "G21", (float(word[1:]) + 10 for word in start.split())
     run = ran(f"{metric} G17 G90 F100.\nG1 {start}\nG3 X{x} Y{y} {center}\nM2\n", control)
     assert run.stopped_at == 3
@@ -92,7 +90,7 @@ def quarter_turn(control: str, start: str, center: str) -> Finding:
 @pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
 @pytest.mark.parametrize(("unit", "radius"), CASES)
 @pytest.mark.parametrize("share", [0.99, 1.01])
-def test_linuxcnc_s_limit_is_that_of_the_interpreter_itself(
+def test_the_limit_of_linuxcnc_is_that_of_the_interpreter(
     unit: Unit, radius: float, share: float, tmp_path: Path
 ) -> None:
     limit = arc_tolerance("linuxcnc").largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
@@ -100,14 +98,14 @@ def test_linuxcnc_s_limit_is_that_of_the_interpreter_itself(
     assert bool(witness(text, tmp_path, {1: 0.5}, unit).refusal) is (share > 1.0)
 
 
-def test_the_limit_of_linuxcnc_is_its_own_figure() -> None:
+def test_the_limit_of_linuxcnc_depends_on_unit_and_radius() -> None:
     limit = arc_tolerance("linuxcnc")
     assert limit.largest_difference(1.0, Unit.MM) == pytest.approx(0.01 * 2 * sqrt(2))
     assert limit.largest_difference(1.0, Unit.IN) == pytest.approx(0.001 * 2 * sqrt(2) * 25.4)
     assert limit.largest_difference(100.0, Unit.MM) == pytest.approx(0.1)
 
 
-def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
+def test_klartext_accepts_sixteen_thousandths_at_any_radius() -> None:
     limit = arc_tolerance("klartext")
     assert [limit.largest_difference(radius, unit) for radius in (1.0, 1e4) for unit in Unit] == pytest.approx(
         [0.016] * 4
@@ -115,7 +113,7 @@ def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
 
 
 @pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "nine-series"])
-def test_where_papers_are_silent_no_radius_lets_the_radii_differ_more_than_three_decimals_of_an_inch(
+def test_undocumented_limits_grow_with_the_radius_to_a_maximum(
     control: str,
 ) -> None:
     limit = arc_tolerance(control)
@@ -126,9 +124,7 @@ def test_where_papers_are_silent_no_radius_lets_the_radii_differ_more_than_three
 
 @pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
 @pytest.mark.parametrize("turn", [1, -1])
-def test_an_arc_of_a_positive_radius_turns_at_most_half_a_turn_and_one_of_a_negative_radius_more(
-    size: float, turn: int
-) -> None:
+def test_a_positive_radius_gives_the_short_arc_and_a_negative_one_the_long_arc(size: float, turn: int) -> None:
     start, end = (0.0, 0.0), (1.6 * size, 0.0)
     assert center_by_radius(start, end, size, turn) == pytest.approx((0.8 * size, 0.6 * size * turn))
     assert center_by_radius(start, end, -size, turn) == pytest.approx((0.8 * size, -0.6 * size * turn))

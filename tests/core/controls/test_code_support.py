@@ -1,4 +1,4 @@
-"""Words of another control: the alarm says which controls have them; controls that have them run them."""
+"""Words of another control: the alarm names the controls that have them, and those controls run them."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ ISO = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 
 
 def alarm(run: ControlRun) -> str:
-    """The text of the alarm that stops a run, empty where none does."""
+    """The text of the alarm that stops a run, or an empty text."""
     if run.stopped_at is None:
         return ""
-    return next(one.text for one in reversed(run.findings) if one.severity is Severity.ERROR)
+    return next(finding.text for finding in reversed(run.findings) if finding.severity is Severity.ERROR)
 
 
 @pytest.mark.parametrize("code", code_support.CODES)
-def test_a_control_that_is_named_has_the_code(code: int) -> None:
+def test_controls_named_for_a_code_have_it(code: int) -> None:
     for name in code_support.CODES[code]:
         dialect = CONTROLS[HAVE[name]].dialect
         assert dialect is not None
@@ -37,7 +37,7 @@ def test_a_control_that_is_named_has_the_code(code: int) -> None:
 
 
 @pytest.mark.parametrize("code", ["G61.1", "G90.1", "G91.1"])
-def test_linuxcnc_runs_its_path_and_center_modes_and_the_others_name_it(code: str) -> None:
+def test_linuxcnc_runs_its_path_modes_and_other_controls_name_linuxcnc(code: str) -> None:
     for control in ISO:
         run = ran(f"G20 G17 F9.\n{code}\nG1 X1.\nM2\n", control)
         assert (alarm(run).endswith("LinuxCNC has it.")) == (control != "linuxcnc"), control
@@ -50,45 +50,45 @@ def test_g10_l1_names_the_controls_that_set_tool_data(control: str) -> None:
 
 @pytest.mark.parametrize("control", ["rosettacnc", "linuxcnc"])
 @pytest.mark.parametrize("line", ["G1 X#10001", "#10001=2"])
-def test_a_parameter_from_10000_on_names_fanuc(control: str, line: str) -> None:
+def test_a_parameter_of_10000_or_more_names_fanuc(control: str, line: str) -> None:
     run = ran(f"G20 F9.\n{line}\nM2\n", control)
     assert (run.stopped_at, alarm(run).endswith("Fanuc has it.")) == (2, True)
 
 
-def test_d_and_h_next_to_t_count_where_they_may_stand_anywhere() -> None:
+def test_d_and_h_next_to_t_take_effect_on_the_nine_series() -> None:
     run = ran("G20 G17 F9.\nT1 M6 D1 H1\nG41 G1 X1.\nX3.\n", "nine-series", t1=0.5)
     assert lines_and_ends(run) == [(1.0, 0.25), (3.0, 0.25)]
     assert not findings_of(run, "UNUSED")
 
 
 @pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "linuxcnc"])
-def test_d_next_to_t_is_an_alarm_that_names_who_takes_it(control: str) -> None:
+def test_the_alarm_for_d_next_to_t_names_controls_that_accept_it(control: str) -> None:
     run = ran("G20 G17 F9.\nT1 M6 D1\nG1 X1.\n", control, t1=0.5)
     assert run.stopped_at == 2
     assert "Allen-Bradley 9/Series, Fanuc and Haas have it." in alarm(run)
 
 
-def test_d_of_another_tool_than_the_one_called_is_an_alarm_where_t_gives_the_radius() -> None:
+def test_d_of_a_tool_that_is_not_loaded_is_an_alarm_on_threeblock() -> None:
     text = "G20 G17 F9.\nT{}\nG1 G41 X1. D1\nX3.\nX4.Y1.\nX4.Y5.\nG40 X9.\n"
-    other, same_tool = (ran(text.format(number), "threeblock", t1=0.5, t2=0.25) for number in (2, 1))
-    assert (other.stopped_at, findings_of(other, "CODE")[0].line) == (3, 3)
+    other_tool, same_tool = (ran(text.format(number), "threeblock", t1=0.5, t2=0.25) for number in (2, 1))
+    assert (other_tool.stopped_at, findings_of(other_tool, "CODE")[0].line) == (3, 3)
     assert not findings_of(same_tool, "CODE")
 
 
-def test_h_next_to_t_names_who_takes_it() -> None:
+def test_h_next_to_t_names_controls_that_accept_it() -> None:
     assert "Fanuc and Haas have it." in alarm(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "linuxcnc", t1=0.5))
     (unused,) = findings_of(ran("G20 F9.\nT1 M6 H1\nG1 X1.\nM2\n", "rosettacnc", t1=0.5), "UNUSED")
     assert "Fanuc and Haas have it." in unused.text
 
 
-def test_no_brackets_are_needed_right_of_the_equal_sign_on_rosettacnc() -> None:
+def test_rosettacnc_needs_no_brackets_right_of_the_equal_sign() -> None:
     run = ran("G21 F100\n#1=2\n#2=#1+3*4-[1]/2\n#3=SQRT[#1+2]*2\nG1 X#2 Y#3\nM30\n", "rosettacnc")
     assert lines_and_ends(run) == [(13.5, 4.0)]
 
 
 def test_linuxcnc_refuses_an_expression_without_brackets_at_its_operator() -> None:
     run = ran("G21 F100\n#1=2\n#2=#1+3\nM2\n", "linuxcnc")
-    assert [(one.line, one.column) for one in findings_of(run, "MACRO")] == [(3, 6)]
+    assert [(finding.line, finding.column) for finding in findings_of(run, "MACRO")] == [(3, 6)]
     assert "RosettaCNC, Fanuc and Haas have it." in alarm(run)
 
 
@@ -106,8 +106,8 @@ def test_jumps_name_the_controls_that_follow_them(control: str, line: str) -> No
 
 @pytest.mark.parametrize("control", ["linuxcnc", "threeblock"])
 @pytest.mark.parametrize("block", ["G68 X0 Y0 R30", "G65 P1601 A60. D1", "G12 I.3 K1. Q.2 D1"])
-def test_a_code_that_the_control_lacks_is_named_before_its_words(block: str, control: str) -> None:
+def test_a_code_that_the_control_lacks_is_reported_before_its_words(block: str, control: str) -> None:
     run = ran(f"G20 F9\nG0 X1.\n{block}\nM2\n", control, t1=0.5)
-    (said,) = findings_of(run, "CODE")
-    assert (said.line, said.severity) == (3, Severity.ERROR)
-    assert said.text.startswith(f"cutcomp does not know {block.split()[0]} on this control.")
+    (finding,) = findings_of(run, "CODE")
+    assert (finding.line, finding.severity) == (3, Severity.ERROR)
+    assert finding.text.startswith(f"cutcomp does not know {block.split()[0]} on this control.")

@@ -1,4 +1,4 @@
-"""The order of lines: subprograms, labels, ends."""
+"""The order of execution: subprograms, labels, ends."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from tests.core.controls.hand import findings_of, lines_and_ends, ran
 HEAD = "G21 G1 F100\n"
 
 
-def test_subprograms_stand_after_the_end_and_repeat() -> None:
+def test_subprograms_after_the_end_are_called_and_repeated() -> None:
     run = ran(f"{HEAD}M98 P10 L2\nM30\nO10 ; there\nG91 X1\nG90\nM99\n", "rosettacnc")
     assert lines_and_ends(run) == [(1.0, 0.0), (2.0, 0.0)]
 
 
-def test_subprograms_call_others() -> None:
+def test_subprograms_may_call_others() -> None:
     run = ran(f"{HEAD}M98P1\nX9\nM2\nO1\nX1\nM98P2\nX3\nM99\nO2\nX2\nM99\n", "rosettacnc")
     assert [x for x, _ in lines_and_ends(run)] == [1.0, 2.0, 3.0, 9.0]
 
@@ -32,13 +32,13 @@ def test_a_label_may_have_a_block_number_and_small_letters() -> None:
         ("M98 P1\nM2\nO1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", 8, 5),
     ],
 )
-def test_calls_that_lead_nowhere_or_in_a_circle_stop(body: str, line: int, column: int) -> None:
+def test_calls_without_a_target_or_in_a_circle_stop(body: str, line: int, column: int) -> None:
     run = ran(HEAD + body, "rosettacnc")
-    assert [(one.line, one.column) for one in findings_of(run, "SUBPROGRAM")] == [(line, column)]
+    assert [(finding.line, finding.column) for finding in findings_of(run, "SUBPROGRAM")] == [(line, column)]
     assert run.stopped_at == line
 
 
-def test_the_threeblock_control_has_none() -> None:
+def test_the_threeblock_control_has_no_subprograms() -> None:
     assert findings_of(ran("G0X1.\nM98P1\nM2\nO1\nX2.\nM99\n", "threeblock"), "SUBPROGRAM")
 
 
@@ -65,10 +65,10 @@ def test_any_file_gives_a_run(control: str, text: bytes) -> None:
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "nine-series:a", "rosettacnc:normal"])
-def test_a_main_program_behind_a_subprogram_is_named(control: str) -> None:
-    """The first program of the file ends with M99, and what comes behind is run by nobody."""
-    begin, behind = "O9000\nG21 G91 G1 Z-5. F100.\nG90\nM99\n", "O1\nG21 G90\nG0 X1.\nM30\n"
-    assert "NOT_RUN" in {one.code for one in ran(begin + behind, control).findings}
-    # a subprogram that a condition leaves out is no matter
+def test_a_main_program_after_a_subprogram_is_reported(control: str) -> None:
+    """The first program of the file ends with M99, so the program after it never runs."""
+    begin, after = "O9000\nG21 G91 G1 Z-5. F100.\nG90\nM99\n", "O1\nG21 G90\nG0 X1.\nM30\n"
+    assert "NOT_RUN" in {finding.code for finding in ran(begin + after, control).findings}
+    # a subprogram that is not called because of a condition is not reported
     main = "G21 G90 G40\n/M98 P1\nG0 X1.\nM30\n"
-    assert "NOT_RUN" not in {one.code for one in ran(main + "O1\nG0 X2.\nM99\n", control).findings}
+    assert "NOT_RUN" not in {finding.code for finding in ran(main + "O1\nG0 X2.\nM99\n", control).findings}

@@ -1,4 +1,4 @@
-"""Which program of a file runs, and what is said of the rest of the file."""
+"""The program of a file that runs, and findings on the rest of the file."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ MAIN = "O5100 (PART)\nG21 G90 G0 X1.\nM98 P5101\nM30\n"
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
-def test_the_main_program_runs_wherever_it_stands(control: str) -> None:
+def test_the_main_program_runs_wherever_it_is_in_the_file(control: str) -> None:
     run = ran(f"%\n{SUB}{MAIN}%\n", control)
     assert lines_and_ends(run) == [(1.0, 0.0), (7.0, 0.0)]
-    (said,) = findings_of(run, "PROGRAM")
-    assert (said.severity, said.line) == (Severity.INFO, 5)
-    assert said.text == "cutcomp runs O5100: O5101, which stands before it, is called."
+    (message,) = findings_of(run, "PROGRAM")
+    assert (message.severity, message.line) == (Severity.INFO, 5)
+    assert message.text == "cutcomp runs O5100: O5101, which stands before it, is called."
     assert not findings_of(ran(f"%\n{MAIN}{SUB}%\n", control), "PROGRAM")
 
 
-def test_programs_that_only_call_each_other_begin_with_the_first() -> None:
+def test_programs_that_only_call_each_other_start_with_the_first() -> None:
     run = ran("O1\nG1 X1. F100.\nM98 P2\nM30\nO2\nX2.\nM98 P1\nM99\n", "fanuc:a")
     assert lines_and_ends(run)[:2] == [(1.0, 0.0), (2.0, 0.0)]
     assert not findings_of(run, "PROGRAM")
 
 
-def test_programs_that_nothing_calls_are_named() -> None:
+def test_programs_that_are_not_called_are_reported() -> None:
     run = ran(f"{MAIN}{SUB}O2 (OTHER)\nG1 X2. F100.\nM30\n:3\nM30\n", "fanuc:a")
-    (said,) = findings_of(run, "NOT_RUN")
-    assert (said.severity, said.line) == (Severity.WARNING, 8)
+    (message,) = findings_of(run, "NOT_RUN")
+    assert (message.severity, message.line) == (Severity.WARNING, 8)
     assert (
-        said.text
+        message.text
         == "Programs that nothing in this file calls were not run: O2 (line 8), O3 (line 11). Check each by itself."
     )
     assert not findings_of(ran(MAIN + SUB, "fanuc:a"), "NOT_RUN")
 
 
-def test_a_call_with_a_variable_hides_no_call_with_a_number() -> None:
+def test_calls_with_a_variable_and_with_a_number_are_distinguished() -> None:
     main = MAIN.replace("M30", "#100=5102\nM98 P#100\nM30")
     run = ran(f"{SUB}{main}O5102\nX9.\nM99\nO3\nM30\n", "fanuc:a")
     assert lines_and_ends(run) == [(1.0, 0.0), (7.0, 0.0), (9.0, 0.0)]
-    (said,) = findings_of(run, "NOT_RUN")
-    assert said.text == (
+    (message,) = findings_of(run, "NOT_RUN")
+    assert message.text == (
         "Programs that a call with a variable may mean were not run: O3 (line 13). Check each by itself."
     )
     exponent = ran(f"{MAIN.replace('M98 P5101', 'G65 A[EXP[1]] P5101')}{SUB}O3\nM30\n", "fanuc:a")
@@ -52,20 +52,20 @@ def test_a_call_with_a_variable_hides_no_call_with_a_number() -> None:
     )
 
 
-def test_only_a_fanuc_takes_the_number_of_runs_from_p() -> None:
+def test_only_fanuc_takes_the_repeat_count_from_p() -> None:
     text = "O2 (SUB)\nX9. M99\nO1\nG21 G90 G1 X1. F100.\nM98 P10002\nM30\n"
     assert findings_of(ran(text, "fanuc:a"), "PROGRAM")
     assert not findings_of(ran(text, "haas:a"), "PROGRAM")
 
 
-def test_of_many_programs_that_were_not_run_a_few_are_named() -> None:
+def test_only_a_few_of_many_programs_not_run_are_named() -> None:
     many = "".join(f"O{number}\nM30\n" for number in range(100, 200))
-    (said,) = findings_of(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
-    assert "were not run: O100 (line 8), O101 (line 10), O102 (line 12) and 97 more." in said.text
+    (message,) = findings_of(ran(MAIN + SUB + many, "fanuc:a"), "NOT_RUN")
+    assert "were not run: O100 (line 8), O101 (line 10), O102 (line 12) and 97 more." in message.text
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc"])
-def test_lines_behind_m30_are_named_but_not_what_a_number_or_an_o_leads_to(control: str) -> None:
+def test_lines_after_m30_are_reported_unless_a_jump_or_call_may_reach_them(control: str) -> None:
     text = "G21 G90 F100.\nG1 X2.\nM30\n"
     assert findings_of(ran(f"{text}G1 X3.\nM30\n", control), "NOT_RUN")[0].line == 4
     assert not findings_of(ran(f"{text}(NOTE)\nREMARK\n\x1a\n", control), "NOT_RUN")
@@ -76,34 +76,34 @@ def test_lines_behind_m30_are_named_but_not_what_a_number_or_an_o_leads_to(contr
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
-def test_lines_behind_a_single_percent_are_named(control: str) -> None:
+def test_lines_after_a_single_percent_sign_are_reported(control: str) -> None:
     run = ran("O1\nG21 G90 F100.\nG1 X1.\nM30\n%\nO2\nG1 X2.\nM30\n", control)
     assert findings_of(run, "NOT_RUN")[0].line == 6
 
 
-def test_a_called_program_that_a_condition_leaves_out_is_no_matter() -> None:
+def test_a_program_whose_call_is_skipped_by_a_condition_is_not_reported() -> None:
     run = ran(f"O1\n#1=0\nG21\nIF[#1EQ0]GOTO9\nM98 P5101\nN9 M30\n{SUB}", "fanuc:a")
     assert not findings_of(run, "NOT_RUN")
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
-def test_what_stands_behind_the_end_is_named(control: str) -> None:
+def test_lines_after_the_end_are_reported(control: str) -> None:
     run = ran("%\nG21 G1 X1. F100.\nM30\n%\n(NEXT PART)\nG1 X2. F100.\nM30\n%\n", control)
     assert lines_and_ends(run) == [(1.0, 0.0)]
-    (said,) = findings_of(run, "NOT_RUN")
-    assert (said.severity, said.line) == (Severity.WARNING, 6)
-    assert said.text == "The lines from here on stand behind the end of the program and were not run. Check them."
+    (message,) = findings_of(run, "NOT_RUN")
+    assert (message.severity, message.line) == (Severity.WARNING, 6)
+    assert message.text == "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "nine-series"])
-def test_a_remark_behind_the_end_is_no_program(control: str) -> None:
+def test_a_remark_after_the_end_is_not_reported(control: str) -> None:
     assert not findings_of(ran("%\nG21 G1 X1. F100.\nM30\n%\n(END)\n\n%\n", control), "NOT_RUN")
 
 
-def test_a_second_program_in_klartext_is_named() -> None:
+def test_a_second_program_in_klartext_is_reported() -> None:
     text = "BEGIN PGM A MM\nL X+1 Y+0 F100\nEND PGM A MM\n;\nBEGIN PGM B MM\nL X+2\nEND PGM B MM\n"
-    (said,) = findings_of(ran(text, "klartext"), "NOT_RUN")
-    assert (said.severity, said.line) == (Severity.WARNING, 5)
+    (message,) = findings_of(ran(text, "klartext"), "NOT_RUN")
+    assert (message.severity, message.line) == (Severity.WARNING, 5)
     assert not findings_of(ran(text[: text.index(";")], "klartext"), "NOT_RUN")
 
 
@@ -112,7 +112,7 @@ O_WORDS = "o<prof> sub\nG1 X5 F100\no<prof> endsub\nG21 G1 X1 F100\no<prof> call
 
 @pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
 @pytest.mark.parametrize("text", [O_WORDS, O_WORDS.replace("<prof>", "100"), f"O7\n{O_WORDS}"])
-def test_words_of_linuxcnc_are_no_heads_of_programs(text: str, control: str) -> None:
+def test_o_words_of_linuxcnc_are_no_program_heads(text: str, control: str) -> None:
     run = ran(text, control)
     assert run.stopped_at == (2 if text.startswith("O7") else 1)
     assert [finding.code for finding in run.findings if finding.severity is Severity.ERROR] == ["PS0009"]
@@ -121,10 +121,10 @@ def test_words_of_linuxcnc_are_no_heads_of_programs(text: str, control: str) -> 
 @pytest.mark.parametrize(
     "head", ["<PART-1>", "O<PART-1>", "O<PART-1> G21", "O1 (PART)", ":1", "O1 G21", "<PART-1> (REV B)"]
 )
-def test_heads_of_programs(head: str) -> None:
+def test_every_form_of_a_program_head_is_accepted(head: str) -> None:
     run = ran(f"%\n{head}\nG21 G1 X1. F100.\nM30\n%\n", "fanuc:a")
     assert (run.stopped_at, lines_and_ends(run)) == (None, [(1.0, 0.0)])
 
 
-def test_a_name_without_o_is_no_head_for_a_haas() -> None:
+def test_haas_refuses_a_program_name_without_o() -> None:
     assert ran("%\n<PART-1>\nG21 G1 X1. F100.\nM30\n%\n", "haas:a").stopped_at == 2

@@ -1,4 +1,4 @@
-"""Reading lines into words, with columns for what is wrong."""
+"""Reading lines into words, with columns for faults."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from core.finding import Finding
 
 
 def block(text: str, syntax: Syntax = PLAIN_SYNTAX) -> Block:
-    (found,) = read_line(text, 1, Log(), syntax)
-    return found
+    (only,) = read_line(text, 1, Log(), syntax)
+    return only
 
 
 def alarm(text: str) -> Finding | None:
@@ -35,32 +35,32 @@ def fault(text: str) -> tuple[str, int | None]:
 @pytest.mark.parametrize(
     "text", ["G1X1.5Y-.25F20.", "g1 x1.5 y-.25 f20.", "  G01  X 1.5\tY-.25 F20", "G1X+1.5Y-0.25F20;end"]
 )
-def test_words_touching_spaced_and_small(text: str) -> None:
-    found = block(text)
-    assert found.g == [10]
-    assert found.words == {"X": 1.5, "Y": -0.25, "F": 20.0}
+def test_words_may_touch_be_spaced_or_be_lowercase(text: str) -> None:
+    read = block(text)
+    assert read.g == [10]
+    assert read.words == {"X": 1.5, "Y": -0.25, "F": 20.0}
 
 
 def test_codes_are_counted_in_tenths() -> None:
-    found = block("G41.1 G90 M6 M03")
-    assert (found.g, found.m) == ([411, 900], [60, 30])
+    read = block("G41.1 G90 M6 M03")
+    assert (read.g, read.m) == ([411, 900], [60, 30])
     assert (tenths(41.1), tenths(41.15), tenths(-1.0), tenths(1e9)) == (411, None, None, None)
     assert (whole(3.00001), whole(2.5)) == (3, None)
 
 
 @pytest.mark.parametrize("text", ["", "   ", "%", "(nothing)", "; nothing", "(a)(b) ; c"])
-def test_lines_without_a_block(text: str) -> None:
+def test_lines_without_words_have_no_block(text: str) -> None:
     assert read_line(text, 1, Log()) == []
 
 
-def test_comments_stand_anywhere() -> None:
+def test_comments_may_be_anywhere() -> None:
     assert block("G1 (to X9) X2 (Y9) ; Y8").words == {"X": 2.0}
     assert block("(a;b) X2").words == {"X": 2.0}
 
 
-def test_columns_count_from_1_and_see_through_comments() -> None:
-    found = block("(X9) G1 X2")
-    assert (found.column("X"), found.column("G", 10), found.column("Z")) == (9, 6, 1)
+def test_columns_count_from_1_and_include_comments() -> None:
+    read = block("(X9) G1 X2")
+    assert (read.column("X"), read.column("G", 10), read.column("Z")) == (9, 6, 1)
 
 
 @pytest.mark.parametrize(
@@ -79,39 +79,39 @@ def test_columns_count_from_1_and_see_through_comments() -> None:
         ("X1" + "0" * 30, "NUMBER", 1),
     ],
 )
-def test_faults_have_a_place(text: str, code: str, column: int) -> None:
+def test_faults_have_a_column(text: str, code: str, column: int) -> None:
     assert fault(text) == (code, column)
 
 
-def test_blanks_may_be_nothing_anywhere() -> None:
-    found = block("G4 1 X1 .5 Y - 2", Syntax(blanks=False))
-    assert (found.g, found.words) == ([410], {"X": 1.5, "Y": -2.0})
+def test_blanks_may_be_insignificant() -> None:
+    read = block("G4 1 X1 .5 Y - 2", Syntax(blanks=False))
+    assert (read.g, read.words) == ([410], {"X": 1.5, "Y": -2.0})
     assert fault("G4 1 X1")[0] == "WORD"
 
 
-def test_tool_data_after_slashes() -> None:
+def test_tool_data_follow_slashes() -> None:
     assert block("T4/.75/.2", Syntax(tool_data=True)).data == ToolData(4, 0.75, 0.2)
     assert block("T5//-.5", Syntax(tool_data=True)).data == ToolData(5, None, -0.5)
 
 
 def test_a_semicolon_may_end_a_block() -> None:
-    found = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(semicolon_ends=True, tool_data=True))
-    assert [one.words for one in found] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
-    assert [one.column("XY") for one in found] == [3, 6, 9]
+    blocks = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(semicolon_ends=True, tool_data=True))
+    assert [read_block.words for read_block in blocks] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
+    assert [read_block.column("XY") for read_block in blocks] == [3, 6, 9]
 
 
 def test_text_after_the_end_of_a_block_is_reported() -> None:
     log = Log()
-    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(semicolon_ends=True, tool_data=True))
-    assert found.data == ToolData(5, None, -0.5)
-    assert [(one.code, one.column) for one in log.findings] == [("TEXT", 17)]
+    (read,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(semicolon_ends=True, tool_data=True))
+    assert read.data == ToolData(5, None, -0.5)
+    assert [(finding.code, finding.column) for finding in log.findings] == [("TEXT", 17)]
 
 
-def test_block_skip_is_off_and_reported() -> None:
+def test_block_skip_is_ignored_and_reported() -> None:
     log = Log()
-    (found,) = read_line("/G1X1", 1, log)
-    assert found.words == {"X": 1.0}
-    assert [one.code for one in log.findings] == ["SKIP"]
+    (read,) = read_line("/G1X1", 1, log)
+    assert read.words == {"X": 1.0}
+    assert [finding.code for finding in log.findings] == ["SKIP"]
 
 
 def test_a_block_skip_with_a_number_is_named() -> None:
@@ -121,7 +121,7 @@ def test_a_block_skip_with_a_number_is_named() -> None:
     assert caught.value.finding.column == 2
 
 
-def test_a_slash_within_the_block_skips_nothing() -> None:
+def test_a_slash_within_the_block_is_a_fault() -> None:
     with pytest.raises(AlarmError) as caught:
         read_line("/G1X1/Y2", 1, Log())
     assert (caught.value.finding.code, caught.value.finding.column) == ("WORD", 6)
@@ -131,20 +131,20 @@ def test_a_slash_within_the_block_skips_nothing() -> None:
 @pytest.mark.parametrize(
     "text", [b"G1\nX2\n", b"G1\r\nX2", b"G1\rX2\r", b"\xef\xbb\xbfG1\nX2", "G1\nX2".encode("utf-16")]
 )
-def test_line_ends_and_encodings(text: bytes) -> None:
+def test_all_line_ends_and_encodings_are_read(text: bytes) -> None:
     assert lines_of(text) == ["G1", "X2"]
 
 
-def test_bytes_that_are_no_text_are_lines_all_the_same() -> None:
+def test_bytes_that_are_no_text_are_still_lines() -> None:
     assert lines_of(b"\xff\x00\x81\nG1") == ["\xff\x00\x81", "G1"]
     assert lines_of(b"") == []
 
 
-def test_letters_that_only_look_plain_are_not_words() -> None:
+def test_letters_that_only_look_like_ascii_are_not_words() -> None:
     assert fault("\u017f500")[0] == "WORD"
 
 
-def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
+def test_quoted_text_has_no_control_characters() -> None:
     assert quoted("\x1b[2J\x07{x}") == "?[2J??x?"
     assert quoted("A" * 100) == "A" * 24 + "..."
     assert quoted(" " * 10 + "A" * 22) == "A" * 22
@@ -152,14 +152,14 @@ def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
 
 @pytest.mark.parametrize("piece", ["X1", "(", "()", "1", " ", ";", ")(", "X"])
 def test_a_line_of_a_megabyte_is_read_to_its_end(piece: str) -> None:
-    """In a quadratic reader it would take hours."""
-    said = alarm(piece * (1_000_000 // len(piece)))
-    assert said is None or len(said.text) < 200
+    """A quadratic reader would take hours."""
+    finding = alarm(piece * (1_000_000 // len(piece)))
+    assert finding is None or len(finding.text) < 200
 
 
 @given(st.text(max_size=60))
 @settings(max_examples=300, derandomize=True)
-def test_any_text_is_read_or_faulted(text: str) -> None:
-    said = alarm(text)
-    assert said is None or said.text.isprintable()
-    assert said is None or (said.column or 0) >= 1
+def test_any_text_is_read_or_has_a_fault(text: str) -> None:
+    finding = alarm(text)
+    assert finding is None or finding.text.isprintable()
+    assert finding is None or (finding.column or 0) >= 1

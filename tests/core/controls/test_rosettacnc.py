@@ -1,4 +1,4 @@
-"""RosettaCNC's samples and entries against calculations by hand: diameter 6 in the square, 10 in the window."""
+"""RosettaCNC's samples and entries against hand calculations: diameter 6 in the square, 10 in the window."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from core.controls.control_run import ControlRun
 from core.controls.judged_runs import judge_run
 from tests.core.controls.hand import findings_of, lines_and_ends, ran, same, sample, shape
 
-BEHIND_ENTRY = [
+AFTER_ENTRY = [
     ("ccw", 30, 3, 30, 10),
     ("line", 40, 3),
     ("ccw", 47, 10, 40, 10),
@@ -31,7 +31,7 @@ def test_nist_refuses_the_inside_corner_of_the_lead_in() -> None:
     assert findings_of(run, "C6")[0].line == 15
 
 
-def test_nist_enters_along_the_tangent_to_the_tool_where_it_stands() -> None:
+def test_nist_enters_along_the_tangent_to_the_tool_at_its_start() -> None:
     run = ran("G21 F100\nG0 X0 Y0\nG41 D1\nG1 X10\nX20\n", "rosettacnc:nist", t1=6)
     angle = radians(180) - acos(3 / 10)
     wanted = ("line", 10 + 3 * cos(angle), 3 * sin(angle))
@@ -52,12 +52,12 @@ def test_nist_enters_on_the_right_as_the_mirror_image() -> None:
 def test_easy_enters_at_the_tangent_point_of_the_second_move() -> None:
     run = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
     assert run.stopped_at is None
-    assert same(shape(run)[-12:], [("line", 23, 10), *BEHIND_ENTRY])
+    assert same(shape(run)[-12:], [("line", 23, 10), *AFTER_ENTRY])
 
 
-def test_normal_enters_as_linuxcnc_does_and_says_so() -> None:
+def test_normal_enters_like_linuxcnc_and_reports_the_assumption() -> None:
     run = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
-    assert same(shape(run)[-12:], [("line", 30 - sqrt(49 - 9), 7), *BEHIND_ENTRY])
+    assert same(shape(run)[-12:], [("line", 30 - sqrt(49 - 9), 7), *AFTER_ENTRY])
     assert "cutcomp assumes" in findings_of(run, "ENTRY")[0].text
 
 
@@ -71,7 +71,7 @@ def test_the_square_is_clean_apart_from_its_leads(variant: str) -> None:
 
 def window(run: ControlRun, first: int, second: int) -> list[tuple[float, float]]:
     """The compensated window in the coordinates of its plane, in order."""
-    stretch = next(one for one in run.stretches if one.plane.axes[:2] == (first, second))
+    stretch = next(stretch for stretch in run.stretches if stretch.plane.axes[:2] == (first, second))
     moves = run.moves.part(stretch.first + 1, stretch.first + 7)
     return [(round(float(point[first]), 6), round(float(point[second]), 6)) for point in moves.points]
 
@@ -85,23 +85,23 @@ def test_the_gothic_window_is_compensated_in_all_three_planes() -> None:
     assert window(run, 1, 2) == wanted
 
 
-def test_the_windows_stand_side_by_side_by_g52() -> None:
+def test_g52_places_the_windows_side_by_side() -> None:
     run = sample("rosettacnc-window.ngc", "rosettacnc:normal", t3=10)
     assert lines_and_ends(run, 26) == [(150.0, 0.0)]
     assert lines_and_ends(run, 46) == [(-150.0, 0.0)]
 
 
-def test_the_window_is_refused_by_the_other_entries() -> None:
+def test_the_other_entries_refuse_the_window() -> None:
     for variant in ("nist", "easy"):
         assert findings_of(sample("rosettacnc-window.ngc", f"rosettacnc:{variant}", t3=10), "C6")
 
 
-def test_a_dynamic_radius_is_taken_off_the_table_s() -> None:
+def test_a_dynamic_radius_is_subtracted_from_that_of_the_table() -> None:
     run = ran("G21 F100\nG41 D1 I1\nG1 X10\nX20 Y-5\n", "rosettacnc:easy", t1=6)
     assert run.stretches[0].radius == pytest.approx(2)
 
 
-def test_g41_1_takes_a_diameter() -> None:
+def test_g42_1_takes_a_diameter() -> None:
     run = ran("G21 F100\nG42.1 D4\nG1 X10\nX20\n", "rosettacnc:easy")
     assert same(shape(run), [("line", 10, -2), ("line", 20, -2)])
 
@@ -118,7 +118,7 @@ def test_lower_case_and_comments_of_both_kinds_are_read() -> None:
 
 
 @pytest.mark.parametrize("text", ["T1 M6", "M6 T1"])
-def test_the_loaded_tool_counts_without_d(text: str) -> None:
+def test_the_loaded_tool_gives_the_radius_without_d(text: str) -> None:
     run = ran(f"G21 F100\n{text}\nG41\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
     assert run.stretches[0].radius == pytest.approx(3)
 
@@ -131,13 +131,13 @@ def test_the_loaded_tool_counts_without_d(text: str) -> None:
         *("G59.1", "G59.2", "G59.3"),
     ],
 )
-def test_no_plane_origin_or_machine_point_is_taken_under_compensation(entry: str, code: str) -> None:
+def test_planes_origins_and_machine_positions_are_refused_under_compensation(entry: str, code: str) -> None:
     text = "G21 G17 G90\nT1 M6\nG0 X-20 Y0\nF100\nG41 D1\nG1 X10\nX20\n{}X40\nG40\nG0 X80\nM2\n"
     assert ran(text.format("G17\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at is None
     assert ran(text.format(f"{code}\n"), f"rosettacnc:{entry}", t1=6.0).stopped_at == 8
 
 
-def test_a_wear_in_i_without_a_tool_compensates_and_is_not_told_as_nothing() -> None:
+def test_a_wear_in_i_without_a_tool_compensates_without_a_warning() -> None:
     run = ran("G21 F100\nG0 X0 Y0\nG41 I-3\nG1 X10\nX20\n", "rosettacnc:nist")
     assert [stretch.radius for stretch in run.stretches] == [3.0]
     assert not findings_of(run, "RADIUS0")

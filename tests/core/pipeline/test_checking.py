@@ -1,4 +1,4 @@
-"""NC programs checked on controls: what stops them and which option helps."""
+"""NC programs checked on controls: their stops and the options that help."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def test_a_comparison_of_contours_says_which_program_stops_and_why() -> None:
     assert sentences[-1].endswith("On the command line: --tool 2=DIAMETER.")
 
 
-def test_what_several_passes_find_at_one_place_is_told_once() -> None:
-    """A wall that is cut into at the approach, by a loop."""
+def test_a_gouge_of_several_passes_at_one_place_is_reported_once() -> None:
+    """Each lap of the loop cuts into a wall at the approach."""
     lap = b"G0 X0. Y0.\nG41 D3 G1 X10. Y10.\nX40.\nY40.\nX10.\nY0.\nG40 X0.\n"
     loop = b"G21 F100.\n#1=0\nWHILE [#1 LT %d] DO1\n#1=#1+1\n" + lap + b"END1\nM30\n"
     once, twice = (answer(loop % times, asked("fanuc:a", CutterTool(3, 10.0))) for times in (1, 2))
@@ -44,8 +44,8 @@ def test_what_several_passes_find_at_one_place_is_told_once() -> None:
     assert twice.findings == once.findings
 
 
-def test_information_that_is_alike_for_many_contours_is_told_a_few_times() -> None:
-    """Ten holes, each with an arc in and an arc out."""
+def test_similar_information_on_many_contours_is_reported_a_few_times() -> None:
+    """Each of ten holes has an arc in and an arc out."""
     lead_in = b"G1 X%d. Y0\nG41 D3 X%d. Y-5.\nG3 X%d. Y0 R5.\n"
     hole = lead_in + b"I-10.\nX%d. Y5. R5.\nG40 G1 X%d. Y0\n"
     places = range(0, 400, 40)
@@ -56,8 +56,8 @@ def test_information_that_is_alike_for_many_contours_is_told_a_few_times() -> No
     assert leads[-1][1] == "LEADS: 7 more lines like these."
 
 
-def test_gouges_without_a_line_of_their_own_count_for_each_contour() -> None:
-    """Two combs whose slots are narrower than the tool: more gouges than are listed one by one, in each."""
+def test_gouges_that_are_not_listed_are_counted_for_each_contour() -> None:
+    """The slots of two combs are narrower than the tool: each comb has more gouges than are listed."""
     teeth = b"".join(b"X%d.\nY%d.\n" % (10 * tooth, 20 if tooth % 2 else 0) for tooth in range(1, 60))
     comb = b"G0 X0. Y-20.\nG41 G1 X0. Y0.\n" + teeth + b"G40 Y-50.\n"
     row = answer(b"G71 G90 F100.\nT3 M6\n" + comb + comb + b"M30\n", asked("threeblock", CutterTool(3, 12.0)))
@@ -65,17 +65,17 @@ def test_gouges_without_a_line_of_their_own_count_for_each_contour() -> None:
     assert len(more) == row.stretches == 2
 
 
-def test_a_search_for_the_largest_tool_ends_when_nobody_waits() -> None:
-    told = asked("fanuc:a", CutterTool(1, 0.5))
-    row, done = answer(SLOT, told), run(SLOT, "fanuc:a", told.tools)
-    assert isinstance(done, ControlRun)
+def test_a_canceled_search_for_the_largest_tool_stops() -> None:
+    request = asked("fanuc:a", CutterTool(1, 0.5))
+    row, finished_run = answer(SLOT, request), run(SLOT, "fanuc:a", request.tools)
+    assert isinstance(finished_run, ControlRun)
     assert row.fits is not None
 
     def canceled(_: float) -> None:
         raise Stopped
 
     with pytest.raises(Stopped):
-        with_largest_tool(row, done, SLOT, told, canceled)
+        with_largest_tool(row, finished_run, SLOT, request, canceled)
 
 
 def test_a_program_with_its_tool_runs_to_its_end() -> None:
@@ -87,23 +87,23 @@ SLOT = (
     b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\n"
     b"X2.\nY0.\nX-.5\nG40 X-1. Y-1.\nM30\n"
 )
-"""A plate with a slot that is 0.4 wide and open above."""
+"""A plate with a 0.4 wide slot that is open at the top."""
 
 SLANTING = b"G21 G17 G90 G1 F100.\nX-20. Y0.\nG41 D1 X0.\nX50.\nM8\nM9\nY40.\nX20.\nG40 X0.\nM30\n"
-"""Two lines without movement at a corner, across which some controls do not look: a gouge with any tool."""
+"""Two lines without movement at a corner that some controls cannot look past: every tool gouges."""
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc:a", "haas:a", "allen-bradley:a"])
-def test_the_largest_tool_that_fits_is_named_where_one_is_too_big(control: str) -> None:
+def test_the_largest_tool_that_fits_is_named_if_the_tool_is_too_big(control: str) -> None:
     row = answer(SLOT, asked(control, CutterTool(1, 0.5), CutterTool(2, 0.25)))
-    (found,) = (finding for finding in row.findings if finding.code == "TOOL_FITS")
-    assert found.text == "Tool 1 is too big; the largest that does not gouge: {0}."
-    assert from_mm(found.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
+    (finding,) = (finding for finding in row.findings if finding.code == "TOOL_FITS")
+    assert finding.text == "Tool 1 is too big; the largest that does not gouge: {0}."
+    assert from_mm(finding.lengths[0], Unit.IN) == pytest.approx(0.4, abs=1.1e-4)
     assert answer(SLOT, asked(control, CutterTool(1, 0.3999))).fits is None
 
 
 def test_no_tiny_tool_is_named_for_shallow_gouges_at_nearly_tangent_joints() -> None:
-    """Chords of a wavy disc that turn by up to 0.05 rad: LinuxCNC cuts r (1 - cos) of a few micrometers into them."""
+    """LinuxCNC gouges the chords of a wavy disc, which turn by up to 0.05 rad, by a few micrometers."""
     turns = [2 * pi * row / 200 for row in range(201)]
     places = [((50 + 1.2 * sin(8 * turn)) * cos(turn), (50 + 1.2 * sin(8 * turn)) * sin(turn)) for turn in turns]
     chords = "".join(f"X{x:.4f} Y{y:.4f}\n" for x, y in places)
@@ -114,7 +114,7 @@ def test_no_tiny_tool_is_named_for_shallow_gouges_at_nearly_tangent_joints() -> 
     assert row.fits is None
 
 
-def test_no_tool_is_named_where_a_smaller_one_would_gouge_too() -> None:
+def test_no_tool_is_named_if_smaller_tools_gouge_too() -> None:
     row = answer(SLANTING, asked("fanuc:a", CutterTool(1, 10.0)))
     assert row.gouge is not None
     assert row.fits is None
@@ -124,7 +124,7 @@ LEADS = "G21 G90 F200.\nT1 M6\nG0 X{start} Y-20.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\
 
 
 @pytest.mark.parametrize(("start", "end", "y"), [("10.", "0.", "-20."), ("0.", "-20.", "-2.")])
-def test_where_only_a_lead_gouges_the_lead_is_to_be_moved(start: str, end: str, y: str) -> None:
+def test_a_lead_that_alone_gouges_should_be_moved(start: str, end: str, y: str) -> None:
     row = answer(LEADS.format(start=start, end=end, y=y).encode(), asked("linuxcnc", CutterTool(1, 10.0)))
     assert row.gouge is not None
     assert row.fits is not None
@@ -132,15 +132,15 @@ def test_where_only_a_lead_gouges_the_lead_is_to_be_moved(start: str, end: str, 
 
 
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
-    told = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
-    assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in told
-    assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in told)
+    lines = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
+    assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in lines
+    assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in lines)
 
 
-def test_the_largest_tool_is_named_where_the_program_says_no_unit_too() -> None:
-    """Inches are taken, on every control."""
-    silent, said = SLOT.replace(b"G20 ", b""), SLOT
-    silent_rows, rows = (answer_all(text, asked("all", CutterTool(1, 0.5))) for text in (silent, said))
+def test_the_largest_tool_is_named_for_a_program_without_a_unit() -> None:
+    """Every control assumes inches."""
+    without_unit, with_unit = SLOT.replace(b"G20 ", b""), SLOT
+    silent_rows, rows = (answer_all(text, asked("all", CutterTool(1, 0.5))) for text in (without_unit, with_unit))
     fitting = [[row.control for row in each if row.fits is not None] for each in (silent_rows, rows)]
     assert fitting[0] == fitting[1]
     assert fitting[1]
