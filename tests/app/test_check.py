@@ -1,4 +1,4 @@
-"""The command line's check: text, tables, machine-readable, archives."""
+"""`cutcomp check` on the command line: text, tables, JSON and whole folders."""
 
 from __future__ import annotations
 
@@ -39,21 +39,21 @@ def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str])
     answer = json.loads(out)
     assert set(answer) == {"version", "results"}
     assert answer["version"] == 1
-    (told,) = answer["results"]
-    assert set(told) == RESULT_KEYS
-    assert (told["control"], told["units"], told["stopped_at"]) == ("three-block", "IN", None)
-    assert (told["file"], told["state"], told["parts_from"]) == (str(file), "gouges", None)
-    assert status == (1 if any(finding["severity"] == "error" for finding in told["findings"]) else 0)
-    first, second = told["moves"][0], told["moves"][1]
+    (result,) = answer["results"]
+    assert set(result) == RESULT_KEYS
+    assert (result["control"], result["units"], result["stopped_at"]) == ("three-block", "IN", None)
+    assert (result["file"], result["state"], result["parts_from"]) == (str(file), "gouges", None)
+    assert status == (1 if any(finding["severity"] == "error" for finding in result["findings"]) else 0)
+    first, second = result["moves"][0], result["moves"][1]
     assert (first["mode"], first["line"], first["x"], first["y"], first["z"]) == ("rapid", 0, 0, 0, 0)
     assert (second["x"], second["y"]) == pytest.approx((-1, 1))
     assert set(first) == MOVE_KEYS | {"feed"}
     assert first["feed"] is None
-    arc = next(move for move in told["moves"] if move["type"] == "arc")
+    arc = next(move for move in result["moves"] if move["type"] == "arc")
     assert set(arc) == MOVE_KEYS | ARC_KEYS | {"feed"}
     assert (arc["cx"], arc["cy"], arc["plane"], arc["ccw"]) == (pytest.approx(1.5), pytest.approx(0), "XY", False)
     keys = {"rule", "severity", "line", "column", "text", "lengths"}
-    assert all(set(finding) == keys for finding in told["findings"])
+    assert all(set(finding) == keys for finding in result["findings"])
 
 
 @pytest.mark.parametrize(
@@ -69,46 +69,46 @@ def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str])
         ("1=6mm", "1=6"),
     ],
 )
-def test_a_diameter_is_typed_as_on_a_form(typed: str, same: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_diameter_may_be_an_expression_with_a_unit(typed: str, same: str, capsys: pytest.CaptureFixture[str]) -> None:
     """The program is metric."""
     file = NC / "rosettacnc-square.ngc"
-    told = output(capsys, file, "--control", "all", "--tool", typed)
-    assert told == output(capsys, file, "--control", "all", "--tool", same)
-    assert told != output(capsys, file, "--control", "all", "--tool", "1=7")
+    result = output(capsys, file, "--control", "all", "--tool", typed)
+    assert result == output(capsys, file, "--control", "all", "--tool", same)
+    assert result != output(capsys, file, "--control", "all", "--tool", "1=7")
 
 
 @pytest.mark.parametrize("typed", ["1", "1=", "=.5", "x=y", "1=1/0", "1=nan", "1=1e9"])
-def test_what_is_no_diameter_of_a_tool_is_refused(typed: str, capsys: pytest.CaptureFixture[str]) -> None:
-    status, _, told = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", typed)
+def test_an_unusable_tool_diameter_is_refused(typed: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, _, err = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", typed)
     assert status == 2
-    assert "write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2." in told
+    assert "write a tool and a diameter, as in 1=.5, 2=6mm or 3=1/2." in err
 
 
 def test_two_diameters_of_one_tool_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     typed = ("--tool", "1=.5", "--tool", "2=.25", "--tool", "01=.4")
-    status, _, told = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", *typed)
-    assert (status, "tool 1 has two diameters" in told) == (2, True)
+    status, _, err = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", *typed)
+    assert (status, "tool 1 has two diameters" in err) == (2, True)
 
 
 def test_an_alarm_has_line_column_and_rule(capsys: pytest.CaptureFixture[str]) -> None:
     file = NC / "rosettacnc-square.ngc"
     status, out, _ = output(capsys, file, "--control", "rosettacnc", "--tool", "1=6", "--json")
-    (told,) = json.loads(out)["results"]
-    assert (status, told["stopped_at"], told["state"]) == (1, 15, "alarm")
-    (alarm,) = [finding for finding in told["findings"] if finding["severity"] == "error"]
+    (result,) = json.loads(out)["results"]
+    assert (status, result["stopped_at"], result["state"]) == (1, 15, "alarm")
+    (alarm,) = [finding for finding in result["findings"] if finding["severity"] == "error"]
     assert (alarm["rule"], alarm["line"]) == ("C6", 15)
 
 
-def test_text_tells_findings_and_the_outcome(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_text_ends_with_the_outcome(capsys: pytest.CaptureFixture[str]) -> None:
     file = NC / "rosettacnc-square.ngc"
     status, out, _ = output(capsys, file, "--control", "rosettacnc:easy", "--tool", "1=6")
     assert status == 0
     assert out.splitlines()[-1] == "rosettacnc:easy: runs; 23 moves, 1 compensated stretch, MM."
 
 
-def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_controls_are_compared_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
-    # behind the table stand the reasons
+    # the reasons follow the table; reversed, so that a table row wins over a reason of the same control
     rows = dict(line.split(maxsplit=1) for line in reversed(out.splitlines()))
     assert status == 1
     assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
@@ -118,27 +118,29 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert "its contour only" in rows["heidenhain"]
 
 
-def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_sentence_after_the_table_says_why_a_control_stops(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
-    said = [line for line in out.splitlines() if "line 15 (C6): " in line]
-    assert said == [
+    reasons = [line for line in out.splitlines() if "line 15 (C6): " in line]
+    assert reasons == [
         "rosettacnc:nist at line 15 (C6): An inside corner is an error with this entry. "
         "Round it in the program or use the normal entry."
     ]
 
 
-def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_an_unknown_tool_is_reported_with_the_option_to_add(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "w.nc"
     file.write_text("G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n")
     _, out, _ = output(capsys, file, "--control", "all")
     rows = out.splitlines()
-    known = "No diameter of tool 3 is known: add --tool 3=0.5in with the real diameter, or --tools TABLE."
-    assert rows[-1] == known
+    advice = "No diameter of tool 3 is known: add --tool 3=0.5in with the real diameter, or --tools TABLE."
+    assert rows[-1] == advice
     assert all(name in out for name in ("B5-TOOL", "C1", "(TOOL)"))
-    assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
+    assert advice not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
 
 
-def test_what_a_comment_says_of_a_tool_nobody_gave_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_the_diameter_of_an_unknown_tool_is_quoted_from_a_comment(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     file = tmp_path / "w.nc"
     file.write_text("G20 G90\n(TOOL 3 END MILL DIAMETER 0.5000)\nT3 M6\nG41 D3 G1 X1. Y0 F10.\nM2\n")
     rows = output(capsys, file, "--control", "all")[1].splitlines()
@@ -146,7 +148,7 @@ def test_what_a_comment_says_of_a_tool_nobody_gave_is_told(capsys: pytest.Captur
 
 
 @pytest.mark.parametrize("text", ["G20 T3 M6\nG43 H3\nG0 X1.\nM2\n", "G20 G43 H3\nG0 X1.\nM2\n"])
-def test_one_control_says_behind_its_findings_how_a_tool_is_given(
+def test_the_option_for_an_unknown_tool_follows_the_findings_of_one_control(
     text: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     file, other, known = tmp_path / "w.nc", tmp_path / "other.tbl", tmp_path / "known.tbl"
@@ -154,14 +156,14 @@ def test_one_control_says_behind_its_findings_how_a_tool_is_given(
     other.write_text("T2 D.5\n")
     known.write_text("T3 D.5\n")
     arguments = (file, "--control", "linuxcnc")
-    told = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
-    assert output(capsys, *arguments)[1].splitlines()[-1] == told
-    assert output(capsys, *arguments, "--tools", other)[1].splitlines()[-1] == told
+    advice = "No diameter of tool 3 is known: add --tool 3=10mm with the real diameter, or --tools TABLE."
+    assert output(capsys, *arguments)[1].splitlines()[-1] == advice
+    assert output(capsys, *arguments, "--tools", other)[1].splitlines()[-1] == advice
     status, out, _ = output(capsys, *arguments, "--tools", known)
     assert (status, out.splitlines()[-1]) == (0, "linuxcnc: runs; 1 move, 0 compensated stretches, IN.")
 
 
-def test_what_lacks_no_tool_says_nothing_of_giving_one(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_no_tool_option_is_advised_when_every_tool_is_known(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "w.nc"
     file.write_text("G20 T1 M6\nG0 X1.\nG43 H1.5\nM2\n")
     _, out, _ = output(capsys, file, "--control", "linuxcnc", "--tool", "1=.5")
@@ -171,24 +173,26 @@ def test_what_lacks_no_tool_says_nothing_of_giving_one(capsys: pytest.CaptureFix
 
 def test_every_control_that_lacks_a_size_names_the_tool() -> None:
     text = b"G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n"
-    for one in answer_all(text, Asked("all", ToolTable(), shop=False, unit=None)):
-        assert one.missing == (None if one.control == "klartext" else 3), one.control
+    for answer in answer_all(text, Asked("all", ToolTable(), shop=False, unit=None)):
+        assert answer.missing == (None if answer.control == "klartext" else 3), answer.control
 
 
-def test_compensation_with_radius_0_is_no_clean_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_compensation_with_radius_0_is_reported_as_nothing_compensated(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     file = tmp_path / "w.nc"
     file.write_text("T1/.5/0.\nG0 X0 Y0\nG41 X1. Y0\nG1 X3. F10.\nY2.\nX1.\nG40 X1. Y3.\nM2\n")
     _, out, _ = output(capsys, file, "--control", "threeblock")
     assert out.splitlines()[-1].startswith("three-block: runs, nothing compensated; ")
 
 
-def test_the_shop_s_rules_when_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+def test_shop_rules_are_checked_only_on_request(capsys: pytest.CaptureFixture[str]) -> None:
     arguments = (NC / "threeblock-square.nc", "--control", "threeblock", "--tool", "1=.5")
     assert " H4 " not in output(capsys, *arguments)[1]
     assert " H8 " in output(capsys, *arguments, "--shop")[1]
 
 
-def test_a_folder_is_checked_in_one_line_each(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_is_reported_with_one_line_per_file(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = output(capsys, NC, "--control", "nine-series:b", "--tool", "1=.5")
     lines = out.splitlines()
     files = len(list(NC.iterdir()))
@@ -197,13 +201,13 @@ def test_a_folder_is_checked_in_one_line_each(capsys: pytest.CaptureFixture[str]
     assert lines[-1].startswith(f"{files} files: ")
 
 
-def test_many_files_as_json_have_their_names(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_results_of_several_files_have_their_names(capsys: pytest.CaptureFixture[str]) -> None:
     files = [NC / "threeblock-line.nc", NC / "threeblock-circle.nc"]
-    told = json.loads(output(capsys, *files, "--control", "threeblock", "--tool", "1=.5", "--json")[1])
-    assert [one["file"] for one in told["results"]] == [str(file) for file in files]
+    answer = json.loads(output(capsys, *files, "--control", "threeblock", "--tool", "1=.5", "--json")[1])
+    assert [result["file"] for result in answer["results"]] == [str(file) for file in files]
 
 
-def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_json_lengths_follow_the_tool_table_and_the_units(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     table, file = tmp_path / "tool.tbl", tmp_path / "a.nc"
     table.write_text("T1 P1 D10 ;mill\n")
     file.write_text("G41 D1\nG1 X20 F100\nX40\nM2\n")
@@ -225,7 +229,7 @@ def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Pa
         (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tools", str(NC)),
     ],
 )
-def test_what_cannot_be_used_is_status_2_and_one_sentence(
+def test_unusable_arguments_give_status_2_and_one_sentence(
     arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
     status, out, err = output(capsys, *arguments)
@@ -234,15 +238,15 @@ def test_what_cannot_be_used_is_status_2_and_one_sentence(
     assert err.count("\n") == 1
 
 
-def test_arguments_that_do_not_parse_are_status_2(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as left:
+def test_unparsable_arguments_give_status_2(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as error:
         check(["file.nc"])
-    assert left.value.code == 2
+    assert error.value.code == 2
     assert "--control" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("content", [b"", b"\x00\xff\x1b[2J\x07" * 50, b"G1 X\x1b[31m", b"%", b"M98P1\nO1\nM98P1\nM99"])
-def test_nothing_of_a_file_reaches_the_terminal_raw(
+def test_no_control_characters_of_a_file_reach_the_terminal(
     content: bytes, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     file = tmp_path / "x.nc"
@@ -252,7 +256,7 @@ def test_nothing_of_a_file_reaches_the_terminal_raw(
     assert (out + err).replace("\n", "").isprintable()
 
 
-def test_an_empty_folder_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_an_empty_folder_gives_status_2(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert output(capsys, tmp_path, "--control", "linuxcnc")[0] == 2
 
 
@@ -280,19 +284,19 @@ def test_klartext_and_iso_are_compared_by_their_contours(
     first, second = tmp_path / "a.h", tmp_path / "b.nc"
     first.write_text(KLARTEXT.format(end=end))
     second.write_text(ISO)
-    found, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour", "--tool", "1=6")
-    assert found == status, out
+    exit_status, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour", "--tool", "1=6")
+    assert exit_status == status, out
     same = "Contour 1: the same.\n"
-    off = "Contour 1: line 10 of the first is 1.000 MM off, line 8 of the second is 1.000 MM off.\n"
-    assert out == (off if status else same)
+    different = "Contour 1: line 10 of the first is 1.000 MM off, line 8 of the second is 1.000 MM off.\n"
+    assert out == (different if status else same)
 
 
-def test_comparing_contours_says_why_a_program_stops(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_comparing_contours_explains_why_a_program_stops(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     first, second = tmp_path / "a.nc", tmp_path / "b.nc"
     first.write_text(ISO)
     second.write_text(ISO)
-    found, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour")
-    assert found == 1, out
+    status, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour")
+    assert status == 1, out
     assert "The second program stops at line 3; what follows is not compared. The tool table has no tool 1." in out
     assert "On the command line: --tool 1=DIAMETER." in out
 
@@ -317,7 +321,7 @@ def test_an_empty_program_is_an_error(capsys: pytest.CaptureFixture[str], tmp_pa
 def test_the_table_of_all_controls_names_the_rules_that_warn(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """Behind G40 a rapid goes on through the wall just cut."""
+    """After G40, a rapid crosses the wall that was just cut."""
     file = tmp_path / "a.nc"
     file.write_text(
         "G21 G17 G40 G90\nT1 M6\nG0 X-20. Y-20.\nG1 Z-5. F300.\nG41 D1 X0. Y-10.\nY40.\nX60.\nY0.\nX-10.\n"
@@ -329,7 +333,7 @@ def test_the_table_of_all_controls_names_the_rules_that_warn(
     assert status == 1
 
 
-def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
+def test_an_empty_folder_is_reported_and_the_other_files_are_checked(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     (tmp_path / "empty").mkdir()
@@ -340,7 +344,7 @@ def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
     assert out.splitlines()[-1] == "2 files: 1 clean, 0 with warnings, 0 with errors, 1 not readable."
 
 
-def test_a_folder_tells_what_it_leaves_out_and_counts_warnings(
+def test_a_folder_report_names_skipped_files_and_counts_warnings(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     good = "G21 G90 G17 G40\nT1 M6\nG0 X-20. Y-20.\nG1 Z-1. F100.\nG41 D1 X0. Y-10.\nY30.\nG40 X-20.\nM30\n"
@@ -357,30 +361,32 @@ def test_a_folder_tells_what_it_leaves_out_and_counts_warnings(
     assert last == "2 files: 1 clean, 1 with warnings, 0 with errors, 0 not readable."
 
 
-def test_ctrl_c_ends_an_archive_quietly(tmp_path: Path) -> None:
+def test_ctrl_c_ends_the_check_of_a_folder_quietly(tmp_path: Path) -> None:
     text = b"G21 G17 G90 F100\nG1 X0 Y0\n" + b"".join(b"X%d Y%d\n" % (row, row % 9) for row in range(6_000)) + b"M2\n"
     (tmp_path / "0.nc").write_bytes(text)
     for number in range(1, 600):
         os.link(tmp_path / "0.nc", tmp_path / f"{number}.nc")
     command = [sys.executable, "-m", "app", "check", str(tmp_path), "--control", "linuxcnc"]
-    plain = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
-    # tests that run behind a shell may themselves not hear it, and what they start would not either
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    running = Popen(command, stdout=PIPE, stderr=PIPE, start_new_session=True, cwd=Path(__file__).parents[2], env=plain)
-    signal.signal(signal.SIGINT, before)
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    # a shell may start the tests with SIGINT ignored, and their child processes would inherit that
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
+    running = Popen(
+        command, stdout=PIPE, stderr=PIPE, start_new_session=True, cwd=Path(__file__).parents[2], env=environment
+    )
+    signal.signal(signal.SIGINT, handler)
     with running:
         assert running.stdout is not None
         running.stdout.readline()
         os.killpg(running.pid, signal.SIGINT)
-        _, told = running.communicate(timeout=60)
+        _, err = running.communicate(timeout=60)
     assert running.returncode == 130
-    assert told == b""
+    assert err == b""
 
 
 FRAGMENT = "L X-20 Y+0 R0 FMAX\nL X+0 Y+0 RL F200\nL X+30\nL X+60 R0\n"
 
 
-def test_a_tool_of_klartext_is_given_by_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_klartext_tool_is_given_by_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "named.h"
     file.write_text('BEGIN PGM A MM\nTOOL CALL "Rough D10" Z S3000 F500\n' + FRAGMENT + "END PGM A MM\n")
     status, out, _ = output(capsys, file, "--control", "klartext")
@@ -391,7 +397,7 @@ def test_a_tool_of_klartext_is_given_by_its_name(tmp_path: Path, capsys: pytest.
     assert "alarms" not in out
 
 
-def test_a_piece_of_klartext_names_the_option_and_runs_with_it(
+def test_a_klartext_fragment_names_the_tool_option_and_runs_with_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:  # fmt: skip
     file = tmp_path / "piece.h"
@@ -405,14 +411,14 @@ def test_a_piece_of_klartext_names_the_option_and_runs_with_it(
     assert "4 moves, 1 compensated stretch, MM." in out
 
 
-def test_a_tool_without_a_diameter_names_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_missing_diameter_of_a_tool_names_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "part.ngc"
     file.write_text("G20 F9\nG41 D4\nG1 X1\nM2\n")
     _, out, _ = output(capsys, file, "--control", "linuxcnc")
     assert "--tool 4=DIAMETER" in out
 
 
-def test_klartext_on_another_control_is_said_to_be_another_language(
+def test_klartext_on_an_iso_control_is_reported_as_another_language(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:  # fmt: skip
     file = tmp_path / "piece.h"
@@ -422,7 +428,7 @@ def test_klartext_on_another_control_is_said_to_be_another_language(
 
 
 def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None:
-    """As programs are called on a disk: gauge_o1002.cnc."""
+    """A file on disk may be named like gauge_o1002.cnc."""
     (tmp_path / "other.nc").write_text("%\nO1003\nM99\n%")
     (tmp_path / "gauge_o1002.cnc").write_text("%\n(GAUGE)\nO1002 (PART)\nG1 X5. F100.\nM99\n%")
     found = FolderLibrary(tmp_path)(1002)
@@ -436,10 +442,10 @@ def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None
 POCKET = "o<pocket> sub\n  G1 X#1 Y#2\n  o100 if [#1 GT 5]\n  X[#1+1]\n  o100 endif\no<pocket> endsub\nM2\n"
 
 
-def test_linuxcnc_calls_the_file_of_a_named_subprogram(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_linuxcnc_finds_a_named_subprogram_in_its_own_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "pocket.ngc").write_text(POCKET)
     main = tmp_path / "main.ngc"
-    # as the real interpreter runs it: to (10, 20), (11, 20), (1, 2), (50, 2); the file's own M2 is not reached
+    # the real interpreter moves to (10, 20), (11, 20), (1, 2), (50, 2) and never reaches the M2 of pocket.ngc
     main.write_text("G21 G90 F100\no<Pocket> call [10] [20]\no<pocket> call [1] [2]\nX50\n")
     assert check([str(main), "--control", "linuxcnc", "--json"]) == 0
     (result,) = json.loads(capsys.readouterr().out)["results"]
@@ -448,7 +454,7 @@ def test_linuxcnc_calls_the_file_of_a_named_subprogram(tmp_path: Path, capsys: p
 
 
 @pytest.mark.parametrize(
-    ("call", "said"),
+    ("call", "message"),
     [
         ("o<lost> call", "There is no subprogram O<lost> in this file, and no file lost.ngc in its folder."),
         ("o7 call", "There is no subprogram O7 in this file, and no file 7.ngc in its folder."),
@@ -458,8 +464,8 @@ def test_linuxcnc_calls_the_file_of_a_named_subprogram(tmp_path: Path, capsys: p
         ("o<../outside> call", "There is no subprogram O<../outside> in this file"),
     ],
 )
-def test_a_missing_file_of_a_subprogram_is_named_with_line_and_column(
-    call: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_a_subprogram_that_cannot_be_called_is_reported_at_its_call(
+    call: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -472,6 +478,6 @@ def test_a_missing_file_of_a_subprogram_is_named_with_line_and_column(
     assert check([str(folder / "main.ngc"), "--control", "linuxcnc", "--json"]) == 1
     (result,) = json.loads(capsys.readouterr().out)["results"]
     (finding,) = (finding for finding in result["findings"] if finding["severity"] == "error")
-    assert finding["text"].startswith(said)
+    assert finding["text"].startswith(message)
     assert finding["line"] == result["stopped_at"] == 2
     assert finding["column"] == (1 if "bad" in call else call.index("call") + 1)

@@ -1,4 +1,4 @@
-"""NC PROOF: keys in, listing, verdict and file out."""
+"""NC PROOF: keys go in; the listing, the verdict and the file come out."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ PROGRAM = b"G20 G17 F10\r\nG1 X0 Y-1\nG42 D1 X1 Y1;\nX3\nY3\nG40 X0\nM2\n"
 
 
 class Proof(Operator):
-    """Somebody at NC PROOF."""
+    """An operator at NC PROOF."""
 
     async def settle(self) -> None:
         for _ in range(3):
@@ -54,7 +54,7 @@ class Proof(Operator):
                 if worker.group in ("proof", "dotted", "compare", "derive", "table", "drawing")
             ]
             if working:
-                # a drawing that another one replaces is given up
+                # the drawing worker is cancelled when a newer drawing replaces it
                 with suppress(WorkerCancelled):
                     await self.app.workers.wait_for_complete(working)
             await self.pilot.pause()
@@ -73,12 +73,12 @@ class Proof(Operator):
         return self.proof.query_one(Listing).row + 1
 
     def findings(self) -> list[str]:
-        listed = self.proof.query_one("#proof-findings", OptionList)
-        return [str(listed.get_option_at_index(row).prompt) for row in range(listed.option_count)]
+        options = self.proof.query_one("#proof-findings", OptionList)
+        return [str(options.get_option_at_index(row).prompt) for row in range(options.option_count)]
 
 
 def drawn(user: Proof, name: str) -> set[Style]:
-    """The styles in a drawing as it is shown."""
+    """The styles in a drawing as displayed."""
     picture = user.proof.query_one(f"#{name}", Drawing).drawn
     assert picture is not None
     return {Style(number) for number in picture.picture.styles.ravel().tolist()}
@@ -90,15 +90,15 @@ async def at_proof(
 ) -> AsyncIterator[Proof]:
     (tmp_path / "p.nc").write_bytes(data)
     service = DocumentService(state=tmp_path / "own")
-    opened = service.open(tmp_path / "p.nc")
-    assert isinstance(opened, Opened)
-    begun = session_of(service.new().document)
-    app = CutcompApp(begun, surroundings=SURROUNDINGS, service=service, opened=opened, asked=asked)
+    opening = service.open(tmp_path / "p.nc")
+    assert isinstance(opening, Opened)
+    session = session_of(service.new().document)
+    app = CutcompApp(session, surroundings=SURROUNDINGS, service=service, opened=opening, asked=asked)
     async with app.run_test(size=size) as pilot:
-        one = Proof(app, pilot)
-        await one.settle()
-        yield one
-        await one.settle()
+        user = Proof(app, pilot)
+        await user.settle()
+        yield user
+        await user.settle()
     service.stop()
 
 
@@ -108,7 +108,7 @@ async def with_tool(user: Proof, text: str = "1=.25") -> None:
     await user.settle()
 
 
-async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_typed(tmp_path):
+async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp_path):
     async with at_proof(tmp_path) as user:
         assert "alarms at line 3" in user.outcome
         await with_tool(user)
@@ -118,22 +118,22 @@ async def test_a_tool_that_is_not_known_stops_the_control_until_its_diameter_is_
         assert "gouges by 0.1255" in user.outcome
 
 
-async def test_the_largest_tool_that_fits_stands_among_the_findings(tmp_path):
-    """A slot 0.4 wide, open above."""
+async def test_the_findings_name_the_largest_tool_that_fits(tmp_path):
+    """The slot is 0.4 wide and open at the top."""
     slot = (
         b"G20 G90 G40 F20.\nG0 X-1. Y-1.\nT1 M6\nG41 D1 G1 X0. Y0.\nY2.\nX.3\nY1.\nX.7\nY2.\nX2.\nY0.\nX-.5\nG40 X-1.\n"
     )
-    said = "Tool 1 is too big; the largest that does not gouge: 0.3999."
+    advice = "Tool 1 is too big; the largest that does not gouge: 0.3999."
     async with at_proof(tmp_path, slot) as user:
         await with_tool(user, "1=.5")
         fault, fits = user.findings()[-2:]
         assert fault.startswith("✖ 9: The cutter does not fit")
-        assert fits == f"i 9: {said}"
+        assert fits == f"i 9: {advice}"
         await with_tool(user, "1=.3999")
         assert not any("too big" in finding for finding in user.findings())
 
 
-async def test_pages_of_findings_that_have_no_room_are_no_step(tmp_path):
+async def test_page_keys_do_nothing_when_the_findings_have_no_room(tmp_path):
     async with at_proof(tmp_path) as user:
         await user.pilot.resize_terminal(20, 5)
         await user.press("tab")
@@ -143,7 +143,7 @@ async def test_pages_of_findings_that_have_no_room_are_no_step(tmp_path):
 
 
 async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
-    """A dialog that closes gives the keys back to nobody there; EDIT brings the listing back."""
+    """A closing dialog does not return the focus to the hidden listing; F7 shows the listing again."""
     async with at_proof(tmp_path) as user:
         listing = user.proof.query_one(Listing)
         await user.press("enter", "f7")
@@ -178,7 +178,7 @@ async def test_home_over_an_nc_text_shows_its_folder(tmp_path, monkeypatch):
         assert user.app.screen.folder == tmp_path
 
 
-async def test_n_and_p_go_from_finding_to_finding_and_their_lines(tmp_path):
+async def test_n_and_p_step_through_the_findings_and_their_lines(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
         lines = [int(text.split()[1].rstrip(":")) for text in user.findings()]
@@ -203,7 +203,7 @@ async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):
         assert (tmp_path / "p.nc").read_bytes() == b"x" + PROGRAM
 
 
-async def test_an_edited_line_is_on_the_disk_when_the_cursor_has_left_it(tmp_path):
+async def test_an_edited_line_is_journaled_when_the_cursor_leaves_it(tmp_path):
     async with at_proof(tmp_path) as user:
         await user.press("enter", "x", "down")
         assert (tmp_path / ".p.nc.cutcomp-journal").exists()
@@ -216,20 +216,20 @@ async def test_an_edited_line_is_on_the_disk_when_the_cursor_has_left_it(tmp_pat
         assert not (tmp_path / ".p.nc.cutcomp-journal").exists()
 
 
-async def test_the_gravest_finding_is_in_view_until_the_cursor_stands_on_another(tmp_path):
+async def test_the_gravest_finding_is_highlighted_until_another_is_chosen(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
-        listed = user.proof.query_one("#proof-findings", OptionList)
+        options = user.proof.query_one("#proof-findings", OptionList)
         lines = [finding.line for finding in user.proof.result_findings]
         weights = [finding.severity for finding in user.proof.result_findings]
         assert weights[0] is not Severity.ERROR
-        assert listed.highlighted == weights.index(Severity.ERROR)
+        assert options.highlighted == weights.index(Severity.ERROR)
         await user.press("n", ">")
         await user.settle()
-        assert user.line == lines[listed.highlighted]
+        assert user.line == lines[options.highlighted]
 
 
-async def test_the_control_chosen_last_is_that_of_the_next_program(tmp_path):
+async def test_the_last_chosen_control_is_used_for_the_next_program(tmp_path):
     async with at_proof(tmp_path) as user:
         assert user.proof.question.control == "linuxcnc"
         await user.press("c", "home", "enter")
@@ -267,7 +267,7 @@ async def test_tools_that_were_typed_come_before_those_of_the_header(tmp_path):
         assert "the last time" in user.prompt
 
 
-async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
+async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path):
     async with at_proof(tmp_path) as user:
         await user.press("c", "h", "h", "enter")
         await user.settle()
@@ -280,22 +280,22 @@ async def test_a_letter_goes_to_the_control_whose_name_begins_with_it(tmp_path):
         assert user.proof.question.control == "threeblock"
 
 
-async def test_a_program_comes_back_with_the_tools_it_was_given_the_last_time(tmp_path):
+async def test_a_reopened_program_has_the_tools_of_the_last_time(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
         await with_tool(user, "2=6mm")
-        known = user.app.settings.tools_of(tmp_path / "p.nc")
-        assert known == "1=0.25in 2=0.23622047244094488in"
+        saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
+        assert saved_tools == "1=0.25in 2=0.23622047244094488in"
         await user.press("f8")
         user.app.open_file(tmp_path / "p.nc")
         await user.settle()
-        assert user.proof.question.tools.tools == read_tools(known).tools
+        assert user.proof.question.tools.tools == read_tools(saved_tools).tools
         assert user.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
         assert "the last time" in user.prompt
     assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x").tools == {3: CutterTool(3, -0.5, unit=Unit.IN)}
 
 
-async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
+async def test_all_controls_are_compared_and_one_can_be_chosen(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
         await user.press("v")
@@ -304,18 +304,18 @@ async def test_all_controls_are_compared_and_one_is_taken(tmp_path):
         rows = user.app.screen.query_one("#compared", OptionList)
         assert rows.option_count >= 8
         assert rows.get_option_at_index(0).id == "linuxcnc"
-        words = {option.id: str(option.prompt) for option in rows.options}
-        assert any("differs from linuxcnc" in each for each in words.values())
-        assert "Write T and the number." in words["threeblock"]
-        assert not any("On the command line" in each for each in words.values())
-        taken = rows.get_option_at_index(1).id
+        prompts = {option.id: str(option.prompt) for option in rows.options}
+        assert any("differs from linuxcnc" in prompt for prompt in prompts.values())
+        assert "Write T and the number." in prompts["threeblock"]
+        assert not any("On the command line" in prompt for prompt in prompts.values())
+        chosen = rows.get_option_at_index(1).id
         await user.press("down", "enter")
         await user.settle()
-        assert user.proof.question.control == taken
+        assert user.proof.question.control == chosen
 
 
 async def dot(user: Proof, control: str) -> None:
-    """Draw the path of a control dotted, by the list of V."""
+    """Draw the path of a control dotted, chosen in the list that V opens."""
     await user.press("v")
     await user.settle()
     rows = user.app.screen.query_one("#compared", OptionList)
@@ -328,45 +328,45 @@ async def dot(user: Proof, control: str) -> None:
 async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
     async with at_proof(tmp_path, size=size) as user:
         await with_tool(user, "1=.75")
-        own = user.proof.result
+        result = user.proof.result
         await dot(user, "fanuc:a")
-        assert user.proof.result is own, "its own run is not made again"
+        assert user.proof.result is result, "its own run is not made again"
         assert user.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
         assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
         assert Style.UNTAKEN in drawn(user, "proof-drawing")
-        second = user.proof.query_one("#proof-dotted", Drawing)
-        assert bool(second.region) == (size == (200, 60))
-        if second.region:
+        dotted = user.proof.query_one("#proof-dotted", Drawing)
+        assert bool(dotted.region) == (size == (200, 60))
+        if dotted.region:
             assert Style.UNTAKEN not in drawn(user, "proof-dotted")
-            assert second.heading == "fanuc:a: gouges by 0.3750 at line 6"
+            assert dotted.heading == "fanuc:a: gouges by 0.3750 at line 6"
         await user.press("b")
         await user.settle()
-        assert user.proof.result is own
+        assert user.proof.result is result
         assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
         assert Style.UNTAKEN not in drawn(user, "proof-drawing")
         assert not user.proof.query_one("#proof-dotted", Drawing).region
 
 
-async def test_the_dotted_path_follows_text_tool_and_choice(tmp_path):
+async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user, "1=.75")
         await dot(user, "fanuc:a")
 
-        def ends() -> tuple[str, list[float]]:
+        def dotted_end() -> tuple[str, list[float]]:
             assert user.proof.dotted is not None
-            other = user.proof.dotted.result
-            return other.question.control, other.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
+            result = user.proof.dotted.result
+            return result.question.control, result.proof.run.moves.points.max(axis=0).round(3).tolist()[:2]
 
-        assert ends() == ("fanuc:a", [85.725, 76.2])
+        assert dotted_end() == ("fanuc:a", [85.725, 76.2])
         await with_tool(user, "1=.25")
-        assert ends() == ("fanuc:a", [79.375, 76.2])
+        assert dotted_end() == ("fanuc:a", [79.375, 76.2])
         for _ in range(4):
             await user.press("down")
         await user.press("enter", "end", "backspace", "5", "escape")
         await user.settle()
-        assert ends() == ("fanuc:a", [79.375, 127.0])
+        assert dotted_end() == ("fanuc:a", [79.375, 127.0])
         await dot(user, "haas:a")
-        assert ends()[0] == "haas:a"
+        assert dotted_end()[0] == "haas:a"
         user.proof.query_one(Listing).focus()
         await dot(user, "linuxcnc")
         assert "already" in user.prompt
@@ -377,24 +377,24 @@ async def test_the_dotted_path_follows_text_tool_and_choice(tmp_path):
         assert user.app._works == ()
 
 
-async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict(tmp_path, monkeypatch):
+async def test_stopping_the_dotted_run_leaves_the_verdict_unchanged(tmp_path, monkeypatch):
     async with at_proof(tmp_path) as user:
         await with_tool(user, "1=.75")
-        before, begun = user.outcome, Event()
+        before, started = user.outcome, Event()
 
-        def endless(*asked: Any) -> RanDotted:
-            begun.set()
+        def endless(*arguments: Any) -> RanDotted:
+            started.set()
             while True:
-                asked[-1](0.5)
+                arguments[-1](0.5)
                 sleep(0.001)
 
         monkeypatch.setattr("app.nc_proof.screen.run_dotted", endless)
         monkeypatch.setattr(Work, "stoppable", True)
         await user.press("v")
         await user.settle()
-        # nobody waits for what does not end
+        # not user.press: it would wait for the endless run
         await user.pilot.press("down", "space")
-        while not begun.is_set():
+        while not started.is_set():
             await user.pilot.pause(0.02)
         await user.pilot.press("escape")
         await user.settle()
@@ -404,7 +404,7 @@ async def test_a_run_on_the_other_control_that_is_stopped_leaves_the_own_verdict
         assert user.app._works == ()
 
 
-async def test_a_control_of_another_language_has_no_path_to_draw(tmp_path):
+async def test_a_control_of_another_language_draws_no_dotted_path(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
         await dot(user, "klartext")
@@ -414,7 +414,7 @@ async def test_a_control_of_another_language_has_no_path_to_draw(tmp_path):
         assert "draws its path dotted" in user.prompt
 
 
-async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp_path):
+async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path):
     text = b"(BRACKET 4417)\nG20 G17 F10\nT2 M6\nG1 X0 Y-1\nG42 D5 X1 Y1\nX3\nY3\nG40 X0\nM2\n"
     async with at_proof(tmp_path, text) as user:
         assert first_tool(user.proof.document.text) == 2
@@ -434,7 +434,7 @@ async def test_the_tool_that_is_asked_for_is_the_one_that_the_control_misses(tmp
         assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
 
-async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
+async def test_a_klartext_tool_gets_its_diameter_by_name(tmp_path):
     text = (
         b'0 BEGIN PGM A MM\n1 TOOL CALL "Rough D10" Z S3000 F500\n2 L X-20 Y-20 Z-5 R0 FMAX\n'
         b"3 L X+0 Y+0 RL F300\n4 L Y+50\n5 L X+50\n6 L X+70 Y+50 R0\n7 END PGM A MM\n"
@@ -444,8 +444,8 @@ async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
         assert user.proof.question.tools.tools == {"ROUGH D10": CutterTool("ROUGH D10", 10.0, unit=Unit.MM)}
         assert user.prompt == "Tool ROUGH D10: diameter 10 MM."
         assert user.proof.result.answer.stopped_at is None
-        known = user.app.settings.tools_of(tmp_path / "p.nc")
-        assert read_tools(known).tools == user.proof.question.tools.tools
+        saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
+        assert read_tools(saved_tools).tools == user.proof.question.tools.tools
         await with_tool(user, "rough d10=12")
         assert user.proof.question.tools.get("ROUGH D10").diameter == 12.0
         await with_tool(user, "Rough D10=")
@@ -453,7 +453,7 @@ async def test_a_tool_of_klartext_is_given_a_diameter_by_its_name(tmp_path):
         assert user.proof.result.answer.missing == "ROUGH D10"
 
 
-async def test_a_line_that_is_being_typed_is_not_saved_and_says_so(tmp_path):
+async def test_the_file_name_marks_a_line_being_typed_as_unsaved(tmp_path):
     async with at_proof(tmp_path) as user:
         title, name = user.proof.query_one("#proof-mode", Label), user.proof.query_one("#proof-file", Label)
         await user.press("n", "enter")
@@ -468,7 +468,7 @@ async def test_a_line_that_is_being_typed_is_not_saved_and_says_so(tmp_path):
         assert str(title.content) == "NC PROOF"
 
 
-async def test_a_diameter_is_shown_with_its_unit_where_the_program_has_another(tmp_path):
+async def test_a_diameter_is_shown_with_its_unit_when_the_program_uses_another(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user, "1=.25")
         tools = user.proof.query_one("#proof-tools", Label)
@@ -479,7 +479,7 @@ async def test_a_diameter_is_shown_with_its_unit_where_the_program_has_another(t
         assert str(tools.content) == "tools 1=0.25in"
 
 
-async def test_another_name_without_an_ending_has_that_of_the_file(tmp_path, monkeypatch):
+async def test_a_new_name_without_a_suffix_takes_the_suffix_of_the_file(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with at_proof(tmp_path) as user:
         await user.app.run_action("app.save_as")
@@ -490,7 +490,7 @@ async def test_another_name_without_an_ending_has_that_of_the_file(tmp_path, mon
         assert (tmp_path / "other.nc").read_bytes() == PROGRAM
 
 
-async def test_esc_on_home_leads_to_no_empty_form(tmp_path):
+async def test_esc_on_home_opens_no_empty_form(tmp_path):
     async with at_proof(tmp_path) as user:
         await user.press("escape", "escape")
         assert isinstance(user.app.screen, HomeScreen)
@@ -527,15 +527,15 @@ async def test_a_save_while_the_program_runs_keeps_the_run(tmp_path, monkeypatch
         ("3=12.7mm", CutterTool(3, 0.5, unit=Unit.IN)),
     ],
 )
-def test_a_tool_is_typed_with_its_number_or_as_a_diameter_alone(text, tool):
+def test_a_tool_is_read_with_its_number_or_as_a_diameter_alone(text, tool):
     assert read_tool(text, 1, Unit.IN) == tool
 
 
-def test_a_diameter_that_cannot_be_read_is_a_sentence():
+def test_an_unreadable_diameter_is_explained_in_a_sentence():
     assert read_tool("2=abc", 1, Unit.IN).reason.startswith("abc is not a number")
 
 
-async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_path):
+async def test_subprograms_are_found_in_the_folder_of_the_file(tmp_path):
     (tmp_path / "O0007.nc").write_text("O7\nG1 X5. F100.\nM99\n")
     asked = Asked("fanuc:a", ToolTable(), shop=False, unit=None)
     async with at_proof(tmp_path, b"%\nO1\nG21 G90 G0 X0 Y0\nM98 P7\nM30\n%\n", asked) as user:
@@ -544,7 +544,7 @@ async def test_programs_of_the_files_folder_are_called_as_check_calls_them(tmp_p
         assert user.proof.result.proof.run.moves.points[-1, 0] == 5.0
 
 
-async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
+async def test_the_status_line_describes_the_nc_text(tmp_path):
     async with at_proof(tmp_path, b"G21\nG0 X1\nM2\n") as user:
         status = user.proof.query_one(Status)
         assert "Prog Units: MM" in str(status.query_one("#units", Label).content)
@@ -561,7 +561,7 @@ async def test_the_status_line_is_that_of_the_nc_text(tmp_path):
         assert str(status.query_one("#undo", Label).content) == "saved   redo 1"
 
 
-async def test_the_line_with_the_cursor_stays_in_view_in_a_smaller_terminal(tmp_path):
+async def test_the_cursor_line_stays_in_view_when_the_terminal_shrinks(tmp_path):
     async with at_proof(tmp_path, b"G21\n" + b"G0 X1\n" * 10 + b"M2\n") as user:
         await user.press(*("down",) * 11)
         listing = user.proof.query_one(Listing)
@@ -571,14 +571,14 @@ async def test_the_line_with_the_cursor_stays_in_view_in_a_smaller_terminal(tmp_
         assert listing.scroll_y <= user.line - 1 < listing.scroll_y + listing.scrollable_content_region.height
 
 
-async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_saved(tmp_path):
+async def test_left_over_work_is_restored_into_the_same_screen_and_can_be_saved(tmp_path):
     (tmp_path / "p.nc").write_bytes(PROGRAM)
-    died = DocumentService(state=tmp_path / "own", me=DEAD)
-    opened = died.open(tmp_path / "p.nc")
+    dead = DocumentService(state=tmp_path / "own", me=DEAD)
+    opened = dead.open(tmp_path / "p.nc")
     assert isinstance(opened, Opened)
     text = opened.document.text
-    died.keep(opened.document.edited(text.with_texts(["(LEFT)", *text.texts[1:]]), 0))
-    died.stop()
+    dead.keep(opened.document.edited(text.with_texts(["(LEFT)", *text.texts[1:]]), 0))
+    dead.stop()
     async with at_proof(tmp_path) as user:
         assert isinstance(user.app.screen, Question)
         await user.press("r")
@@ -592,7 +592,7 @@ async def test_work_that_was_left_comes_back_into_the_same_screen_and_can_be_sav
         assert isinstance(user.app.screen, HomeScreen)
 
 
-async def test_the_tool_dialog_says_what_the_program_says_of_the_diameter(tmp_path):
+async def test_the_tool_dialog_quotes_the_diameter_from_a_comment(tmp_path):
     async with at_proof(tmp_path, b"G20 F10\n(TOOL 1 END MILL DIAMETER 0.5000)\nG42 D1 X1 Y1\nX3\nM2\n") as user:
         await user.press("t")
         lines = user.app.screen.query_one("#loss", Static)
