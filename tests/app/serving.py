@@ -1,4 +1,4 @@
-"""`cutcomp serve` as a process, and the programs it has started, for tests and reports."""
+"""Run `cutcomp serve` as a process and find the programs it starts, for tests and reports."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ ROOT = Path(__file__).parents[2]
 
 
 def free_port() -> int:
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return int(one.getsockname()[1])
+    with socket.socket() as server:
+        server.bind(("127.0.0.1", 0))
+        return int(server.getsockname()[1])
 
 
 def children(process: int) -> list[int]:
-    """The programs that a process has started and that have not ended."""
+    """The running programs that a process has started."""
     path = Path(f"/proc/{process}/task/{process}/children")
     return [int(word) for word in path.read_text().split() if alive(int(word))]
 
 
 def alive(process: int) -> bool:
-    """Whether a process is there and no zombie."""
+    """Whether a process exists and is not a zombie."""
     try:
         return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -35,16 +35,16 @@ def alive(process: int) -> bool:
 
 
 async def none_left(processes: list[int], longest: float) -> list[int]:
-    """The processes that are left after this many seconds, or none as soon as there is none."""
+    """The processes still alive after `longest` seconds; returns early when none is left."""
     for _ in range(int(longest / 0.05)):
         if not any(map(alive, processes)):
             break
         await asyncio.sleep(0.05)
-    return [each for each in processes if alive(each)]
+    return [process for process in processes if alive(process)]
 
 
 async def some_children(process: int, others: Sequence[int] = ()) -> list[int]:
-    """The programs a process has started besides others, once there are any."""
+    """The programs a process has started besides `others`, once there are any."""
     for _ in range(200):
         if started := [child for child in children(process) if child not in others]:
             return started
@@ -56,13 +56,13 @@ async def some_children(process: int, others: Sequence[int] = ()) -> list[int]:
 async def server(
     folder: Path, environment: dict[str, str] | None = None
 ) -> AsyncIterator[tuple[subprocess.Popen[bytes], str]]:
-    """`cutcomp serve` as a process of its own, and the address it has printed."""
+    """`cutcomp serve` as a separate process, and the address it has printed."""
     code = "from app.__main__ import main; main(['serve', '--port', "
-    own = {"PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
+    base = {"PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder), "XDG_STATE_HOME": str(folder)}
     process = subprocess.Popen(
         [sys.executable, "-c", f"{code}'{free_port()}'])"],
         cwd=folder,
-        env=os.environ | own | (environment or {}),
+        env=os.environ | base | (environment or {}),
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
     )

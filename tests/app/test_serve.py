@@ -1,4 +1,4 @@
-"""`cutcomp serve`: who is let in, what a page may ask for, and the end of the programs behind the pages."""
+"""`cutcomp serve`: who may connect, what a page may request, and how the programs behind the pages end."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ QUIET = [
     "-c",
     "import os; print('__GANGLION__', flush=True)\nwhile b'quit' not in os.read(0, 9999): pass",
 ]
-"""A program that paints nothing and ends when it is asked to."""
+"""A program that paints nothing and ends on request."""
 
 
 @asynccontextmanager
 async def served(monkeypatch: pytest.MonkeyPatch, words: list[str]) -> AsyncIterator[Site]:
-    """The server of this process, whose pages start a program of ours."""
+    """A server in this process whose pages start the given program."""
     from aiohttp.test_utils import TestServer
 
     monkeypatch.setattr("app.cli.web_server.command", lambda _: shlex.join(words))
@@ -57,7 +57,7 @@ class Site:
         self.session, self.root, self.others = session, root, others
 
     async def programs(self) -> list[int]:
-        """The programs of its pages, once there are any; what this process had started before is none of them."""
+        """The programs of its pages, once there are any; earlier child processes are excluded."""
         return await some_children(os.getpid(), self.others)
 
     async def get(self, path: str) -> aiohttp.ClientResponse:
@@ -78,13 +78,13 @@ async def test_without_the_secret_nothing_is_served(path: str, monkeypatch: pyte
 @pytest.mark.parametrize("path", ["/ws", "/another-secret-of-/ws"])
 async def test_without_the_secret_no_program_starts(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     async with served(monkeypatch, QUIET) as site:
-        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+        with pytest.raises(aiohttp.WSServerHandshakeError) as error:
             await site.page(path)
-        assert refused.value.status == 404
+        assert error.value.status == 404
 
 
 @pytest.mark.parametrize("path", ["", "static/js/textual.js"])
-async def test_no_page_of_others_around_this_one(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_other_pages_cannot_frame_this_one(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     async with served(monkeypatch, QUIET) as site:
         answer = await site.get(f"/{SECRET}/{path}")
         assert answer.status == 200
@@ -108,13 +108,13 @@ async def test_the_secret_is_compared_in_constant_time(monkeypatch: pytest.Monke
     assert compared == [SECRET.encode()] * 4
 
 
-async def test_one_page_too_many_gets_a_sentence_and_no_program(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_page_beyond_the_limit_gets_a_sentence_and_no_program(monkeypatch: pytest.MonkeyPatch) -> None:
     async with served(monkeypatch, QUIET) as site:
         pages = [await site.page() for _ in range(SESSIONS)]
         answer = await site.get(f"/{SECRET}/")
         assert (answer.status, await answer.text()) == (503, FULL)
-        late = await site.page()
-        assert FULL in (await late.receive_bytes()).decode()
+        extra = await site.page()
+        assert FULL in (await extra.receive_bytes()).decode()
         await pages[0].close()
         for _ in range(40):
             if (await site.get(f"/{SECRET}/")).status == 200:
@@ -123,7 +123,7 @@ async def test_one_page_too_many_gets_a_sentence_and_no_program(monkeypatch: pyt
         assert (await site.get(f"/{SECRET}/")).status == 200
 
 
-async def test_who_connects_and_leaves_is_logged(
+async def test_connecting_and_leaving_are_logged(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level("INFO", "cutcomp.serve")
@@ -146,15 +146,15 @@ os.write(2, b"." * 5_000_000)
 print("__GANGLION__", flush=True)
 while True: os.write(1, b"D" + (60_000).to_bytes(4, "big") + b"." * 60_000)
 """
-"""A program that fills every pipe it has, reads nothing, and does not end when it is asked to."""
+"""A program that fills all its pipes, reads nothing, and does not end on request."""
 
 
 def python(program: str) -> list[str]:
     return [sys.executable, "-c", program]
 
 
-async def test_a_page_that_asks_for_any_size_gets_a_screen(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Seen: 5 columns and 100,000 lines of a page that had not measured its type took a gigabyte a minute."""
+async def test_a_requested_size_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without limits, a page of 5 columns and 100,000 lines used a gigabyte per minute."""
     async with served(monkeypatch, python(ECHO)) as site:
         page = await site.page(f"/{SECRET}/ws?width=0&height=9999999")
         assert await page.receive_bytes() == b"20x200"
@@ -163,7 +163,7 @@ async def test_a_page_that_asks_for_any_size_gets_a_screen(monkeypatch: pytest.M
         assert json.loads(sent[5:]) == {"type": "resize", "width": 500, "height": 5}
 
 
-async def test_a_program_whose_page_reads_nothing_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_program_ends_when_its_page_reads_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(web_children, "UNREAD", 0.5)
     async with served(monkeypatch, python(FLOOD)) as site:
         reader, writer = await asyncio.open_connection("127.0.0.1", int(site.root.rpartition(":")[2]), limit=1024)
@@ -174,7 +174,7 @@ async def test_a_program_whose_page_reads_nothing_ends(monkeypatch: pytest.Monke
         writer.close()
 
 
-async def test_a_program_that_takes_no_keys_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_program_that_reads_no_keys_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(web_children, "UNREAD", 0.5)
     deaf = "import time; print('__GANGLION__', flush=True); time.sleep(60)"
     async with served(monkeypatch, python(deaf)) as site:
@@ -184,7 +184,7 @@ async def test_a_program_that_takes_no_keys_ends(monkeypatch: pytest.MonkeyPatch
         assert await none_left(started, 5.0) == []
 
 
-async def test_of_what_a_program_complains_of_only_the_beginning_is_kept(
+async def test_only_the_beginning_of_a_programs_errors_is_logged(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     async with served(monkeypatch, python(FLOOD)) as site:
@@ -198,7 +198,7 @@ async def test_of_what_a_program_complains_of_only_the_beginning_is_kept(
 
 
 def handshake(root: str) -> bytes:
-    """What a browser sends to connect."""
+    """The request with which a browser connects."""
     lines = (
         f"GET /{SECRET}/ws HTTP/1.1",
         f"Host: {root.removeprefix('http://')}",

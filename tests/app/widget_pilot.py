@@ -1,4 +1,4 @@
-"""An operator at the screens made of widgets: keys in, fields and sentences out."""
+"""An operator at the widget screens: keys go in; fields and sentences come out."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from app.widgets.status import Surroundings
 from core.program.model import Program
 
 QUIET_ROUNDS = 4
-"""So many rounds in which nobody has anything to do end a wait: what is left for after a repaint comes in the next."""
+"""A wait ends after this many idle rounds; work deferred until after a repaint arrives in the next round."""
 ROUND = 0.005
-"""Seconds of a round; Textual repaints every 0.008 seconds where there is something to repaint."""
+"""Seconds of a round; Textual repaints at most every 0.008 seconds."""
 PATIENCE = 0.5
-"""Seconds."""
+"""Seconds that `settle` waits for workers other than those of the verdict."""
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
 
 
 def key_event(key: str) -> Key:
-    """The event of a key by its name in Textual, or by what it types: "minus" and "-" are the same key."""
+    """The event of a key, by its Textual name or by what it types: "minus" and "-" are the same key."""
     if len(key) == 1:
         name = key if key.isalnum() else unicodedata.name(key).lower().replace("-", "_").replace(" ", "_")
         return Key(KEY_NAME_REPLACEMENTS.get(name, name), key)
@@ -53,24 +53,24 @@ class Operator:
         self.app, self.pilot = app, pilot
 
     async def press(self, *keys: str) -> None:
-        """Keys one after the other, as the driver hands them on; "'1.25" is typed letter by letter."""
+        """Press keys in order, as the driver passes them on; "'1.25" is typed letter by letter."""
         order = KeyOrder(self.app)
         await self.pilot.pause(0)
         for key in keys:
-            for one in key[1:] if key.startswith("'") else (key,):
-                order.take(key_event(one))
+            for name in key[1:] if key.startswith("'") else (key,):
+                order.take(key_event(name))
                 while order.on_its_way:
                     await sleep(0)
         await self.settle()
 
     async def settle(self) -> None:
-        """Wait for everything that is worked out in threads, and until no widget has a message left.
+        """Wait for the calculations in threads, and until no widget has a message left.
 
-        Workers other than those of the verdict may wait for an answer or for a disk that does not answer: for them
-        only `PATIENCE`, and only where no question stands in front.
+        Other workers than those of the verdict may wait for an answer or a hanging disk: they get only `PATIENCE`,
+        and only while no question is in front.
         """
         rounds, patience = 0, monotonic() + PATIENCE
-        # a program that has ended, by a fault too, has nothing to wait for
+        # a program that has ended, even by a fault, has nothing to wait for
         while rounds < QUIET_ROUNDS and self.app.is_running:
             working = [worker for worker in self.app.workers if worker.group in ("derive", "table")]
             others = len(self.app.workers) > len(working) and not isinstance(self.app.screen, ModalScreen)
@@ -107,13 +107,13 @@ class Operator:
         return "" if self.app.focused is None else self.app.focused.name or ""
 
     def row(self, name: str) -> FieldRow:
-        """The row of a field that is displayed."""
+        """The row of a displayed field."""
         rows = [row for row in self.screen.query(FieldRow) if row.cell.name == name and row.parent.parent.display]
         assert len(rows) == 1, (name, rows)
         return rows[0]
 
     def value(self, name: str) -> str:
-        """What a field shows."""
+        """The displayed value of a field."""
         widget: Any = self.row(name).input
         return self.row(name).cell.text if widget is None else str(widget.value)
 
@@ -124,15 +124,15 @@ class Operator:
 
 @asynccontextmanager
 async def operator(start: str | Program = "pocket", size: tuple[int, int] = (80, 24)) -> AsyncIterator[Operator]:
-    """An operator with an example or a program in front of him."""
+    """An operator with an example or a program on the form."""
     session = Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
     app = CutcompApp(session, surroundings=SURROUNDINGS)
     async with app.run_test(size=size) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
+        user = Operator(app, pilot)
+        await user.settle()
         try:
-            yield one
+            yield user
         finally:
             if app.is_running:
-                # as QUIT does: what comes from threads behind it is for nobody
+                # as QUIT does: later results from threads are dropped
                 app.exit()

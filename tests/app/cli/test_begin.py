@@ -16,8 +16,8 @@ from core.program.file.write import dumps
 
 
 @pytest.fixture
-def service(own: Path) -> Iterator[DocumentService]:
-    service = DocumentService(state=own)
+def service(state: Path) -> Iterator[DocumentService]:
+    service = DocumentService(state=state)
     yield service
     service.stop()
 

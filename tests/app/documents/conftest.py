@@ -1,4 +1,4 @@
-"""Both kinds of document, each in a folder of its own."""
+"""Both kinds of document, each in its own folder."""
 
 from __future__ import annotations
 

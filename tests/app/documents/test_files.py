@@ -1,4 +1,4 @@
-"""Program files on a disk: saved whole or not at all, and every refusal in a sentence."""
+"""Program files on disk: saved whole or not at all, with every refusal in a sentence."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from core.program.model import Program
 from tests.core.program.stored import PART, TEXT
 
 
-def test_save_and_load(tmp_path):
+def test_a_saved_program_loads_unchanged(tmp_path):
     path = tmp_path / "part.toml"
     save(PART, path)
     assert dumps(load(path)) == TEXT
@@ -29,13 +29,13 @@ def test_save_and_load(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_byte_order_mark_is_no_trouble(tmp_path):
+def test_a_byte_order_mark_is_ignored(tmp_path):
     path = tmp_path / "part.toml"
     path.write_bytes(b"\xef\xbb\xbf" + TEXT.encode())
     assert dumps(load(path)) == TEXT
 
 
-def test_the_mode_stays(tmp_path):
+def test_saving_keeps_the_file_mode(tmp_path):
     path = tmp_path / "part.toml"
     save(PART, path)
     path.chmod(0o640)
@@ -43,13 +43,13 @@ def test_the_mode_stays(tmp_path):
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
 
 
-def test_a_new_file_has_the_mode_other_programs_give(tmp_path):
+def test_a_new_file_has_the_default_mode(tmp_path):
     (tmp_path / "usual").touch()
     save(PART, tmp_path / "part.toml")
     assert (tmp_path / "part.toml").stat().st_mode == (tmp_path / "usual").stat().st_mode
 
 
-def test_a_link_stays_a_link(tmp_path):
+def test_saving_through_a_link_keeps_the_link(tmp_path):
     real, link = tmp_path / "real.toml", tmp_path / "link.toml"
     save(Program(), real)
     link.symlink_to(real)
@@ -59,12 +59,12 @@ def test_a_link_stays_a_link(tmp_path):
 
 
 def refusal(act: Callable[[], object]) -> str:
-    with pytest.raises(StoreError) as refused:
+    with pytest.raises(StoreError) as error:
         act()
-    return refused.value.text
+    return error.value.text
 
 
-def test_loading_what_is_no_file(tmp_path):
+def test_loading_anything_but_a_file_is_refused(tmp_path):
     assert refusal(lambda: load(tmp_path)).endswith("this is a folder. Choose the name of a file.")
     missing = tmp_path / "none.toml"
     words = f"{missing} cannot be read: there is no such file or folder. Check the name."
@@ -75,7 +75,7 @@ def test_loading_what_is_no_file(tmp_path):
     assert refusal(lambda: load(tmp_path / "pipe")).endswith("this is a pipe. Choose the name of a file.")
 
 
-def test_loading_what_is_no_text(tmp_path):
+def test_loading_a_file_that_is_not_text_or_too_large_is_refused(tmp_path):
     path = tmp_path / "part.toml"
     path.write_bytes(b'format = 1\nunits = "\xb0"\n')
     assert "line 2: this is not UTF-8 text" in refusal(lambda: load(path))
@@ -83,7 +83,7 @@ def test_loading_what_is_no_text(tmp_path):
     assert "it is too large. Choose another file." in refusal(lambda: load(path))
 
 
-def test_loading_what_may_not_be_read(tmp_path, monkeypatch):
+def test_loading_a_protected_file_is_refused(tmp_path, monkeypatch):
     path = tmp_path / "part.toml"
     save(PART, path)
 
@@ -92,11 +92,11 @@ def test_loading_what_may_not_be_read(tmp_path, monkeypatch):
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "open", forbidden)
-        said = refusal(lambda: load(path))
-    assert said.endswith("it is protected. Ask for permission, or choose another place.")
+        message = refusal(lambda: load(path))
+    assert message.endswith("it is protected. Ask for permission, or choose another place.")
 
 
-def test_saving_where_no_file_can_be(tmp_path):
+def test_saving_to_an_impossible_path_is_refused(tmp_path):
     assert refusal(lambda: save(PART, tmp_path)).endswith("this is a folder. Choose the name of a file.")
     nowhere = tmp_path / "none" / "part.toml"
     assert refusal(lambda: save(PART, nowhere)).startswith(f"{nowhere} is not saved: there is no such file or folder.")
@@ -113,7 +113,7 @@ def test_saving_where_no_file_can_be(tmp_path):
         (errno.EIO, "the disk or the network fails"),
     ],
 )
-def test_a_disk_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path, monkeypatch, call, number, words):
+def test_a_failing_disk_leaves_only_the_old_file(tmp_path, monkeypatch, call, number, words):
     path = tmp_path / "part.toml"
     save(PART, path)
     real = getattr(os, call)
@@ -130,7 +130,7 @@ def test_a_disk_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path, m
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_rename_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path, monkeypatch):
+def test_a_failing_rename_leaves_only_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "part.toml"
     save(PART, path)
 
@@ -144,7 +144,7 @@ def test_a_rename_that_fails_leaves_the_old_file_and_nothing_beside_it(tmp_path,
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_write_in_pieces_is_whole(tmp_path, monkeypatch):
+def test_partial_writes_are_completed(tmp_path, monkeypatch):
     real = os.write
     monkeypatch.setattr(os, "write", lambda handle, data: real(handle, data[:5]))
     save(PART, tmp_path / "part.toml")
@@ -161,7 +161,7 @@ def test_a_write_protected_file_is_not_replaced(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("number", [errno.EACCES, errno.EPERM])
-def test_a_protected_folder_is_not_told_as_a_protected_file(tmp_path, monkeypatch, number):
+def test_a_protected_folder_is_reported_as_the_folder(tmp_path, monkeypatch, number):
     path = tmp_path / "part.toml"
     save(PART, path)
     real = os.open
@@ -173,12 +173,12 @@ def test_a_protected_folder_is_not_told_as_a_protected_file(tmp_path, monkeypatc
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "open", protected)
-        told = refusal(lambda: save(Program(), path))
-    assert told == f"{path} is not saved: its folder is protected. Ask for permission, or choose another place."
+        message = refusal(lambda: save(Program(), path))
+    assert message == f"{path} is not saved: its folder is protected. Ask for permission, or choose another place."
     assert dumps(load(path)) == TEXT
 
 
-def test_interrupted_saving_leaves_nothing_beside_the_file(tmp_path, monkeypatch):
+def test_an_interrupted_save_leaves_nothing_behind(tmp_path, monkeypatch):
     path = tmp_path / "part.toml"
 
     def interrupted(_handle: int) -> None:
@@ -190,8 +190,8 @@ def test_interrupted_saving_leaves_nothing_beside_the_file(tmp_path, monkeypatch
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
-    """The kernel itself refuses the write here: a child process may write files of 100 bytes only."""
+def test_a_file_size_limit_leaves_only_the_old_file(tmp_path):
+    """The kernel refuses the write: the child process may write files of at most 100 bytes."""
     path = tmp_path / "part.toml"
     save(PART, path)
     script = (
@@ -202,13 +202,13 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
         "try: save(part, sys.argv[1])\n"
         "except StoreError as error: print(error.text)\n"
     )
-    done = subprocess.run([sys.executable, "-c", script, str(path)], capture_output=True, text=True, check=True)
-    assert done.stdout.strip().startswith(f"{path} is not saved: the system lets nobody write a file of this size.")
+    result = subprocess.run([sys.executable, "-c", script, str(path)], capture_output=True, text=True, check=True)
+    assert result.stdout.strip().startswith(f"{path} is not saved: the system lets nobody write a file of this size.")
     assert dumps(load(path)) == TEXT
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_output_is_never_written_over_a_program(tmp_path):
+def test_output_never_overwrites_a_program(tmp_path):
     part, other, fresh = tmp_path / "part.toml", tmp_path / "renamed", tmp_path / "part.nc"
     save(Program(), part)
     other.write_bytes(part.read_bytes())

@@ -1,4 +1,4 @@
-"""Saves that were killed: what they have left beside the file is found, compared, and offered or removed."""
+"""Killed saves: the temporary files they leave beside the file are found, compared, and offered or removed."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from app.documents.service import Opened
 from tests.app.documents.typist import changed_by_another, names, number_in, started
 
 
-def killed_while(file: Path, data: bytes, call: str, instead: Callable[[int, bytes], object] | None = None) -> None:
-    """Write a file in a process that is killed at a call of the module, or that does something else there first."""
+def killed_while(file: Path, data: bytes, call: str, first_do: Callable[[int, bytes], object] | None = None) -> None:
+    """Write a file in a process that is killed at this call of `files`, after it has called `first_do`."""
 
     def killed(*arguments: Any) -> None:
-        if instead is not None:
-            instead(*arguments)
+        if first_do is not None:
+            first_do(*arguments)
         os.kill(os.getpid(), signal.SIGKILL)
 
     with warnings.catch_warnings():
-        # the child does nothing with threads
+        # the child uses no threads
         warnings.simplefilter("ignore", DeprecationWarning)
         pid = os.fork()
     if not pid:
@@ -49,7 +49,7 @@ def half_overwritten(handle: int, data: bytes) -> None:
 
 
 def content(file: Path, number: float) -> bytes:
-    """What the file would hold with this number in it."""
+    """The content of the file if it held this number."""
     before = file.read_bytes()
     changed_by_another(file, number)
     data = file.read_bytes()
@@ -61,13 +61,13 @@ def temporaries(file: Path) -> list[str]:
     return [name for name in names(file) if name.endswith(".tmp")]
 
 
-def test_killed_before_the_rename_the_save_is_offered(own: Path, file: Path) -> None:
+def test_a_save_killed_before_the_rename_is_offered(state: Path, file: Path) -> None:
     data = content(file, 7)
     killed_while(file, data, "_taken_on")
     killed_while(file, data, "_put_in_place_of")
     assert len(temporaries(file)) == 2
     assert number_in(file) == 1
-    operator = started(own, file)
+    operator = started(state, file)
     assert f"UNSAVED WORK FOUND {file.name}, " in operator.asked
     operator.answer("RESTORE")
     assert operator.number == 7
@@ -76,28 +76,28 @@ def test_killed_before_the_rename_the_save_is_offered(own: Path, file: Path) -> 
     operator.redo().save()
     assert number_in(file) == 7
     operator.left()
-    again = started(own, file)
+    again = started(state, file)
     assert again.offer is None
     assert temporaries(file) == []
 
 
-def test_killed_while_it_is_written_nothing_is_offered_and_nothing_stays(own: Path, file: Path) -> None:
+def test_a_save_killed_while_writing_is_removed_and_not_offered(state: Path, file: Path) -> None:
     data = content(file, 7)
 
     killed_while(file, data, "write_all", lambda handle, whole: os.write(handle, whole[: len(whole) // 2]))
     assert len(temporaries(file)) == 1
-    assert started(own, file).offer is None
+    assert started(state, file).offer is None
     assert temporaries(file) == []
 
 
-def test_killed_while_it_is_written_in_place_the_whole_content_comes_back(own: Path, file: Path) -> None:
+def test_a_save_killed_while_writing_in_place_is_restored_whole(state: Path, file: Path) -> None:
     other = file.with_name("other")
     other.hardlink_to(file)
     data = content(file, 7)
 
     killed_while(file, data, "_overwrite", half_overwritten)
     assert len(file.read_bytes()) == 30
-    operator = started(own, file)
+    operator = started(state, file)
     assert operator.answer("RESTORE").number == 7
     operator.save(None, *(["YOURS"] if file.suffix == ".toml" else []))
     assert number_in(file) == 7
@@ -105,45 +105,45 @@ def test_killed_while_it_is_written_in_place_the_whole_content_comes_back(own: P
     assert temporaries(file) == []
 
 
-def test_discarded_it_is_a_kept_copy(own: Path, file: Path) -> None:
+def test_a_discarded_save_stays_as_a_kept_copy(state: Path, file: Path) -> None:
     temporary_path(file, 5).touch()
     data = content(file, 7)
     temporary_path(file, len(data)).write_bytes(data)
-    operator = started(own, file)
+    operator = started(state, file)
     assert operator.answer("DISCARD").number == 1
     assert "discarded-1; Ctrl+O lists it." in operator.said
     assert temporaries(file) == []
     operator.left()
-    [copy] = kept_copies(file.parent, own, Kind.NC if file.suffix == ".nc" else Kind.CONTOUR)
+    [copy] = kept_copies(file.parent, state, Kind.NC if file.suffix == ".nc" else Kind.CONTOUR)
     opened = operator.service.open(file, kept_copy=copy.path)
     assert isinstance(opened, Opened)
     operator.took(opened)
     assert operator.answer("RESTORE").number == 7
 
 
-def test_what_the_journal_or_the_file_holds_too_is_removed_and_asked_about_once(own: Path, file: Path) -> None:
-    operator = started(own, file).type(7)
+def test_a_killed_save_equal_to_the_journal_or_the_file_is_removed(state: Path, file: Path) -> None:
+    operator = started(state, file).type(7)
     data = operator.document.data()
     temporary_path(file, len(data)).write_bytes(data)
     temporary_path(file, len(file.read_bytes())).write_bytes(file.read_bytes())
     operator.killed()
-    again = started(own, file).answer("DISCARD")
+    again = started(state, file).answer("DISCARD")
     assert again.offer is None
     assert temporaries(file) == []
 
 
-def test_what_is_being_written_is_left_alone(own: Path, file: Path) -> None:
+def test_a_save_in_progress_is_left_alone(state: Path, file: Path) -> None:
     data = content(file, 7)
     path = temporary_path(file, len(data))
     path.write_bytes(data)
     with path.open("rb") as held:
         flock(held, LOCK_EX)
-        assert started(own, file).offer is None
+        assert started(state, file).offer is None
     assert path.exists()
 
 
-def test_what_others_have_left_and_other_files_are_left_alone(
-    own: Path, file: Path, monkeypatch: pytest.MonkeyPatch
+def test_killed_saves_of_others_and_other_files_are_left_alone(
+    state: Path, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     others = [file.with_name(name) for name in (".part.tmp", f".{file.name}.tmp", f".{file.name}.0123.tmp", "part.tmp")]
     for path in others:
@@ -152,17 +152,17 @@ def test_what_others_have_left_and_other_files_are_left_alone(
     path = temporary_path(file, len(data))
     path.write_bytes(data)
     monkeypatch.setattr(os, "geteuid", lambda: 4242)
-    assert started(own, file).offer is None
-    assert all(one.exists() for one in (*others, path))
+    assert started(state, file).offer is None
+    assert all(other.exists() for other in (*others, path))
 
 
-def test_zeros_that_a_power_cut_has_left_are_removed(own: Path, file: Path) -> None:
+def test_zeros_left_by_a_power_cut_are_removed(state: Path, file: Path) -> None:
     temporary_path(file, 300).write_bytes(bytes(300))
-    assert started(own, file).offer is None
+    assert started(state, file).offer is None
     assert temporaries(file) == []
 
 
-def test_a_journal_that_was_not_put_in_its_place_is_removed(own: Path, file: Path) -> None:
+def test_a_half_written_new_journal_is_removed(state: Path, file: Path) -> None:
     new_path(journal_path(file)).write_bytes(b"half of a journal")
-    started(own, file).left()
+    started(state, file).left()
     assert names(file) == []

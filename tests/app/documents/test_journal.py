@@ -1,4 +1,4 @@
-"""The journal: each edit a line that any crash leaves whole, read back as what was done; both kinds, both formats."""
+"""The journal: one line per edit, whole after any crash and read back as the same work; both kinds, both formats."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ EditStep = Callable[[History], History]
 
 
 def typed(number: float) -> EditStep:
-    """An edit: this number into Y END of segment 2."""
+    """An edit that types this number into Y END of segment 2."""
 
     def do(history: History) -> History:
         edited = type_field(history.program, FormPlace(1, 2), "y_end", Number(number))
@@ -49,18 +49,18 @@ def whole(history: History) -> bytes:
 
 
 def further(data: bytes, old: History, new: History) -> bytes | None:
-    """The lines with what led to the next history; None where it does not follow."""
+    """The lines extended by the records from the old history to the new; None where it does not follow."""
     records = contour_journal.records_between(old, new)
     return None if records is None else data + lines(continuing(records, PLACE, TIME), _sum(data))[0]
 
 
 def _sum(data: bytes) -> int:
-    """The sum at the end of whole lines."""
+    """The checksum of the last whole line."""
     return int(data.splitlines()[-1][:8], 16)
 
 
 def journal(*steps: EditStep) -> tuple[bytes, History]:
-    """The lines of a journal in which these steps were made, and the history they led to."""
+    """The lines of a journal of these steps, and the resulting history."""
     history = History(PART)
     data = whole(history)
     for step in steps:
@@ -72,9 +72,9 @@ def journal(*steps: EditStep) -> tuple[bytes, History]:
 
 
 def read(data: bytes) -> Journal:
-    found = read_journal(data)
-    assert found is not None
-    return found
+    result = read_journal(data)
+    assert result is not None
+    return result
 
 
 STEPS: tuple[EditStep, ...] = (
@@ -88,13 +88,13 @@ STEPS: tuple[EditStep, ...] = (
 )
 
 
-def test_work_place_time_and_head_come_back() -> None:
+def test_work_place_time_and_head_are_read_back() -> None:
     data, history = journal(*STEPS)
-    found = read(data)
-    assert found.work == history
-    assert (found.kind, found.head, found.place, found.time) == (Kind.CONTOUR, HEAD, PLACE, TIME)
-    assert not found.damaged
-    assert found.edits == history.undo_count
+    result = read(data)
+    assert result.work == history
+    assert (result.kind, result.head, result.place, result.time) == (Kind.CONTOUR, HEAD, PLACE, TIME)
+    assert not result.damaged
+    assert result.edits == history.undo_count
 
 
 steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), st.just(History.redo)), max_size=12)
@@ -102,15 +102,15 @@ steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), s
 
 @settings(max_examples=60, derandomize=True, deadline=None)
 @given(steps)
-def test_any_edits_come_back(made: list[EditStep]) -> None:
-    data, history = journal(*made)
+def test_any_edits_are_read_back(edits: list[EditStep]) -> None:
+    data, history = journal(*edits)
     assert read(data).work == history
     assert read(whole(history)).work == history
 
 
 @settings(max_examples=40, derandomize=True, deadline=None)
 @given(steps, steps)
-def test_several_edits_in_one_key_come_back_or_begin_a_journal_anew(
+def test_several_edits_of_one_key_are_read_back_or_start_a_new_journal(
     before: list[EditStep], key: list[EditStep]
 ) -> None:
     data, old = journal(*before)
@@ -121,7 +121,7 @@ def test_several_edits_in_one_key_come_back_or_begin_a_journal_anew(
 
 @settings(max_examples=15, derandomize=True, deadline=None)
 @given(programs, programs)
-def test_any_program_comes_back(first: Program, second: Program) -> None:
+def test_any_program_is_read_back(first: Program, second: Program) -> None:
     history = History(first).do(second, "everything")
     assert read(whole(history)).work == history
 
@@ -130,29 +130,29 @@ def test_a_history_of_another_program_does_not_follow() -> None:
     assert contour_journal.records_between(History(PART), History(program(line(x_end=7.0)))) is None
 
 
-def test_cut_anywhere_the_whole_lines_before_come_back() -> None:
+def test_a_journal_cut_anywhere_yields_its_whole_lines() -> None:
     data, _ = journal(*STEPS)
     ends = [index + 1 for index, byte in enumerate(data) if byte == 10]
-    wanted = {end: read(data[:end]).work for end in ends}
+    expected = {end: read(data[:end]).work for end in ends}
     assert read_journal(data[: ends[0] - 1]) is None
     for cut in range(ends[0], len(data)):
-        found = read(data[:cut])
-        assert found.work == wanted[max(end for end in ends if end <= cut)], cut
-        assert not found.damaged
+        result = read(data[:cut])
+        assert result.work == expected[max(end for end in ends if end <= cut)], cut
+        assert not result.damaged
 
 
 @settings(max_examples=200, derandomize=True, deadline=None)
 @given(st.data())
-def test_a_wrong_byte_is_never_taken_for_a_right_one(draws: st.DataObject) -> None:
+def test_a_wrong_byte_is_never_accepted(draws: st.DataObject) -> None:
     data, history = journal(*STEPS)
     at = draws.draw(st.integers(0, len(data) - 1))
-    byte = draws.draw(st.integers(0, 255).filter(lambda one: one != data[at]))
-    found = read_journal(data[:at] + bytes([byte]) + data[at + 1 :])
+    byte = draws.draw(st.integers(0, 255).filter(lambda value: value != data[at]))
+    result = read_journal(data[:at] + bytes([byte]) + data[at + 1 :])
     before = data[: data.rfind(b"\n", 0, at) + 1]
-    assert found is None or found.work == (read(before).work if before else history)
+    assert result is None or result.work == (read(before).work if before else history)
 
 
-def test_a_damaged_middle_is_told_and_a_torn_end_is_none() -> None:
+def test_a_damaged_middle_is_reported_and_a_torn_end_is_not() -> None:
     data, _ = journal(*STEPS)
     second = data.index(b"\n") + 1
     assert read(data[:second] + b"\0" * 20 + data[second:]).damaged
@@ -160,11 +160,11 @@ def test_a_damaged_middle_is_told_and_a_torn_end_is_none() -> None:
     assert not read(data + b"\0" * 512).damaged
 
 
-def test_a_line_left_out_ends_the_journal() -> None:
+def test_a_missing_line_ends_the_journal_as_damaged() -> None:
     rows = journal(*STEPS)[0].splitlines(keepends=True)
-    found = read(rows[0] + b"".join(rows[2:]))
-    assert found.work == History(PART)
-    assert found.damaged
+    result = read(rows[0] + b"".join(rows[2:]))
+    assert result.work == History(PART)
+    assert result.damaged
 
 
 @pytest.mark.parametrize("data", [b"", b"not ours\n", bytes(range(256)) * 40])
@@ -172,7 +172,7 @@ def test_random_bytes_are_no_journal(data: bytes) -> None:
     assert read_journal(data) is None
 
 
-def test_a_line_with_an_owner_puts_the_work_into_other_hands() -> None:
+def test_a_line_with_an_owner_hands_the_work_over() -> None:
     data, history = journal(typed(2.0))
     later: Record = {"owner": {"user": "bob", "host": "x", "pid": 1, "started": "", "since": ""}, "file": None}
     more, _ = lines([{**later, "stamp": None, "at": PLACE, "time": TIME}], _sum(data))
@@ -204,7 +204,7 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
 
 @settings(derandomize=True, deadline=None)
 @given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00", b"\xef\xbb\xbfA\n"]))
-def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], content: bytes) -> None:
+def test_any_edits_of_an_nc_text_are_read_back(work: list[tuple[str, int, str]], content: bytes) -> None:
     text = NcText.read(content)
     data = lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]
     for kind, row, typed_text in work:
@@ -213,18 +213,18 @@ def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], con
         assert records is not None
         data += lines(continuing(records, (row,), TIME), _sum(data))[0]
     for written in (data, lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]):
-        found = read(written)
-        assert not found.damaged
-        assert isinstance(found.work, NcText)
-        assert (found.work.lines, found.work.encoding) == (text.lines, text.encoding)
-        assert (len(found.work.past), len(found.work.future)) == (len(text.past), len(text.future))
-        assert found.work.unsaved
+        result = read(written)
+        assert not result.damaged
+        assert isinstance(result.work, NcText)
+        assert (result.work.lines, result.work.encoding) == (text.lines, text.encoding)
+        assert (len(result.work.past), len(result.work.future)) == (len(text.past), len(text.future))
+        assert result.work.unsaved
 
 
-def test_differences_of_texts_in_words() -> None:
+def test_differences_between_texts_are_sentences() -> None:
     file, work = NcText.read(b"A\nB\nC\nD\n"), NcText.read(b"A\nX\nB\nD\nE\n")
-    told = ("Line 2 is new: X", "Line 3 of the file is deleted: C", "Line 5 is new: E")
-    assert nc_journal.differences(file, work) == told
+    expected = ("Line 2 is new: X", "Line 3 of the file is deleted: C", "Line 5 is new: E")
+    assert nc_journal.differences(file, work) == expected
     assert nc_journal.differences(file, file) == ()
     long = NcText.read(b"".join(b"%d\n" % row for row in range(900)))
     assert nc_journal.differences(file, long) == ("Lines 1 to 900 differ from the file.",)
@@ -235,44 +235,44 @@ def test_differences_of_texts_in_words() -> None:
 # ---- format 1
 
 
-def old(name: str) -> bytes:
+def stored(name: str) -> bytes:
     return (Path(__file__).parent / "format_1" / name).read_bytes()
 
 
 def test_a_program_of_format_1_is_read() -> None:
-    found = read(old("program.journal"))
-    assert isinstance(found.work, History)
-    assert [step.program.blocks[0].tool for step in found.work.past] == [Number(1.0), Number(7.0)]
-    assert found.work.program.blocks[0].tool == Number(8.0)
-    assert found.work.redo().program.blocks[0].tool == Number(9.0)
-    assert (found.head.file, found.head.owner.user, found.damaged) == ("/parts/notch.toml", "ann", False)
-    assert found.place == (1, 0, "tool")
+    result = read(stored("program.journal"))
+    assert isinstance(result.work, History)
+    assert [step.program.blocks[0].tool for step in result.work.past] == [Number(1.0), Number(7.0)]
+    assert result.work.program.blocks[0].tool == Number(8.0)
+    assert result.work.redo().program.blocks[0].tool == Number(9.0)
+    assert (result.head.file, result.head.owner.user, result.damaged) == ("/parts/notch.toml", "ann", False)
+    assert result.place == (1, 0, "tool")
 
 
 def test_an_nc_text_of_format_1_is_read() -> None:
-    found = read(old("nc.journal"))
-    assert isinstance(found.work, NcText)
-    assert found.work.lines == ("T7\r\n", "\xb0 M30\r\n")
-    assert found.work.undone().undone().lines[0] == "G20 G17\r\n"
+    result = read(stored("nc.journal"))
+    assert isinstance(result.work, NcText)
+    assert result.work.lines == ("T7\r\n", "\xb0 M30\r\n")
+    assert result.work.undone().undone().lines[0] == "G20 G17\r\n"
     content = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
     from app.documents.files import stamp_of_data
 
-    assert found.head.stamp is not None
-    assert found.head.stamp.same_content(stamp_of_data(content))
-    assert not found.head.stamp.same_content(stamp_of_data(content.replace(b"1", b"2")))
-    assert not found.damaged
+    assert result.head.stamp is not None
+    assert result.head.stamp.same_content(stamp_of_data(content))
+    assert not result.head.stamp.same_content(stamp_of_data(content.replace(b"1", b"2")))
+    assert not result.damaged
 
 
-# ---- right sums, wrong content
+# ---- valid checksums, wrong content
 
 
 def signed(record: object, total: int = 0) -> bytes:
-    """A line with a right sum, whatever it says."""
+    """A line with a valid checksum, whatever its content is."""
     return lines([cast("Record", record)], total)[0]
 
 
 FIRST = json.loads(whole(History(PART))[9:])
-NC_FIRST = json.loads(old("nc.journal").splitlines()[0][9:])
+NC_FIRST = json.loads(stored("nc.journal").splitlines()[0][9:])
 
 
 @pytest.mark.parametrize(
@@ -303,11 +303,11 @@ NC_FIRST = json.loads(old("nc.journal").splitlines()[0][9:])
         {"time": "\n"},
     ],
 )
-def test_a_first_line_with_right_sums_and_wrong_content_is_no_journal(wrong: object) -> None:
+def test_a_first_line_with_wrong_content_is_no_journal(wrong: object) -> None:
     record = {**FIRST, **wrong} if isinstance(wrong, dict) and wrong else wrong
-    found = read_journal(signed(record))
-    # a place of one number is that of an NC text, and says nothing in a program
-    assert found is None or wrong == {"at": [1]}
+    result = read_journal(signed(record))
+    # a place of one number belongs to an NC text and is ignored in a program
+    assert result is None or wrong == {"at": [1]}
 
 
 @pytest.mark.parametrize(
@@ -350,6 +350,6 @@ def test_a_first_line_of_an_nc_text_with_wrong_content_is_no_journal(wrong: dict
 def test_a_later_line_with_wrong_content_ends_the_journal_as_damaged(wrong: object) -> None:
     first = signed(FIRST)
     record = {**wrong, "at": PLACE, "time": TIME} if isinstance(wrong, dict) else wrong
-    found = read(first + signed(record, _sum(first)))
-    assert found.damaged
-    assert found.work == History(PART)
+    result = read(first + signed(record, _sum(first)))
+    assert result.damaged
+    assert result.work == History(PART)

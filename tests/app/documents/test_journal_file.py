@@ -1,4 +1,4 @@
-"""The file of a journal: every line on the disk when `add` returns, full disks, moved aside while it is written."""
+"""The file of a journal: every line on disk when `add` returns, full disks, files that vanish or are set aside."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from tests.app.documents.test_journal import HEAD, PART, PLACE, STEPS, TIME, Edi
 
 
 def records_of(history: History) -> Iterator[Record]:
-    """A whole history as lines."""
+    """The records of a whole history."""
     return beginning(Kind.CONTOUR, HEAD, contour_journal.whole_records(history), PLACE, TIME)
 
 
@@ -64,14 +64,14 @@ def test_every_edit_is_in_the_file_when_add_returns(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_journal_that_stands_there_is_moved_aside(tmp_path: Path) -> None:
+def test_an_existing_journal_is_set_aside(tmp_path: Path) -> None:
     path = tmp_path / "j"
     path.write_text("somebody else's")
     begun(path).remove()
-    assert [one.read_text() for one in tmp_path.iterdir()] == ["somebody else's"]
+    assert [child.read_text() for child in tmp_path.iterdir()] == ["somebody else's"]
 
 
-def test_remove_leaves_what_another_put_there(tmp_path: Path) -> None:
+def test_remove_leaves_the_journal_of_another_program(tmp_path: Path) -> None:
     path = tmp_path / "j"
     file = begun(path)
     aside = set_aside(path, "taken")
@@ -81,7 +81,7 @@ def test_remove_leaves_what_another_put_there(tmp_path: Path) -> None:
     assert not aside.exists(), "its own is gone, whatever it was called by then"
 
 
-def test_a_shorter_journal_in_the_place_of_a_long_one(tmp_path: Path) -> None:
+def test_replacing_a_long_journal_makes_it_shorter(tmp_path: Path) -> None:
     path = tmp_path / "j"
     file = begun(path)
     history = History(PART)
@@ -94,17 +94,19 @@ def test_a_shorter_journal_in_the_place_of_a_long_one(tmp_path: Path) -> None:
     assert read(path.read_bytes()).work == history
 
 
-def test_a_full_disk_loses_nothing_once_there_is_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A write that stops in the middle is taken back, and everything is written with the next edit."""
+def test_edits_made_on_a_full_disk_are_written_once_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A partial write is undone; the next edit writes everything."""
     path = tmp_path / "j"
     file = begun(path)
     history = add(file, History(PART), typed(2.0))
     before = path.read_bytes()
-    whole = os.write
+    real = os.write
 
     def full(handle: int, data: bytes) -> int:
         if len(data) > 4:
-            return whole(handle, data[:4])
+            return real(handle, data[:4])
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patch:
@@ -120,7 +122,7 @@ def test_a_full_disk_loses_nothing_once_there_is_room(tmp_path: Path, monkeypatc
     assert read(path.read_bytes()).work == history
 
 
-def test_no_journal_is_begun_on_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_starts_no_journal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> int:
         raise OSError(28, "No space left on device")
 
@@ -134,14 +136,14 @@ def test_no_journal_is_begun_on_a_full_disk(tmp_path: Path, monkeypatch: pytest.
     assert read((tmp_path / "j").read_bytes()).work == history
 
 
-def test_the_journal_of_a_link_is_beside_the_file(tmp_path: Path) -> None:
+def test_the_journal_of_a_link_lies_beside_the_linked_file(tmp_path: Path) -> None:
     (tmp_path / "shop").mkdir()
     (tmp_path / "shop" / "part.toml").touch()
     (tmp_path / "link.toml").symlink_to(tmp_path / "shop" / "part.toml")
     assert journal_path(tmp_path / "link.toml") == tmp_path / "shop" / ".part.toml.cutcomp-journal"
 
 
-def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path) -> None:
+def test_a_shorter_journal_never_overwrites_another_programs_journal(tmp_path: Path) -> None:
     path = tmp_path / "j"
     file = begun(path)
     history = add(file, History(PART), typed(2.0))
@@ -154,7 +156,7 @@ def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path)
     assert long.exists()
 
 
-def test_where_a_journal_was_moved_to_tells_its_place_and_why(tmp_path: Path) -> None:
+def test_the_name_of_a_set_aside_journal_gives_its_place_and_reason(tmp_path: Path) -> None:
     path = journal_path(tmp_path / "a.b-c.toml")
     path.write_text("x")
     first = set_aside(path, "kept")
@@ -166,7 +168,7 @@ def test_where_a_journal_was_moved_to_tells_its_place_and_why(tmp_path: Path) ->
     assert list(asides(path)) == [second]
 
 
-def test_a_journal_is_as_readable_as_its_program(tmp_path: Path) -> None:
+def test_a_journal_has_the_permissions_of_its_program(tmp_path: Path) -> None:
     program = tmp_path / "p.toml"
     program.touch()
     program.chmod(0o664)
@@ -176,14 +178,14 @@ def test_a_journal_is_as_readable_as_its_program(tmp_path: Path) -> None:
 
 
 class Killed(BaseException):
-    """The program ends here, whatever it is doing."""
+    """The program ends here."""
 
 
 @pytest.mark.parametrize("again", [False, True])
-def test_killed_while_a_journal_begins_it_is_there_whole_or_not_at_all(
+def test_a_journal_interrupted_at_its_start_is_whole_or_absent(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, again: bool
 ) -> None:
-    """Also where it takes the place of a longer one."""
+    """This includes replacing a longer journal."""
     path = tmp_path / "j"
     file = begun(path) if again else JournalFile(path)
 
@@ -194,8 +196,8 @@ def test_killed_while_a_journal_begins_it_is_there_whole_or_not_at_all(
     monkeypatch.setattr("app.documents.journal_file.write_all", half)
     with pytest.raises(Killed):
         file.replace(first()) if again else file.add(first())
-    left = [one for one in tmp_path.iterdir() if one != new_path(path)]
-    assert left == ([path] if again else [])
+    remaining = [child for child in tmp_path.iterdir() if child != new_path(path)]
+    assert remaining == ([path] if again else [])
     if again:
         assert read(path.read_bytes()).work == History(PART)
         monkeypatch.undo()
@@ -204,7 +206,7 @@ def test_killed_while_a_journal_begins_it_is_there_whole_or_not_at_all(
         assert not new_path(path).exists()
 
 
-def test_a_new_journal_is_its_owners_and_holds_what_was_typed(tmp_path: Path) -> None:
+def test_a_new_journal_is_private_and_holds_the_edits(tmp_path: Path) -> None:
     file = begun(tmp_path / "j")
     history = add(file, History(PART), typed(2.0))
     assert read((tmp_path / "j").read_bytes()).work == history
@@ -228,7 +230,7 @@ def test_a_full_disk_leaves_no_half_journal(tmp_path: Path, monkeypatch: pytest.
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root may give a file to a group it is not in")
-def test_a_group_that_cannot_be_given_may_do_what_everybody_may(
+def test_a_journal_whose_group_cannot_be_set_gives_it_the_permissions_of_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     program = tmp_path / "p.toml"
@@ -245,7 +247,7 @@ def test_a_group_that_cannot_be_given_may_do_what_everybody_may(
     assert journal_path(program).stat().st_mode & 0o777 == 0o644
 
 
-# ---- gone while it is written
+# ---- gone while in use
 
 
 def gone_by_removing(path: Path) -> None:
@@ -290,7 +292,7 @@ GONE = [
 
 
 @pytest.mark.parametrize("gone", GONE)
-def test_a_journal_that_is_gone_is_noticed(tmp_path: Path, gone: Callable[[Path], None]) -> None:
+def test_a_lost_journal_is_noticed(tmp_path: Path, gone: Callable[[Path], None]) -> None:
     path = tmp_path / "shop" / "j"
     path.parent.mkdir()
     file = begun(path)
@@ -300,13 +302,13 @@ def test_a_journal_that_is_gone_is_noticed(tmp_path: Path, gone: Callable[[Path]
     file.close()
 
 
-def test_a_journal_that_was_set_aside_by_a_colleague_is_not_gone(tmp_path: Path) -> None:
+def test_a_journal_set_aside_by_a_colleague_is_not_lost(tmp_path: Path) -> None:
     file = begun(tmp_path / "j")
     set_aside(tmp_path / "j", "theirs")
     assert not file.lost()
 
 
-def test_a_journal_that_another_program_has_begun_meanwhile_is_not_written_over(
+def test_a_journal_begun_meanwhile_by_another_program_is_not_overwritten(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "j"

@@ -34,7 +34,7 @@ from tests.app.documents.things import put_something
 ME = myself("2025-03-04T06:00:00+01:00")
 ELSEWHERE = Owner("bob", "another-host", 1, "", "2025-03-04T05:00:00+01:00")
 DEAD_PID = 2**22 + 17
-"""Above every number that the system gives to a process."""
+"""Above every process number of the system."""
 
 
 @pytest.fixture
@@ -45,29 +45,29 @@ def part(tmp_path: Path) -> Path:
 
 
 def held(part: Path, owner: Owner) -> Lock:
-    found = take(part, owner)
-    assert isinstance(found, Lock)
-    return found
+    lock = take(part, owner)
+    assert isinstance(lock, Lock)
+    return lock
 
 
-def test_the_second_opener_is_told_who_has_it(part: Path) -> None:
+def test_the_second_opener_learns_who_has_the_file_open(part: Path) -> None:
     assert held_by(part) is None
     held(part, ELSEWHERE)
     assert take(part, ME) == ELSEWHERE
     assert held_by(part) == ELSEWHERE
 
 
-def test_a_lock_given_back_leaves_nothing(part: Path) -> None:
+def test_releasing_a_lock_leaves_nothing(part: Path) -> None:
     release(held(part, ME))
-    assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
+    assert [child.name for child in part.parent.iterdir()] == ["part.toml"]
 
 
-def test_a_file_that_does_not_exist_yet_can_be_locked(tmp_path: Path) -> None:
+def test_a_file_that_does_not_yet_exist_can_be_locked(tmp_path: Path) -> None:
     held(tmp_path / "new.toml", ELSEWHERE)
     assert take(tmp_path / "new.toml", ME) == ELSEWHERE
 
 
-def test_everybody_may_read_who_has_it_open(part: Path) -> None:
+def test_a_lock_is_readable_by_everybody(part: Path) -> None:
     before = os.umask(0o077)
     try:
         held(part, ME)
@@ -76,7 +76,7 @@ def test_everybody_may_read_who_has_it_open(part: Path) -> None:
     assert lock_path(part).stat().st_mode & 0o777 == 0o644
 
 
-def test_the_same_file_by_another_name_is_the_same_lock(part: Path) -> None:
+def test_a_link_and_its_file_share_one_lock(part: Path) -> None:
     link = part.with_name("link.toml")
     link.symlink_to(part)
     held(link, ELSEWHERE)
@@ -89,12 +89,12 @@ def test_a_dead_process_of_this_host_holds_nothing(part: Path) -> None:
     assert take(part, ME) == Lock(lock_path(part), ME)
 
 
-def test_another_process_of_the_same_number_does_not_count(part: Path) -> None:
+def test_a_lock_of_an_earlier_process_with_the_same_number_is_stale(part: Path) -> None:
     held(part, replace(ME, started="an earlier boot:5"))
     assert isinstance(take(part, replace(ME, since="later")), Lock)
 
 
-def test_a_living_process_of_this_host_holds_it(part: Path) -> None:
+def test_a_living_process_of_this_host_holds_its_lock(part: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
         owner = Owner("ann", ME.host, other.pid, started(other.pid), "earlier")
         held(part, owner)
@@ -103,7 +103,7 @@ def test_a_living_process_of_this_host_holds_it(part: Path) -> None:
     assert isinstance(take(part, ME), Lock)
 
 
-def test_a_process_that_died_is_dead_before_anybody_has_asked_after_it() -> None:
+def test_a_zombie_counts_as_dead() -> None:
     process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     owner = replace(ME, pid=process.pid, started=started(process.pid))
     assert alive(owner)
@@ -114,26 +114,26 @@ def test_a_process_that_died_is_dead_before_anybody_has_asked_after_it() -> None
     process.communicate()
 
 
-def test_another_host_may_always_be_alive() -> None:
+def test_a_process_of_another_host_counts_as_alive() -> None:
     assert alive(ELSEWHERE)
     assert alive(UNKNOWN)
     assert alive(ME)
     assert not alive(replace(ME, pid=DEAD_PID))
 
 
-def test_taken_over_the_first_one_finds_out(part: Path) -> None:
-    first = held(part, ELSEWHERE)
-    assert taken_by(first) is None
-    second = take_over(part, ME)
-    assert taken_by(first) == ME
-    assert taken_by(second) is None
-    release(first)
+def test_the_first_owner_notices_a_take_over(part: Path) -> None:
+    first_lock = held(part, ELSEWHERE)
+    assert taken_by(first_lock) is None
+    second_lock = take_over(part, ME)
+    assert taken_by(first_lock) == ME
+    assert taken_by(second_lock) is None
+    release(first_lock)
     assert lock_path(part).exists()
-    release(second)
+    release(second_lock)
     assert not lock_path(part).exists()
 
 
-def test_a_lock_that_somebody_removed_is_nobody_elses(part: Path) -> None:
+def test_a_removed_lock_is_not_taken_by_anybody(part: Path) -> None:
     lock = held(part, ME)
     lock.path.unlink()
     assert taken_by(lock) is None
@@ -141,21 +141,21 @@ def test_a_lock_that_somebody_removed_is_nobody_elses(part: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"user": 1}', "\x00\xff", "[" * 4000])
-def test_a_lock_that_says_nothing_is_nobodys(part: Path, text: str) -> None:
-    """A full disk or a power cut leaves such files behind, and nobody would ever take them away."""
+def test_an_unreadable_lock_is_stale(part: Path, text: str) -> None:
+    """A full disk or a power cut leaves such files, and nobody would remove them."""
     lock_path(part).write_text(text)
     assert held_by(part) is None
     assert take(part, ME) == Lock(lock_path(part), ME)
 
 
-def test_a_lock_that_is_being_written_is_waited_for(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lock_being_written_is_waited_for(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lock_path(part).write_text('{"user"')
     written = json.dumps(vars_of(ELSEWHERE))
     monkeypatch.setattr("app.documents.lock.sleep", lambda _: lock_path(part).write_text(written))
     assert take(part, ME) == ELSEWHERE
 
 
-def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lock_we_may_not_read_counts_as_held(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     held(part, ELSEWHERE)
 
     def hidden(*_: object) -> bytes:
@@ -166,7 +166,7 @@ def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytes
     assert take_over(part, ME).owner == ME
 
 
-def test_owner_as_written() -> None:
+def test_an_owner_is_read_back_from_json() -> None:
     assert owner_of(json.loads(json.dumps({**vars_of(ME)}))) == ME
     with pytest.raises(ValueError, match="no owner"):
         owner_of({"user": "ann"})
@@ -176,12 +176,12 @@ def vars_of(owner: Owner) -> dict[str, object]:
     return {name: getattr(owner, name) for name in ("user", "host", "pid", "started", "since")}
 
 
-def test_a_folder_that_cannot_be_written_has_no_lock() -> None:
+def test_locking_fails_in_a_read_only_folder() -> None:
     with pytest.raises(OSError, match="part"):
         take(Path("/proc/part.toml"), ME)
 
 
-def test_a_stamp_changes_with_the_content_only(part: Path) -> None:
+def test_a_stamp_changes_only_with_the_content(part: Path) -> None:
     before = stamp_of(part)
     assert before is not None
     part.write_text("format = 1\n")
@@ -195,14 +195,14 @@ def test_a_stamp_changes_with_the_content_only(part: Path) -> None:
     assert other.size == before.size
 
 
-def test_no_file_no_stamp(tmp_path: Path) -> None:
+def test_a_missing_file_or_a_folder_has_no_stamp(tmp_path: Path) -> None:
     assert stamp_of(tmp_path / "none") is None
     assert stamp_of(tmp_path) is None
 
 
 @pytest.mark.parametrize("call", ["write", "fsync", "close"])
 @pytest.mark.parametrize("make", [take, take_over])
-def test_a_full_disk_keeps_no_half_lock(
+def test_a_full_disk_leaves_no_half_lock(
     part: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path, Owner], object], call: str
 ) -> None:
     real = getattr(os, call)
@@ -216,25 +216,25 @@ def test_a_full_disk_keeps_no_half_lock(
         patch.setattr(os, call, full)
         with pytest.raises(OSError, match="No space"):
             make(part, ME)
-    assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
+    assert [child.name for child in part.parent.iterdir()] == ["part.toml"]
     assert isinstance(take(part, ME), Lock)
 
 
 @pytest.mark.parametrize("pid", [0, -1, -4711, 2**22 + 17, 2**31, 2**63, 10**309])
-def test_a_lock_of_a_process_number_that_cannot_be_is_stale(part: Path, pid: int) -> None:
+def test_a_lock_with_an_impossible_process_number_is_stale(part: Path, pid: int) -> None:
     lock_path(part).write_text(json.dumps({**vars_of(ME), "pid": pid}))
     assert held_by(part) is None
     assert take(part, ME) == Lock(lock_path(part), ME)
 
 
-def test_a_lock_with_a_truth_value_for_a_process_is_nobodys(part: Path) -> None:
+def test_a_lock_with_a_boolean_process_number_is_stale(part: Path) -> None:
     lock_path(part).write_text(json.dumps({**vars_of(ELSEWHERE), "pid": True}))
     assert held_by(part) is None
 
 
 @pytest.mark.parametrize("what", ["pipe", "folder", "full folder", "socket", "device", "endless"])
 @pytest.mark.parametrize("make", [take, take_over])
-def test_what_is_no_lock_in_a_lock_s_place_is_nobodys(
+def test_anything_else_in_the_place_of_a_lock_is_stale(
     part: Path, what: str, make: Callable[[Path, Owner], object]
 ) -> None:
     put_something(lock_path(part), what)

@@ -1,4 +1,4 @@
-"""Something else in place of a file is refused at once by what it is, and nobody reads without end."""
+"""Anything else in place of a file is refused at once and named; nothing is read endlessly."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def what(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
-def test_in_place_of_a_program(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_a_program_is_refused_and_named(tmp_path: Path, what: str) -> None:
     path = tmp_path / "part.toml"
     put_something(path, what)
     with pytest.raises(StoreError, match=EVERYTHING[what]):
@@ -42,7 +42,7 @@ def test_in_place_of_a_program(tmp_path: Path, what: str) -> None:
     assert not is_nc(path)
 
 
-def test_in_place_of_an_nc_text(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_an_nc_text_is_refused_and_named(tmp_path: Path, what: str) -> None:
     path = tmp_path / "part.nc"
     put_something(path, what)
     opened = service(tmp_path / "own").open(path)
@@ -52,14 +52,14 @@ def test_in_place_of_an_nc_text(tmp_path: Path, what: str) -> None:
         bytes_of(path)
 
 
-def test_in_place_of_a_tool_table(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_a_tool_table_is_refused_and_named(tmp_path: Path, what: str) -> None:
     path = tmp_path / "tool.tbl"
     put_something(path, what)
     with pytest.raises(StoreError, match=EVERYTHING[what]):
         read_table(path, Unit.IN, Unit.IN)
 
 
-def test_in_place_of_settings(tmp_path: Path, what: str) -> None:
+def test_anything_in_place_of_settings_is_ignored_and_named(tmp_path: Path, what: str) -> None:
     path = tmp_path / "settings.toml"
     put_something(path, what)
     settings, trouble = load_settings(path)
@@ -67,10 +67,10 @@ def test_in_place_of_settings(tmp_path: Path, what: str) -> None:
     assert EVERYTHING[what] in trouble
 
 
-def test_in_place_of_a_journal(own: Path, file: Path, what: str) -> None:
-    """The work goes on; what stands there is moved aside, and the lists of files stand."""
+def test_anything_in_place_of_a_journal_is_set_aside(state: Path, file: Path, what: str) -> None:
+    """Work continues; the thing in the journal's place is set aside."""
     put_something(journal_path(file), what)
-    operator = started(own, file)
+    operator = started(state, file)
     assert EVERYTHING[what] in operator.asked or what == "endless"
     assert "DAMAGED" in operator.asked or "In place of" in operator.asked
     operator.answer("CONTINUE").type(7)
@@ -80,15 +80,15 @@ def test_in_place_of_a_journal(own: Path, file: Path, what: str) -> None:
     assert os.path.lexists(journal_path(file).with_name(f"{journal_path(file).name}.kept-1"))
 
 
-def test_in_place_of_a_kept_copy(own: Path, file: Path, what: str) -> None:
+def test_a_document_opens_with_anything_in_place_of_a_kept_copy(state: Path, file: Path, what: str) -> None:
     copy = journal_path(file).with_name(f"{journal_path(file).name}.kept-1")
     put_something(copy, what)
-    opened = service(own).open(file, kept_copy=copy)
+    opened = service(state).open(file, kept_copy=copy)
     assert isinstance(opened, Opened)
     assert opened.offer is None or "UNSAVED WORK" in words(opened.offer.ask)
 
 
-def test_in_place_of_what_is_written(tmp_path: Path) -> None:
+def test_output_is_not_written_to_anything_but_a_file(tmp_path: Path) -> None:
     for what in THINGS:
         path = tmp_path / what
         put_something(path, what)
@@ -96,14 +96,14 @@ def test_in_place_of_what_is_written(tmp_path: Path) -> None:
             write_output(path, "M30\n")
 
 
-def test_a_program_behind_a_link_to_itself_is_refused(tmp_path: Path) -> None:
+def test_a_link_to_itself_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.toml").symlink_to(tmp_path / "a.toml")
     opened = service(tmp_path / "own").open(tmp_path / "a.toml")
     assert isinstance(opened, Trouble)
     assert "links lead round in a circle" in opened.text
 
 
-def test_a_pipe_that_is_named_like_a_drawing_is_not_waited_for(tmp_path: Path) -> None:
+def test_a_pipe_named_like_a_drawing_is_refused_without_waiting(tmp_path: Path) -> None:
     pipe = tmp_path / "part.dxf"
     os.mkfifo(pipe)
     with pytest.raises(StoreError, match="cannot be read: this is a pipe"):

@@ -1,4 +1,4 @@
-"""Saving: what is asked first, two who have one file open, files that somebody else changed; both works are kept."""
+"""Saving: the questions asked first, a file open twice, and files changed by somebody else; both versions are kept."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ def ask(operator: Typist, path: Path | None = None, *answers: str) -> Ask:
 
 
 def trouble(operator: Typist, path: Path | None = None, *answers: str) -> str:
-    refused = operator.try_to_save(path, *answers)
-    assert isinstance(refused, Trouble), refused
-    return refused.text
+    result = operator.try_to_save(path, *answers)
+    assert isinstance(result, Trouble), result
+    return result.text
 
 
 # ---- names
 
 
-def test_without_a_name_nothing_is_saved_before_there_is_one(own: Path, part: Path) -> None:
-    operator = started(own).type(7)
+def test_an_unnamed_program_is_saved_only_under_a_new_name(state: Path, part: Path) -> None:
+    operator = started(state).type(7)
     assert trouble(operator) == "This program has no name yet. SAVE AS (Ctrl+K) gives it one."
     operator.save(part.with_name("other"))
     assert operator.said == "Saved: other.toml"
@@ -57,12 +57,12 @@ def test_without_a_name_nothing_is_saved_before_there_is_one(own: Path, part: Pa
     assert number_in(part.with_name("other.toml")) == 7
 
 
-def test_another_file_is_replaced_only_after_asking(own: Path, file: Path) -> None:
+def test_another_file_is_replaced_only_after_a_question(state: Path, file: Path) -> None:
     other = file.with_name(f"other{file.suffix}")
     other.write_text("not ours")
-    operator = started(own, file).type(7)
+    operator = started(state, file).type(7)
     question = ask(operator, other)
-    assert (question.title, [one.word for one in question.answers]) == ("REPLACE THE FILE?", ["REPLACE"])
+    assert (question.title, [answer.word for answer in question.answers]) == ("REPLACE THE FILE?", ["REPLACE"])
     assert other.read_text() == "not ours"
     operator.save(other, "REPLACE")
     assert number_in(other) == 7
@@ -72,18 +72,18 @@ def test_another_file_is_replaced_only_after_asking(own: Path, file: Path) -> No
     assert not journal_path(file).exists()
 
 
-def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, file: Path) -> None:
+def test_replacing_a_file_that_somebody_has_open_says_who(state: Path, file: Path) -> None:
     other = file.with_name(f"other{file.suffix}")
     other.write_bytes(file.read_bytes())
-    started(own, other, ELSEWHERE, clock=ELSEWHERE.since)
-    operator = started(own, file).type(7)
+    started(state, other, ELSEWHERE, clock=ELSEWHERE.since)
+    operator = started(state, file).type(7)
     assert "bob on office has it open." in words(ask(operator, other))
     operator.save(other, "REPLACE")
     assert operator.document.file.holder == ELSEWHERE
 
 
-def test_what_cannot_be_saved_is_one_sentence_and_nothing_is_lost(own: Path, file: Path) -> None:
-    operator = started(own, file).type(7)
+def test_a_failed_save_is_one_sentence_and_loses_nothing(state: Path, file: Path) -> None:
+    operator = started(state, file).type(7)
     assert trouble(operator, file.parent) == f"{file.parent} is not saved: this is a folder. Type a file's name."
     assert "there is no such file or folder. Check the name." in trouble(operator, file.parent / "none" / file.name)
     assert "that is not a file name" in trouble(operator, file.parent / "a\0b")
@@ -92,18 +92,18 @@ def test_what_cannot_be_saved_is_one_sentence_and_nothing_is_lost(own: Path, fil
     assert journal_path(file).exists()
 
 
-def test_an_nc_text_never_takes_the_place_of_a_program(own: Path, tmp_path: Path) -> None:
+def test_an_nc_text_never_overwrites_a_program(state: Path, tmp_path: Path) -> None:
     part, nc = tmp_path / "part.toml", tmp_path / "part.nc"
     save(empty_program(), part)
     nc.write_bytes(b"M30\n")
-    operator = started(own, nc).type(7)
+    operator = started(state, nc).type(7)
     assert "is a program and would be overwritten" in trouble(operator, part)
     assert "is a program and would be overwritten" in trouble(operator, part, "REPLACE")
     assert load(part) == empty_program()
 
 
-def test_nothing_is_saved_over_a_file_that_is_open_here(own: Path, file: Path) -> None:
-    operator = started(own, file).type(7)
+def test_nothing_is_saved_over_a_file_that_is_open_here(state: Path, file: Path) -> None:
+    operator = started(state, file).type(7)
     other = file.with_name(f"other{file.suffix}")
     other.write_bytes(file.read_bytes())
     assert isinstance(operator.service.open(other), Opened)
@@ -114,15 +114,15 @@ def test_nothing_is_saved_over_a_file_that_is_open_here(own: Path, file: Path) -
 
 
 @pytest.fixture
-def outside(own: Path, file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Typist, Path]:
+def outside(state: Path, file: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Typist, Path]:
     """A document in `shop`, opened from the folder `other` beside it."""
     other = file.parent.with_name("other")
     other.mkdir()
     monkeypatch.chdir(other)
-    return started(own, Path("..") / "shop" / file.name).type(7), other
+    return started(state, Path("..") / "shop" / file.name).type(7), other
 
 
-def test_a_bare_name_is_taken_beside_the_document_and_said_with_its_folder(outside: tuple[Typist, Path]) -> None:
+def test_a_bare_name_is_saved_beside_the_document_and_reported_with_its_folder(outside: tuple[Typist, Path]) -> None:
     operator, other = outside
     name = f"new{operator.document.file.path.suffix}"
     operator.save(Path(name))
@@ -131,41 +131,41 @@ def test_a_bare_name_is_taken_beside_the_document_and_said_with_its_folder(outsi
     assert operator.said == f"Saved: {beside}"
 
 
-@pytest.mark.parametrize("way", ["../{name}", "../other/{name}", "{whole}/{name}", "link-{name}"])
-def test_a_path_outside_is_asked_once_with_the_whole_path(outside: tuple[Typist, Path], way: str) -> None:
+@pytest.mark.parametrize("spelling", ["../{name}", "../other/{name}", "{whole}/{name}", "link-{name}"])
+def test_saving_outside_the_folder_asks_once_with_the_full_path(outside: tuple[Typist, Path], spelling: str) -> None:
     operator, other = outside
     name = f"new{operator.document.file.path.suffix}"
     shop = other.with_name("shop")
     (shop / f"link-{name}").symlink_to(other / name)
-    path = Path(way.format(name=name, whole=other))
+    path = Path(spelling.format(name=name, whole=other))
     question = ask(operator, path)
     assert question.title == "WRITE IN ANOTHER FOLDER?"
-    target = shop.parent / name if way == "../{name}" else other / name
+    target = shop.parent / name if spelling == "../{name}" else other / name
     assert str(target.resolve()) in words(question)
     assert not target.exists()
     operator.save(path, "WRITE THERE")
     assert number_in(target) == 7
 
 
-def test_a_file_that_stands_outside_is_asked_about_in_the_same_question(outside: tuple[Typist, Path]) -> None:
+def test_one_question_covers_another_folder_and_replacing_a_file(outside: tuple[Typist, Path]) -> None:
     operator, other = outside
-    there = other / f"there{operator.document.file.path.suffix}"
-    there.write_text("somebody's")
-    assert "Its content is replaced." in words(ask(operator, there))
-    assert number_in(operator.save(there, "WRITE THERE").document.file.path) == 7
+    target = other / f"there{operator.document.file.path.suffix}"
+    target.write_text("somebody's")
+    assert "Its content is replaced." in words(ask(operator, target))
+    assert number_in(operator.save(target, "WRITE THERE").document.file.path) == 7
 
 
-def test_a_folder_inside_is_not_outside(outside: tuple[Typist, Path]) -> None:
+def test_saving_into_a_subfolder_asks_nothing(outside: tuple[Typist, Path]) -> None:
     operator, other = outside
     inside = other.with_name("shop") / "inside"
     inside.mkdir()
     operator.save(inside / f"new{operator.document.file.path.suffix}")
 
 
-def test_a_link_into_another_folder_is_asked_once(own: Path, file: Path) -> None:
+def test_saving_through_a_link_into_another_folder_asks_once(state: Path, file: Path) -> None:
     link = file.parent.parent / f"link{file.suffix}"
     link.symlink_to(file)
-    operator = started(own, link).type(7)
+    operator = started(state, link).type(7)
     assert "is a link to" in words(ask(operator))
     assert number_in(file) == 1
     operator.save(None, "WRITE THERE")
@@ -175,14 +175,14 @@ def test_a_link_into_another_folder_is_asked_once(own: Path, file: Path) -> None
     assert number_in(file) == 8
 
 
-# ---- two who have it open
+# ---- a file open twice
 
 
-def test_the_second_opener_may_look_and_save_a_copy(own: Path, file: Path) -> None:
-    started(own, file, replace(ELSEWHERE, since="2025-03-04T04:00:00+01:00"), clock=ELSEWHERE.since)
-    operator = started(own, file)
+def test_the_second_opener_may_look_and_save_a_copy(state: Path, file: Path) -> None:
+    started(state, file, replace(ELSEWHERE, since="2025-03-04T04:00:00+01:00"), clock=ELSEWHERE.since)
+    operator = started(state, file)
     assert "OPEN ALREADY bob on office has had this program open since 05:00." in operator.asked
-    later = started(own, file, clock="2025-03-06T08:00:00+01:00")
+    later = started(state, file, clock="2025-03-06T08:00:00+01:00")
     assert "since 4 Mar 2025 at 05:00." in later.asked
     operator.answer("LOOK")
     assert operator.document.file.holder == ELSEWHERE
@@ -194,9 +194,9 @@ def test_the_second_opener_may_look_and_save_a_copy(own: Path, file: Path) -> No
     assert lock_path(file).exists()
 
 
-def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, file: Path) -> None:
-    first = started(own, file, ELSEWHERE).type(7)
-    second = started(own, file).answer("TAKE OVER")
+def test_the_second_opener_may_take_over_the_work_of_the_first(state: Path, file: Path) -> None:
+    first = started(state, file, ELSEWHERE).type(7)
+    second = started(state, file).answer("TAKE OVER")
     assert f"UNSAVED WORK FOUND {file.name} by bob on office" in second.asked
     second.answer("RESTORE")
     assert second.work == first.work
@@ -208,38 +208,38 @@ def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, f
     assert number_in(file) == 7
 
 
-def test_taken_over_before_anything_was_typed_nothing_is_asked(own: Path, file: Path) -> None:
-    first = started(own, file, ELSEWHERE)
-    second = started(own, file).answer("TAKE OVER")
+def test_taking_over_before_anything_was_typed_asks_nothing_more(state: Path, file: Path) -> None:
+    first = started(state, file, ELSEWHERE)
+    second = started(state, file).answer("TAKE OVER")
     assert second.asked == ""
     first.type(7)
     assert "has had this program open" in first.said
 
 
-def test_taken_over_and_saved_meanwhile_there_is_nothing_to_discard(own: Path, file: Path) -> None:
-    first = started(own, file, ELSEWHERE).type(7)
-    second = started(own, file).answer("TAKE OVER")
+def test_work_saved_after_a_take_over_is_no_longer_discardable(state: Path, file: Path) -> None:
+    first = started(state, file, ELSEWHERE).type(7)
+    second = started(state, file).answer("TAKE OVER")
     first.save(None, "OVERWRITE")
     second.answer("LEAVE IT")
     assert "It was saved or discarded meanwhile." in second.said
 
 
-def test_restoring_what_its_owner_has_saved_meanwhile_keeps_it_in_a_journal_of_its_own(own: Path, file: Path) -> None:
-    first = started(own, file, ELSEWHERE).type(7)
-    second = started(own, file).answer("TAKE OVER")
+def test_restoring_work_that_its_owner_has_saved_gives_it_a_new_journal(state: Path, file: Path) -> None:
+    first = started(state, file, ELSEWHERE).type(7)
+    second = started(state, file).answer("TAKE OVER")
     first.save(None, "OVERWRITE")
     second.answer("RESTORE")
     assert "Your work is back." in second.said
     assert journal_path(file).exists()
 
 
-def test_the_first_one_notices_before_it_saves(own: Path, file: Path) -> None:
-    first = started(own, file, ELSEWHERE).type(7)
-    started(own, file).answer("TAKE OVER").answer("LEAVE IT").type(3).save()
+def test_the_first_opener_is_asked_before_it_saves_after_a_take_over(state: Path, file: Path) -> None:
+    first = started(state, file, ELSEWHERE).type(7)
+    started(state, file).answer("TAKE OVER").answer("LEAVE IT").type(3).save()
     question = ask(first)
     assert question.title == "TAKEN OVER: SAVE ANYWAY?"
     assert f"ann on {DEAD.host} has taken {file.name} over." in words(question)
-    # it is answered a little later
+    # the answer comes a little later
     first.service.clock = lambda: "2025-03-04T06:05:09+01:00"
     first.save(None, "KEEP BOTH")
     assert number_in(file) == 3
@@ -250,10 +250,10 @@ def test_the_first_one_notices_before_it_saves(own: Path, file: Path) -> None:
 
 
 @pytest.mark.parametrize(("answer", "number", "whose"), [("THEIRS", 3, "mine"), ("YOURS", 7, "theirs")])
-def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
-    own: Path, file: Path, answer: str, number: float, whose: str
+def test_a_file_changed_by_another_program_is_noticed_and_both_versions_are_kept(
+    state: Path, file: Path, answer: str, number: float, whose: str
 ) -> None:
-    operator = started(own, file).type(7)
+    operator = started(state, file).type(7)
     changed_by_another(file, 3)
     question = ask(operator)
     assert question.title == "CHANGED MEANWHILE"
@@ -270,8 +270,8 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     assert not operator.document.unsaved
 
 
-def test_what_is_too_large_to_be_read_is_not_overwritten(own: Path, file: Path) -> None:
-    operator = started(own, file).type(7)
+def test_a_file_too_large_to_read_is_not_overwritten(state: Path, file: Path) -> None:
+    operator = started(state, file).type(7)
     size = MAX_BYTES[operator.document.kind] + 1
     os.truncate(file, size)
     assert trouble(operator) == (
@@ -282,20 +282,20 @@ def test_what_is_too_large_to_be_read_is_not_overwritten(own: Path, file: Path) 
     assert not operator.document.unsaved
 
 
-def test_an_nc_text_with_a_line_of_a_contour_program_is_saved_over_itself(own: Path, tmp_path: Path) -> None:
+def test_an_nc_text_with_a_line_of_a_contour_program_can_be_saved_again(state: Path, tmp_path: Path) -> None:
     file = tmp_path / "part.nc"
     file.write_bytes(b"G20\nM2\n")
-    operator = started(own, file)
+    operator = started(state, file)
     for line in ("format = 1", "G21"):
         operator.keep(operator.document.edited(changed(operator.document.text, 0, line), 0))
         operator.save()
     assert file.read_bytes() == b"G21\nM2\n"
 
 
-def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, file: Path) -> None:
-    started(own, file).type(7).killed()
+def test_a_file_written_since_the_crash_is_reported_before_restoring_and_saving(state: Path, file: Path) -> None:
+    started(state, file).type(7).killed()
     changed_by_another(file, 3)
-    operator = started(own, file)
+    operator = started(state, file)
     assert "The file was written since: by somebody else, or by this program just before its end." in operator.asked
     operator.answer("RESTORE")
     assert ask(operator).title == "CHANGED MEANWHILE"
@@ -303,9 +303,9 @@ def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, f
 
 @pytest.mark.parametrize("call", ["write", "fsync"])
 def test_a_full_disk_leaves_no_half_copy_of_the_other_version(
-    own: Path, file: Path, monkeypatch: pytest.MonkeyPatch, call: str
+    state: Path, file: Path, monkeypatch: pytest.MonkeyPatch, call: str
 ) -> None:
-    operator = started(own, file).type(7)
+    operator = started(state, file).type(7)
     changed_by_another(file, 3)
     theirs, before = file.read_bytes(), names(file)
 
@@ -321,14 +321,14 @@ def test_a_full_disk_leaves_no_half_copy_of_the_other_version(
     assert (file.read_bytes(), names(file)) == (theirs, before)
 
 
-def test_written_again_with_the_same_content_is_no_change(own: Path, file: Path) -> None:
-    operator = started(own, file).type(7)
+def test_a_file_rewritten_with_the_same_content_counts_as_unchanged(state: Path, file: Path) -> None:
+    operator = started(state, file).type(7)
     file.write_bytes(file.read_bytes())
     assert operator.save().said == f"Saved: {file.name}"
 
 
-def test_what_somebody_else_has_made_unreadable_is_told_as_changed(own: Path, part: Path) -> None:
-    operator = started(own, part).type(3)
+def test_a_file_made_unreadable_by_somebody_else_counts_as_changed(state: Path, part: Path) -> None:
+    operator = started(state, part).type(3)
     part.write_bytes(b"no program")
     assert "It is no program any more." in words(ask(operator))
 
@@ -336,23 +336,23 @@ def test_what_somebody_else_has_made_unreadable_is_told_as_changed(own: Path, pa
 # ---- leaving
 
 
-def test_leaving_asks_only_when_something_would_be_lost(own: Path, file: Path) -> None:
-    operator = started(own, file)
+def test_leaving_asks_only_when_work_would_be_lost(state: Path, file: Path) -> None:
+    operator = started(state, file)
     assert questions.leaving("QUIT?", [operator.document]) is None
     operator.type(7)
-    unnamed = started(own).type(3).document
+    unnamed = started(state).type(3).document
     question = questions.leaving("QUIT?", [operator.document, unnamed])
     assert question is not None
     assert question.lines == (f"{file.name} has changes that are not saved.", "This program was never saved.")
-    assert [one.word for one in question.answers] == ["DISCARD", "SAVE"]
+    assert [answer.word for answer in question.answers] == ["DISCARD", "SAVE"]
     assert question.safe == "GO BACK"
 
 
-def test_what_cannot_be_used_is_said_to_be_in_the_file_as_it_was_typed(own: Path, part: Path) -> None:
+def test_saving_reports_unreadable_values_kept_as_typed(state: Path, part: Path) -> None:
     from core.program.edit import FormPlace, type_field
     from core.program.model import Program, Unread
 
-    operator = started(own, part)
+    operator = started(state, part)
     document = operator.document
     program = type_field(document.program, FormPlace(1), "x_start", Unread("2..5", "no number"))
     assert isinstance(program, Program)
@@ -360,16 +360,16 @@ def test_what_cannot_be_used_is_said_to_be_in_the_file_as_it_was_typed(own: Path
     assert operator.save().said == "Saved: part.toml, what is marked ERR as it was typed."
 
 
-def test_only_what_was_changed_is_written_in_an_nc_text(own: Path, tmp_path: Path) -> None:
+def test_saving_an_nc_text_changes_only_the_edited_line(state: Path, tmp_path: Path) -> None:
     nc = tmp_path / "part.nc"
     nc.write_bytes(b"\xef\xbb\xbfG0 X1\r\nG1 \xb0\r(no end)")
-    operator = started(own, nc)
+    operator = started(state, nc)
     operator.keep(operator.document.edited(changed(operator.document.text, 1, "G1"), 1)).save()
     assert nc.read_bytes() == b"\xef\xbb\xbfG0 X1\r\nG1\r(no end)"
 
 
-def test_an_example_is_saved_under_a_name_of_its_own(own: Path, part: Path) -> None:
-    documents = service(own)
+def test_an_example_can_be_saved_under_a_new_name(state: Path, part: Path) -> None:
+    documents = service(state)
     opened = documents.example("notch")
     assert opened.document.title == "notch"
     saved = documents.save(opened.document, part.with_name("notch"))

@@ -1,6 +1,6 @@
-"""Saving in a shared folder takes the file from nobody: owner, group, mode, attributes and links stay.
+"""Saving in a shared folder keeps owner, group, mode, attributes and links of a file.
 
-Where the test runs as root, a child process becomes the colleague.
+Under root, a child process plays the colleague.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ root_only = pytest.mark.skipif(os.getuid() != 0, reason="only root can become so
 
 
 def child(work: Callable[[], None], user: int, *groups: int) -> None:
-    """Do this as another user; AssertionError with what went wrong."""
+    """Do this as another user; an AssertionError says what went wrong."""
     reading, writing = os.pipe()
     with warnings.catch_warnings():
-        # the child does nothing with threads
+        # the child uses no threads
         warnings.simplefilter("ignore", DeprecationWarning)
         pid = os.fork()
     if not pid:
@@ -35,7 +35,7 @@ def child(work: Callable[[], None], user: int, *groups: int) -> None:
             os.setgid(user)
             os.setuid(user)
             work()
-        except BaseException as error:  # noqa: BLE001  # it goes to the parent
+        except BaseException as error:  # noqa: BLE001  # the parent reports it
             text = f"{type(error).__name__}: {error}"
         os.write(writing, text.encode()[:4000])
         os._exit(0)
@@ -48,7 +48,7 @@ def child(work: Callable[[], None], user: int, *groups: int) -> None:
 
 @pytest.fixture
 def shop(tmp_path: Path) -> Path:
-    """A folder that all of group SHOP may write."""
+    """A folder that the group SHOP may write."""
     tmp_path.chmod(0o755)
     folder = tmp_path / "shop"
     folder.mkdir()
@@ -70,7 +70,7 @@ def who(path: Path) -> tuple[int, int, int]:
 
 
 @root_only
-def test_a_colleague_who_saves_leaves_owner_group_and_mode(shop: Path) -> None:
+def test_a_save_by_a_colleague_keeps_owner_group_and_mode(shop: Path) -> None:
     path = shop / "part.toml"
     made(path, ANN, SHOP, 0o660)
 
@@ -84,7 +84,7 @@ def test_a_colleague_who_saves_leaves_owner_group_and_mode(shop: Path) -> None:
 
 
 @root_only
-def test_ones_own_file_of_a_group_one_is_in_is_replaced_and_keeps_it(shop: Path) -> None:
+def test_a_file_of_a_group_the_owner_is_in_is_replaced_and_keeps_the_group(shop: Path) -> None:
     path = shop / "part.toml"
     before = made(path, BOB, SHOP, 0o640)
 
@@ -97,7 +97,7 @@ def test_ones_own_file_of_a_group_one_is_in_is_replaced_and_keeps_it(shop: Path)
 
 
 @root_only
-def test_ones_own_file_of_a_group_one_is_not_in_is_written_in_place(shop: Path) -> None:
+def test_a_file_of_a_group_the_owner_is_not_in_is_written_in_place(shop: Path) -> None:
     path = shop / "part.toml"
     made(path, BOB, SHOP, 0o660)
     shop.chmod(0o777)
@@ -110,8 +110,8 @@ def test_ones_own_file_of_a_group_one_is_not_in_is_written_in_place(shop: Path) 
 
 
 @root_only
-def test_in_a_folder_where_nobody_replaces_the_file_of_another_it_is_written_in_place(shop: Path) -> None:
-    """A sticky folder lets only owners rename over their files."""
+def test_a_file_of_another_user_in_a_sticky_folder_is_written_in_place(shop: Path) -> None:
+    """In a sticky folder, only the owner of a file may replace it."""
     path = shop / "part.toml"
     made(path, ANN, SHOP, 0o666)
     shop.chmod(0o1777)
@@ -125,7 +125,7 @@ def test_in_a_folder_where_nobody_replaces_the_file_of_another_it_is_written_in_
 
 
 @root_only
-def test_root_gives_the_file_back_to_its_owner(shop: Path) -> None:
+def test_a_file_saved_by_root_keeps_its_owner(shop: Path) -> None:
     path = shop / "part.toml"
     made(path, ANN, SHOP, 0o640)
     assert write_data(path, b"new") == ""
@@ -133,7 +133,7 @@ def test_root_gives_the_file_back_to_its_owner(shop: Path) -> None:
 
 
 @root_only
-def test_a_file_that_a_colleague_may_only_read_is_not_written(shop: Path) -> None:
+def test_a_file_the_colleague_may_only_read_is_not_written(shop: Path) -> None:
     path = shop / "part.toml"
     made(path, ANN, SHOP, 0o640)
 
@@ -145,7 +145,7 @@ def test_a_file_that_a_colleague_may_only_read_is_not_written(shop: Path) -> Non
     assert path.read_bytes() == b"old"
 
 
-def test_a_file_of_two_names_keeps_both(tmp_path: Path) -> None:
+def test_a_file_with_two_hard_links_keeps_both(tmp_path: Path) -> None:
     path, other = tmp_path / "part.toml", tmp_path / "other.toml"
     path.write_bytes(b"the old one, longer")
     other.hardlink_to(path)
@@ -155,7 +155,7 @@ def test_a_file_of_two_names_keeps_both(tmp_path: Path) -> None:
     assert sorted(tmp_path.iterdir()) == [other, path]
 
 
-def test_extended_attributes_stay(tmp_path: Path) -> None:
+def test_saving_keeps_extended_attributes(tmp_path: Path) -> None:
     path = tmp_path / "part.toml"
     path.write_bytes(b"old")
     try:
@@ -166,7 +166,7 @@ def test_extended_attributes_stay(tmp_path: Path) -> None:
     assert os.getxattr(path, "user.job") == b"4711"
 
 
-def test_attributes_that_a_new_file_cannot_have_keep_the_old_file(
+def test_a_file_whose_attributes_cannot_be_copied_is_written_in_place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "part.toml"
@@ -184,7 +184,7 @@ def test_attributes_that_a_new_file_cannot_have_keep_the_old_file(
 
 
 @pytest.mark.parametrize("call", ["posix_fallocate", "ftruncate", "lseek"])
-def test_a_disk_that_fails_while_a_file_is_written_in_place_leaves_what_it_held(
+def test_a_disk_failing_during_an_in_place_write_leaves_the_old_content(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: str
 ) -> None:
     path = tmp_path / "part.toml"
@@ -205,7 +205,7 @@ def test_a_disk_that_fails_while_a_file_is_written_in_place_leaves_what_it_held(
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_a_long_name_of_letters_of_two_bytes_is_saved(tmp_path: Path) -> None:
+def test_a_long_name_of_two_byte_letters_can_be_saved(tmp_path: Path) -> None:
     path = tmp_path / f"{'ä' * 120}.toml"
     write_data(path, b"new")
     write_data(path, b"newer")

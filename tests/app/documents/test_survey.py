@@ -1,4 +1,4 @@
-"""What the list of files tells of a program: what was not saved comes before the verdict on what was."""
+"""The facts in the list of files: unsaved work takes precedence over the verdict on the saved program."""
 
 from __future__ import annotations
 
@@ -19,51 +19,51 @@ from tests.app.documents.typist import ELSEWHERE, started
 
 
 @pytest.fixture(autouse=True)
-def person(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(survey, "state_folder", lambda: own)
+def person(state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(survey, "state_folder", lambda: state)
     monkeypatch.setattr(survey, "user", lambda: "ann")
 
 
 def names(folder: Path) -> list[str]:
-    return [each.name for each in programs_of(folder) if not (each.folder or each.example)]
+    return [program.name for program in programs_of(folder) if not (program.folder or program.example)]
 
 
-def test_a_saved_program_has_its_verdict(part: Path) -> None:
+def test_a_saved_program_shows_its_verdict(part: Path) -> None:
     facts = facts_of(part)
     assert (facts.outcome, facts.blocks, facts.tools, facts.trouble) == (Outcome.UNCUT, "1", "1", "")
     assert facts_of(part, facts) is facts
 
 
-def test_unsaved_work_comes_before_the_verdict(own: Path, part: Path) -> None:
-    known = facts_of(part)
-    started(own, part).type(7).killed()
-    facts = facts_of(part, known)
+def test_unsaved_work_takes_precedence_over_the_verdict(state: Path, part: Path) -> None:
+    before = facts_of(part)
+    started(state, part).type(7).killed()
+    facts = facts_of(part, before)
     assert (facts.outcome, facts.blocks) == (Outcome.NOT_SAVED, "1")
     assert "Opening it asks whether you want it back." in facts.trouble
-    started(own, part).answer("RESTORE").save().left()
+    started(state, part).answer("RESTORE").save().left()
     assert facts_of(part, facts).outcome is not Outcome.NOT_SAVED
 
 
-def test_work_that_says_nothing_new_is_none(own: Path, part: Path) -> None:
-    operator = started(own, part).type(7)
+def test_work_equal_to_the_file_does_not_count_as_unsaved(state: Path, part: Path) -> None:
+    operator = started(state, part).type(7)
     operator.killed()
     part.write_bytes(operator.document.data())
     assert facts_of(part).outcome is not Outcome.NOT_SAVED
 
 
 @pytest.mark.parametrize("closed", [False, True])
-def test_a_program_that_was_never_saved_stands_in_the_list(
-    own: Path, part: Path, monkeypatch: pytest.MonkeyPatch, *, closed: bool
+def test_a_never_saved_program_is_listed(
+    state: Path, part: Path, monkeypatch: pytest.MonkeyPatch, *, closed: bool
 ) -> None:
     if closed:
         monkeypatch.setattr(os, "access", lambda *_: False)
-    started(own, part.with_name("flap.toml")).type(7).killed()
+    started(state, part.with_name("flap.toml")).type(7).killed()
     part.with_name(f".lost.nc{SUFFIX}").write_text("an NC text's own")
     assert names(part.parent) == ["flap", "part"]
     assert facts_of(part.with_name("flap.toml")).outcome is Outcome.NOT_SAVED
 
 
-def test_damaged_work_on_a_program_that_was_never_saved_is_told(part: Path) -> None:
+def test_damaged_work_on_a_never_saved_program_is_reported(part: Path) -> None:
     journal_path(part.with_name("flap.toml")).write_bytes(b"?" * 300)
     facts = facts_of(part.with_name("flap.toml"))
     assert facts.outcome is Outcome.UNREADABLE
@@ -72,13 +72,13 @@ def test_damaged_work_on_a_program_that_was_never_saved_is_told(part: Path) -> N
     assert names(part.parent) == ["part"]
 
 
-def test_a_program_that_somebody_types_and_has_not_saved_is_open(own: Path, part: Path) -> None:
-    started(own, part.with_name("flap.toml"), ELSEWHERE).type(7)
+def test_a_never_saved_program_being_typed_counts_as_open(state: Path, part: Path) -> None:
+    started(state, part.with_name("flap.toml"), ELSEWHERE).type(7)
     assert facts_of(part.with_name("flap.toml")).outcome is Outcome.OPEN
     assert names(part.parent) == ["flap", "part"]
 
 
-def test_a_file_that_does_not_answer_does_not_hold_up_the_others(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_hanging_file_does_not_delay_the_others(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     never, real = Event(), Path.stat
     monkeypatch.setattr(survey, "FILE", 0.05)
     monkeypatch.setattr(
@@ -91,7 +91,7 @@ def test_a_file_that_does_not_answer_does_not_hold_up_the_others(part: Path, mon
     assert facts_of(part.with_name("b.toml")).trouble.startswith("This file is not there any more")
 
 
-def test_opening_a_file_that_does_not_answer_is_told(own: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_opening_a_hanging_file_is_reported(state: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from app.documents import service as module
     from app.documents.service import Trouble
     from tests.app.documents.typist import service
@@ -99,19 +99,21 @@ def test_opening_a_file_that_does_not_answer_is_told(own: Path, part: Path, monk
     never = Event()
     monkeypatch.setattr(module, "FILE", 0.05)
     monkeypatch.setattr(module, "read_file", lambda *_: never.wait(5))
-    opened = service(own).open(part)
+    opened = service(state).open(part)
     never.set()
     assert isinstance(opened, Trouble)
     assert "cannot be opened: no answer" in opened.text
 
 
-def test_drawings_and_nc_programs_of_a_folder_are_listed_behind_its_programs(part: Path) -> None:
+def test_drawings_and_nc_programs_are_listed_after_the_programs(part: Path) -> None:
     for name in ("a.NC", "b.dxf", "c.tap", "d.pdf", ".e.nc"):
         (part.parent / name).write_text("M30\n")
     (part.parent / "f.nc").mkdir()
     (part.parent / "sheet.txt").write_text(setup_sheet(load(part), part.parent / "sheet.txt", datetime.now(UTC)))
     (part.parent / "x.txt").write_text("G0 X0\nM30\n")
-    listed = [(each.name, each.kind) for each in programs_of(part.parent) if not (each.folder or each.example)]
+    listed = [
+        (program.name, program.kind) for program in programs_of(part.parent) if not (program.folder or program.example)
+    ]
     others = [("b.dxf", "drawing"), ("a.NC", "NC program"), ("c.tap", "NC program"), ("x.txt", "NC program")]
     assert listed == [(part.stem, ""), *others]
 

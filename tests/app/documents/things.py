@@ -1,4 +1,4 @@
-"""What may stand where a file is expected."""
+"""Things that may stand where a file is expected."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import socket
 from pathlib import Path
 
 THINGS = {"pipe": "a pipe", "folder": "a folder", "socket": "a socket", "device": "a device"}
-"""What `put_something` makes, and what a sentence calls it."""
+"""The things that `put_something` makes, and their names in sentences."""
 ENDLESS = 10**13
-"""Bytes of a file without end: nothing but a hole."""
+"""Bytes of an endless file: one large hole."""
 
 
 def put_something(path: Path, what: str) -> None:
-    """Make this in a file's place."""
+    """Put this in a file's place."""
     match what:
         case "pipe":
             os.mkfifo(path)
@@ -23,14 +23,14 @@ def put_something(path: Path, what: str) -> None:
             path.mkdir()
             (path / "somebody's").touch()
         case "socket":
-            with socket.socket(socket.AF_UNIX) as one:
-                here = Path.cwd()
+            with socket.socket(socket.AF_UNIX) as server:
+                folder = Path.cwd()
                 os.chdir(path.parent)
                 try:
-                    # the whole path may be too long for a socket
-                    one.bind(path.name)
+                    # the full path may be too long for a socket
+                    server.bind(path.name)
                 finally:
-                    os.chdir(here)
+                    os.chdir(folder)
         case "device":
             path.symlink_to("/dev/zero")
         case "endless":

@@ -1,4 +1,4 @@
-"""An operator who types into a document through the service alone, and who may die at any moment."""
+"""A simulated operator who types into a document through the service and may be killed at any moment."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from tests.app.nc_lines import changed
 
 TIME = "2025-03-04T06:05:00+01:00"
 DEAD = Owner("ann", myself("").host, 2**22 + 17, "", "2025-03-04T06:00:00+01:00")
-"""A process of this host that is dead whenever somebody looks."""
+"""A process of this host that is always dead."""
 BOB = replace(DEAD, user="bob", pid=DEAD.pid + 1)
 ALIVE = replace(myself("2025-03-04T06:01:00+01:00"), user="ann")
-"""A program of ann's that still runs."""
+"""A running program of ann's."""
 ELSEWHERE = Owner("bob", "office", 7, "", "2025-03-04T05:00:00+01:00")
-"""A process of another host, which may always be alive."""
+"""A process of another host, which may be alive."""
 NC = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
 
 
 @dataclass
 class Typist:
-    """What the App does with the service: every edit is kept before the next one is made."""
+    """Uses the service as the App does: every edit is kept before the next one."""
 
     service: DocumentService
     document: Any
@@ -44,7 +44,7 @@ class Typist:
 
     @property
     def asked(self) -> str:
-        """The words of the question that is to be answered."""
+        """The words of the open question."""
         return "" if self.offer is None else words(self.offer.ask)
 
     def answer(self, word: str) -> Typist:
@@ -58,7 +58,7 @@ class Typist:
         return self
 
     def type(self, *numbers: float) -> Typist:
-        """One edit a number: TOOL of block 1, or the first line of the text."""
+        """One edit per number: TOOL of block 1, or the first line of the text."""
         for number in numbers:
             document = self.document
             if isinstance(document, ContourDocument):
@@ -93,7 +93,7 @@ class Typist:
 
     @property
     def number(self) -> float:
-        """What was typed last."""
+        """The number typed last."""
         document = self.document
         if isinstance(document, NcDocument):
             return float(document.text.text(0).removeprefix("T").partition(" ")[0].replace("G20", "1"))
@@ -103,7 +103,7 @@ class Typist:
 
     @property
     def work(self) -> object:
-        """Everything that can be undone and redone, for comparing."""
+        """Everything that can be undone and redone, for comparisons."""
         document = self.document
         if isinstance(document, ContourDocument):
             return document.history
@@ -113,40 +113,42 @@ class Typist:
         return ([state.lines for state in states], len(document.text.future))
 
     def killed(self) -> None:
-        """kill -9: nothing is done any more; only the handles are closed, so that tests can have many."""
+        """Simulate kill -9: only the file handles are closed, so that tests can open many."""
         for kept in self.service._open.values():
             if kept.journal is not None:
                 kept.journal.close()
 
     def left(self) -> None:
-        """Everything saved or given up."""
+        """Close the document, saved or given up."""
         self.service.close(self.document)
 
 
 def words(ask: Ask) -> str:
-    return " ".join((ask.title, *ask.lines, *ask.details, *(f"{one.word} {one.effect}" for one in ask.answers)))
+    return " ".join(
+        (ask.title, *ask.lines, *ask.details, *(f"{answer.word} {answer.effect}" for answer in ask.answers))
+    )
 
 
-def service(own: Path, me: Owner = DEAD, clock: str = TIME) -> DocumentService:
-    return DocumentService(me, own, lambda: clock)
+def service(state: Path, me: Owner = DEAD, clock: str = TIME) -> DocumentService:
+    return DocumentService(me, state, lambda: clock)
 
 
-def started(own: Path, file: Path | None = None, me: Owner = DEAD, clock: str = TIME) -> Typist:
-    """The program started on a file, or on none; `own` is the person's folder."""
-    documents = service(own, me, clock)
+def started(state: Path, file: Path | None = None, me: Owner = DEAD, clock: str = TIME) -> Typist:
+    """The program started on a file, or on none; `state` is the user's state folder."""
+    documents = service(state, me, clock)
     opened = documents.new(offers=True) if file is None else documents.open(file)
     assert isinstance(opened, Opened), opened
     return Typist(documents, None).took(opened)
 
 
 def number_in(file: Path) -> float:
-    """What a file holds, as it was typed."""
+    """The number that a file holds."""
     kind = NcDocument if file.suffix == ".nc" else ContourDocument
     return Typist(service(file.parent), kind.read(file.read_bytes(), FileState(file))).number
 
 
 def changed_by_another(file: Path, number: float) -> None:
-    """Somebody writes the file with another program, knowing of no locks."""
+    """Another program writes the file and ignores locks."""
     kind = NcDocument if file.suffix == ".nc" else ContourDocument
     documents = service(file.parent.parent / "another's", ELSEWHERE)
     copy = file.parent.parent / file.name
@@ -160,5 +162,5 @@ def changed_by_another(file: Path, number: float) -> None:
 
 
 def names(path: Path) -> list[str]:
-    """What lies beside a document."""
-    return sorted(one.name for one in path.parent.iterdir() if one != path)
+    """The names of the files beside a document."""
+    return sorted(child.name for child in path.parent.iterdir() if child != path)

@@ -1,4 +1,4 @@
-"""Keys that come together: each goes to the field that has the cursor after all keys before it."""
+"""Keys that arrive together: each goes to the field that has the cursor after all earlier keys."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
 
 async def burst(user: Operator, *keys: str) -> None:
-    """All keys at once, as a slow link or a paste brings them."""
+    """Send all keys at once, as a slow link or a paste does."""
     order = KeyOrder(user.app)
     for key in keys:
         order.take(events.Key(key, key if len(key) == 1 else None))
@@ -31,7 +31,7 @@ async def burst(user: Operator, *keys: str) -> None:
     await user.settle()
 
 
-async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
+async def test_numbers_typed_at_once_fill_the_fields_in_order():
     async with operator() as user:
         await burst(user, "pagedown", "tab", "5", "enter", "1", ".", "2", "5", "enter", "pagedown")
         segment = user.session.block.segments[0]
@@ -39,7 +39,7 @@ async def test_numbers_typed_at_once_go_into_the_fields_one_after_the_other():
         assert user.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
 
 
-async def test_a_key_that_was_split_and_a_paste_without_an_end_are_told_and_what_is_half_typed_stays():
+async def test_a_torn_key_and_an_unended_paste_are_reported_and_keep_half_typed_text():
     async with operator() as user:
         await user.press("tab", "1")
         for key, begins in ((TORN, "The link split a key"), (UNENDED, "Pasted text came without its end")):
@@ -50,21 +50,21 @@ async def test_a_key_that_was_split_and_a_paste_without_an_end_are_told_and_what
         assert user.session.block.tool == Number(12.0)
 
 
-async def test_keys_behind_the_one_that_opens_a_file_go_to_that_file(part: Path, own: Path):
-    service = DocumentService(state=own)
+async def test_keys_after_the_one_that_opens_a_file_go_to_that_file(part: Path, state: Path):
+    service = DocumentService(state=state)
     app = CutcompApp(session_of(service.new().document), surroundings=SURROUNDINGS, service=service, home=True)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
-        await burst(one, "enter", "pagedown", "tab", "5", "enter")
-        assert one.session.file == part
-        assert one.session.place.segment == 1
-        segment = one.session.block.segments[0]
+        user = Operator(app, pilot)
+        await user.settle()
+        await burst(user, "enter", "pagedown", "tab", "5", "enter")
+        assert user.session.file == part
+        assert user.session.place.segment == 1
+        segment = user.session.block.segments[0]
         assert segment.x_end == Number(5.0)
         service.stop()
 
 
-async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
+async def test_numbers_typed_right_after_a_letter_go_into_the_new_segment():
     async with operator() as user:
         count = len(user.session.block.segments)
         await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
@@ -72,7 +72,7 @@ async def test_a_new_segment_has_the_numbers_that_follow_its_letter_at_once():
         assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0))
 
 
-async def test_random_keys_at_once_do_what_they_do_one_by_one():
+async def test_random_keys_sent_at_once_act_as_when_sent_one_by_one():
     random = Random(20261123)
     keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
     for _ in range(3):
@@ -84,8 +84,8 @@ async def test_random_keys_at_once_do_what_they_do_one_by_one():
             assert (fast.session.place, fast.at) == (slow.session.place, slow.at), chosen
 
 
-async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch):
-    """Every turn of the loop takes so long that a key needs longer than it is waited for."""
+async def test_a_slow_machine_keeps_the_keys_in_their_fields(monkeypatch):
+    """Each turn of the event loop is so slow that a key takes longer than the wait for it."""
     monkeypatch.setattr(key_order, "LOOK", 0.01)
     async with operator() as user:
         loop, end = get_running_loop(), monotonic() + 4.0
@@ -100,7 +100,7 @@ async def test_a_machine_that_is_late_keeps_the_keys_in_their_fields(monkeypatch
         assert user.session.block.tool == Number(7.0)
 
 
-async def test_a_program_that_is_leaving_and_takes_nothing_more_is_left_alone(monkeypatch: pytest.MonkeyPatch):
+async def test_keys_for_an_ending_program_are_dropped(monkeypatch: pytest.MonkeyPatch):
     async with operator() as user:
         order = KeyOrder(user.app)
         with monkeypatch.context() as patch:
