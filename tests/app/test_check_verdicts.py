@@ -1,4 +1,4 @@
-"""What `check` says of over-runs at corners, of arcs with two radii, and of what cannot be judged."""
+"""The verdicts of `check` on over-runs at corners, arcs with two radii, and moves that cannot be judged."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ PROGRAMS = {
 def checked(
     capsys: pytest.CaptureFixture[str], folder: Path, text: str, control: str
 ) -> tuple[int, list[dict[str, object]], str]:
-    """The exit status, the findings, and the line that says what the control does."""
+    """The exit status, the findings, and the line that states the outcome."""
     file = folder / "program.nc"
     file.write_text(text)
     arguments = [str(file), "--control", control, "--tool", "1=.5"]
@@ -80,14 +80,14 @@ def rules(findings: list[dict[str, object]]) -> list[object]:
 
 
 @pytest.mark.parametrize("control", PROGRAMS)
-def test_an_over_run_at_a_corner_is_a_lead_and_said_once(
+def test_an_over_run_at_a_corner_is_reported_once_as_a_lead(
     control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     status, findings, outcome = checked(capsys, tmp_path, PROGRAMS[control], control)
-    told = rules(findings)
-    assert told.count("OVER_RUN") == 1, findings
-    assert "GOUGE" not in told
-    assert "CROSSES" not in told
+    codes = rules(findings)
+    assert codes.count("OVER_RUN") == 1, findings
+    assert "GOUGE" not in codes
+    assert "CROSSES" not in codes
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "info"
     assert "X 0.0000 Y 0.0000" in str(over_run["text"])
@@ -112,15 +112,15 @@ M30
 
 
 @pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a", "linuxcnc", "nine-series:a"])
-def test_compensation_that_begins_a_move_before_the_over_run_is_a_warning(
+def test_an_over_run_is_a_warning_when_compensation_starts_a_move_earlier(
     control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     status, findings, outcome = checked(capsys, tmp_path, BENT, control)
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "warning"
     assert over_run["line"] == 7
-    told = "Over-run at X 0.000 Y 0.000. Taken for lead beyond it: lines 7, 8 and 11."
-    assert str(over_run["text"]).startswith(told)
+    text = "Over-run at X 0.000 Y 0.000. Taken for lead beyond it: lines 7, 8 and 11."
+    assert str(over_run["text"]).startswith(text)
     assert {"GOUGE", "CROSSES"}.isdisjoint(rules(findings)), findings
     assert status == 0, findings
     assert f"{shown_name(control)}: runs, 1 warning (OVER_RUN);" in outcome
@@ -145,10 +145,10 @@ M30
 
 
 @pytest.mark.parametrize("end", ["5.", "2.", ".2", "-3."])
-def test_a_lead_arc_that_crosses_the_first_wall_of_an_open_contour_cuts_it(
+def test_a_lead_arc_across_the_first_wall_of_an_open_contour_gouges(
     end: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """The last wall was to end on X0, where the first one stands."""
+    """The last wall should end at X0, on the first wall."""
     text = OPEN.format(end=end, lead_out=f"G3 X{float(end) - 10.0:.1f} Y35. R10.")
     status, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
     assert "GOUGE" in rules(findings)
@@ -156,7 +156,7 @@ def test_a_lead_arc_that_crosses_the_first_wall_of_an_open_contour_cuts_it(
     assert status == 1
 
 
-def test_an_over_run_that_is_most_of_its_line_is_a_warning(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_an_over_run_along_most_of_its_line_is_a_warning(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     text = OPEN.format(end="5.", lead_out="X-10.").replace("G3 X0. Y20. R10.\n", "").replace("X-10. Y10.", "X0. Y20.")
     _, findings, _ = checked(capsys, tmp_path, text, "fanuc:a")
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
@@ -201,10 +201,10 @@ SEEDS = {
 
 
 @pytest.mark.parametrize("control", SEEDS)
-def test_an_end_that_runs_past_the_corner_where_the_contour_begins_is_a_lead(
+def test_an_over_run_past_the_start_corner_is_a_lead(
     control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    """These controls take the move to the corner for a lead too: nothing is gouged."""
+    """These controls also treat the move to the corner as a lead, so nothing is gouged."""
     status, findings, outcome = checked(capsys, tmp_path, SEEDS[control], control)
     (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
     assert over_run["severity"] == "info"
@@ -213,7 +213,7 @@ def test_an_end_that_runs_past_the_corner_where_the_contour_begins_is_a_lead(
     assert f"{shown_name(control)}: runs;" in outcome
 
 
-def test_an_entry_that_nicks_the_corner_gouges_by_its_depth_there(
+def test_an_entry_that_nicks_the_corner_is_a_gouge_of_that_depth(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     """The control goes straight from (-1, 0) to (0, 0.25): it passes (0, 0) at 0.25 / sqrt(1.0625)."""
@@ -229,7 +229,7 @@ def test_an_entry_that_nicks_the_corner_gouges_by_its_depth_there(
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:easy", "nine-series:a"])
-def test_an_over_run_that_cuts_the_part_still_gouges(
+def test_an_over_run_that_cuts_the_part_is_an_error(
     control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     """The last move runs up to the corner and then into the part."""
@@ -278,7 +278,7 @@ END PGM P MM
         ("klartext", KLARTEXT_ARC.format(end="20.015"), "with 0.015 extra", "warning"),
     ],
 )
-def test_an_arc_with_two_radii_is_judged_and_the_difference_is_said(
+def test_an_arc_with_two_radii_is_judged_and_their_difference_reported(
     control: str, text: str, difference: str, severity: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     status, findings, outcome = checked(capsys, tmp_path, text, control)
@@ -300,7 +300,7 @@ def test_an_arc_with_two_radii_is_judged_and_the_difference_is_said(
         ("klartext", KLARTEXT_ARC.format(end="20.02")),
     ],
 )
-def test_an_arc_whose_radii_differ_more_than_the_control_accepts_is_its_alarm(
+def test_an_arc_whose_radii_differ_too_much_for_the_control_is_an_alarm(
     control: str, text: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     status, findings, outcome = checked(capsys, tmp_path, text, control)
@@ -309,8 +309,10 @@ def test_an_arc_whose_radii_differ_more_than_the_control_accepts_is_its_alarm(
     assert "alarms at line" in outcome
 
 
-def test_what_cannot_be_judged_is_never_said_to_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """Positions of this size leave no digits to judge by."""
+def test_a_program_that_cannot_be_judged_is_never_reported_to_run(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """Coordinates this large leave too few digits to judge."""
     text = ARC.format(end="1.").replace("G1 Y-1.\n", "G1 Y-1.\nG1 X1. Y-900000.\n")
     status, findings, outcome = checked(capsys, tmp_path, text, "linuxcnc")
     (unjudged,) = [finding for finding in findings if finding["rule"] == "UNJUDGED"]

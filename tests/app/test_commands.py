@@ -1,4 +1,4 @@
-"""The commands without a screen: pipes, full disks, and what they say on standard error."""
+"""The commands without a screen: pipes, full disks, and messages on standard error."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ def piped(monkeypatch: pytest.MonkeyPatch, data: bytes) -> None:
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
 
 
-def test_a_program_comes_through_a_pipe(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_program_is_read_from_a_pipe(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     piped(monkeypatch, example("pocket").read_bytes())
     assert main(["path", "-", "--json"]) == 0
-    through = json.loads(capsys.readouterr().out)
+    piped_result = json.loads(capsys.readouterr().out)
     assert main(["path", str(example("pocket")), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == through
+    assert json.loads(capsys.readouterr().out) == piped_result
 
 
-def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_version_is_the_package_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert (main(["--version"]), capsys.readouterr().out) == (0, f"cutcomp {version('cutcomp')}\n")
 
 
-def test_what_is_posted_from_a_pipe_has_a_name(
+def test_a_program_posted_from_a_pipe_has_a_name(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     piped(monkeypatch, example("pocket").read_bytes())
@@ -49,7 +49,7 @@ def test_what_is_posted_from_a_pipe_has_a_name(
         (b" " * 4_000_001, "standard input cannot be read: "),
     ],
 )
-def test_what_comes_through_a_pipe_and_is_no_program_is_named(
+def test_unusable_input_from_a_pipe_is_called_standard_input(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], data: bytes, words: str
 ) -> None:
     piped(monkeypatch, data)
@@ -58,18 +58,16 @@ def test_what_comes_through_a_pipe_and_is_no_program_is_named(
 
 
 @pytest.mark.parametrize("name", ["p.png", "p.PDF", "p.svgz", "p.svg.jpeg"])
-def test_a_drawing_is_not_written_into_another_kind_of_picture(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str
-) -> None:
+def test_plot_refuses_other_picture_suffixes(capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str) -> None:
     assert main(["plot", str(example("flange")), "-o", str(tmp_path / name)]) == 2
-    said = capsys.readouterr()
-    assert (said.out, list(tmp_path.iterdir())) == ("", [])
-    words = "plot writes SVG and DXF; name a file that ends in .svg or .dxf."
-    assert said.err == f"cutcomp: -o {tmp_path / name}: {words}\n"
+    output = capsys.readouterr()
+    assert (output.out, list(tmp_path.iterdir())) == ("", [])
+    message = "plot writes SVG and DXF; name a file that ends in .svg or .dxf."
+    assert output.err == f"cutcomp: -o {tmp_path / name}: {message}\n"
 
 
 @pytest.mark.parametrize("name", ["p.svg", "P.SVG", "drawing", "p.xml"])
-def test_a_drawing_is_written_where_no_other_picture_is_named(tmp_path: Path, name: str) -> None:
+def test_plot_writes_svg_unless_another_picture_suffix_is_given(tmp_path: Path, name: str) -> None:
     assert main(["plot", str(example("flange")), "-o", str(tmp_path / name)]) in (0, 1)
     assert "<svg" in (tmp_path / name).read_text()
 
@@ -77,14 +75,14 @@ def test_a_drawing_is_written_where_no_other_picture_is_named(tmp_path: Path, na
 @pytest.mark.parametrize(
     ("name", "what"), [("a.NC", "an NC program"), ("a.h", "an NC program"), ("a.dxf", "a drawing")]
 )
-def test_another_kind_of_file_is_called_by_its_name(tmp_path, capsys, name, what):
+def test_another_kind_of_file_is_named_in_the_refusal(tmp_path, capsys, name, what):
     (tmp_path / name).write_text("%\nM30\n")
     assert main(["post", str(tmp_path / name)]) == 2
     assert f"{name} is {what}, not a contour program. cutcomp " in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("command", ["post", "plot", "sheet"])
-def test_a_dash_is_standard_output(
+def test_a_dash_means_standard_output(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -105,39 +103,41 @@ SQUARE_NC = Path(__file__).parents[1] / "data" / "nc" / "rosettacnc-square.ngc"
         ("check", str(SQUARE_NC), "--control", "rosettacnc:easy", "--tool", "1=6"),
     ],
 )
-def test_results_that_standard_output_does_not_take_are_no_error_number(words: tuple[str, ...]) -> None:
+def test_a_full_standard_output_is_reported_without_an_error_number(words: tuple[str, ...]) -> None:
     with FULL.open("w") as full:
-        done = subprocess.run([sys.executable, "-m", "app", *words], stdout=full, stderr=subprocess.PIPE, text=True)
-    assert done.returncode == 2
-    assert "Errno" not in done.stderr
-    assert "standard output cannot be written: the disk is full." in done.stderr
+        result = subprocess.run([sys.executable, "-m", "app", *words], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert result.returncode == 2
+    assert "Errno" not in result.stderr
+    assert "standard output cannot be written: the disk is full." in result.stderr
 
 
 @pytest.mark.parametrize("words", [("path",), ("check", "--control", "linuxcnc"), ("sheet",), ("tools",)])
-def test_a_name_that_is_too_long_is_no_error_number(words: tuple[str, ...]) -> None:
+def test_a_too_long_name_is_reported_without_an_error_number(words: tuple[str, ...]) -> None:
     command = [sys.executable, "-m", "app", words[0], "n" * 300, *words[1:]]
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
-    assert done.returncode == 2
-    assert "the name is too long. Choose a shorter one." in done.stderr
-    assert "Errno" not in done.stderr + done.stdout
+    result = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    assert result.returncode == 2
+    assert "the name is too long. Choose a shorter one." in result.stderr
+    assert "Errno" not in result.stderr + result.stdout
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="there is no device that is always full")
 @pytest.mark.parametrize("words", [("path",), ("path", "--json"), ("lookahead",), ("lookahead", "--json"), ("post",)])
-def test_standard_output_that_takes_nothing_is_told_in_a_sentence(words: tuple[str, ...]) -> None:
+def test_a_full_standard_output_is_reported_in_one_sentence(words: tuple[str, ...]) -> None:
     command, *rest = words
-    given = [sys.executable, "-m", "app", command, str(example("flange")), *rest]
+    full_command = [sys.executable, "-m", "app", command, str(example("flange")), *rest]
     with FULL.open("w") as full:
-        done = subprocess.run(given, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr == "cutcomp: standard output cannot be written: the disk is full. Make room or save elsewhere.\n"
+        result = subprocess.run(full_command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert result.returncode == 2
+    assert (
+        result.stderr == "cutcomp: standard output cannot be written: the disk is full. Make room or save elsewhere.\n"
+    )
 
 
 def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", str(example("notch"))]) == 1
-    told = capsys.readouterr().err
-    assert "cutcomp: block 1, segment 4: error: GOUGE 0.2500 deep in segment 4" in told
-    assert "cutcomp: block 1, corner 3-4: warning: Corner too tight for the tool" in told
+    err = capsys.readouterr().err
+    assert "cutcomp: block 1, segment 4: error: GOUGE 0.2500 deep in segment 4" in err
+    assert "cutcomp: block 1, corner 3-4: warning: Corner too tight for the tool" in err
 
 
 CORNERED = """
@@ -168,31 +168,31 @@ def cornered(*ends: tuple[float, float]) -> bytes:
 SQUARE = cornered((20, 0), (20, 20), (0, 20), (0, 0))
 
 
-def test_the_look_ahead_table_tells_what_the_contour_needs(
+def test_the_look_ahead_table_says_what_the_contour_needs(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     piped(monkeypatch, SQUARE)
     assert main(["lookahead", "-"]) == 1
     lines = capsys.readouterr().out.splitlines()
-    behind = lines[lines.index("  No value is clean.") + 1 :]
-    assert "START is in an inside corner" in behind[0]
-    assert behind[1].startswith("  Start in the middle of segment 1, at X 10.000 Y 0.000: look-ahead ")
+    advice = lines[lines.index("  No value is clean.") + 1 :]
+    assert "START is in an inside corner" in advice[0]
+    assert advice[1].startswith("  Start in the middle of segment 1, at X 10.000 Y 0.000: look-ahead ")
 
 
-def test_the_look_ahead_document_tells_what_the_contour_needs(
+def test_the_look_ahead_json_says_what_the_contour_needs(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     piped(monkeypatch, SQUARE)
     assert main(["lookahead", "-", "--json"]) == 1
-    (found,) = json.loads(capsys.readouterr().out)["blocks"]
-    assert [one["code"] for one in found["needs"]] == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
-    assert (found["needs"][1]["x"], found["needs"][1]["y"]) == (10.0, 0.0)
+    (block,) = json.loads(capsys.readouterr().out)["blocks"]
+    assert [need["code"] for need in block["needs"]] == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
+    assert (block["needs"][1]["x"], block["needs"][1]["y"]) == (10.0, 0.0)
     assert main(["lookahead", str(example("pocket")), "--json"]) == 0
-    assert [one["needs"] for one in json.loads(capsys.readouterr().out)["blocks"]] == [[]]
+    assert [need["needs"] for need in json.loads(capsys.readouterr().out)["blocks"]] == [[]]
 
 
 @pytest.mark.parametrize("command", ["path", "lookahead"])
-def test_a_contour_without_any_length_is_no_clean_one(
+def test_a_contour_of_zero_length_is_an_error(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], command: str
 ) -> None:
     piped(monkeypatch, cornered((0, 0), (0, 0)))
@@ -201,13 +201,13 @@ def test_a_contour_without_any_length_is_no_clean_one(
 
 
 def undetermined() -> bytes:
-    """A line, and an arc about its own start."""
+    """A line, and an arc whose center is its start."""
     at = "x_end = 20\ny_end = 0\nx_center = 20\ny_center = 0\n"
     point = f'[[block.segment]]\nkind = "ARC"\ndirection = "CW"\n{at}feed = 10.0\n'
     return cornered((20, 0)) + point.encode()
 
 
-def test_the_look_ahead_table_of_part_of_a_contour_says_what_is_against_the_rest(
+def test_the_look_ahead_table_explains_why_the_rest_of_a_contour_is_left_out(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     piped(monkeypatch, undetermined())
@@ -217,18 +217,18 @@ def test_the_look_ahead_table_of_part_of_a_contour_says_what_is_against_the_rest
     )
 
 
-def test_the_look_ahead_document_of_part_of_a_contour_says_what_is_against_the_rest(
+def test_the_look_ahead_json_explains_why_the_rest_of_a_contour_is_left_out(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     piped(monkeypatch, undetermined())
     assert main(["lookahead", "-", "--json"]) == 1
-    (found,) = json.loads(capsys.readouterr().out)["blocks"]
-    assert (2, "error") in {(one["segment"], one["severity"]) for one in found["findings"]}
+    (block,) = json.loads(capsys.readouterr().out)["blocks"]
+    assert (2, "error") in {(finding["segment"], finding["severity"]) for finding in block["findings"]}
 
 
-@pytest.mark.parametrize(("name", "has"), [("pocket", "1 block"), ("flange", "blocks 1 to 2")])
-def test_a_block_that_is_not_there_is_told_with_those_that_are(
-    name: str, has: str, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(("name", "blocks"), [("pocket", "1 block"), ("flange", "blocks 1 to 2")])
+def test_a_missing_block_is_reported_with_the_existing_ones(
+    name: str, blocks: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["path", str(example(name)), "--block", "3"]) == 2
-    assert capsys.readouterr().err == f"cutcomp: --block 3: {example(name)} has {has}.\n"
+    assert capsys.readouterr().err == f"cutcomp: --block 3: {example(name)} has {blocks}.\n"

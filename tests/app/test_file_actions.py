@@ -1,4 +1,4 @@
-"""What the App does with files: open, save, leave, and every edit on the disk."""
+"""The App and files: open, save, leave, and every edit on disk."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def folder(tmp_path, monkeypatch):
 
 @asynccontextmanager
 async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIterator[Operator]:
-    """The program started on a file; without a name on HOME, and asking where work was left that has none."""
+    """The program started on a file; without a name, on HOME, where unnamed left-over work is offered."""
     service = DocumentService(state=folder / "own", **options)
     opened = service.open(folder / name) if name else service.new(offers=True)
     assert isinstance(opened, Opened)
@@ -55,22 +55,22 @@ async def at_work(folder: Path, name: str = "part.toml", **options) -> AsyncIter
         settings_file=SettingsFile(folder / "settings.toml", Settings()),
     )
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
-        yield one
-        await one.settle()
+        user = Operator(app, pilot)
+        await user.settle()
+        yield user
+        await user.settle()
     service.stop()
 
 
 DEAD = replace(myself(times.now()), pid=4194305)
-"""Ourselves in a process that is no more."""
+"""Ourselves in a process that no longer exists."""
 
 
 def journals(folder: Path) -> list[str]:
     return [path.name for path in folder.iterdir() if path.name.endswith("-journal")]
 
 
-async def test_an_edit_is_on_the_disk_before_the_next_key_and_a_save_ends_its_journal(folder):
+async def test_an_edit_is_journaled_before_the_next_key_until_it_is_saved(folder):
     async with at_work(folder) as user:
         assert journals(folder) == []
         await user.press("pagedown", "tab", "'5.5", "enter")
@@ -83,7 +83,7 @@ async def test_an_edit_is_on_the_disk_before_the_next_key_and_a_save_ends_its_jo
 
 
 @pytest.mark.parametrize("keys", [["ctrl+s"], ["ctrl+q", "s"]], ids=["saved", "saved at the end"])
-async def test_a_new_segment_in_which_nothing_was_typed_is_not_saved(folder, keys):
+async def test_a_new_empty_segment_is_not_saved(folder, keys):
     before = load(folder / "part.toml").blocks[0].segments
     async with at_work(folder) as user:
         await user.press("ctrl+home", "tab", "tab", "tab", "'2.5", "enter", "ctrl+end", "pagedown")
@@ -93,11 +93,11 @@ async def test_a_new_segment_in_which_nothing_was_typed_is_not_saved(folder, key
     assert load(folder / "part.toml").blocks[0].segments == before
 
 
-async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo(folder):
+async def test_work_of_a_killed_program_is_offered_and_restored_with_its_undo(folder):
     async with at_work(folder, me=DEAD) as user:
         await user.press("pagedown", "tab", "'5.5", "enter")
-        kept = (folder / ".part.toml.cutcomp-journal").read_bytes()
-    (folder / ".part.toml.cutcomp-journal").write_bytes(kept)
+        journal = (folder / ".part.toml.cutcomp-journal").read_bytes()
+    (folder / ".part.toml.cutcomp-journal").write_bytes(journal)
     async with at_work(folder) as user:
         assert isinstance(user.app.screen, Question)
         await user.press("r")
@@ -106,14 +106,14 @@ async def test_work_of_a_program_that_died_is_offered_and_restored_with_its_undo
 
 
 @pytest.mark.parametrize(
-    ("key", "left"), [("escape", 1), ("d", 0)], ids=["asked again at the next start", "kept as a backup"]
+    ("key", "questions"), [("escape", 1), ("d", 0)], ids=["asked again at the next start", "kept as a backup"]
 )
-async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key, left):
+async def test_home_stays_after_a_question_that_restored_no_work(folder, key, questions):
     async with at_work(folder, "", me=DEAD) as user:
         await user.press("f3", "'2", "enter")
         [journal] = (folder / "own").glob("unnamed-*")
-        kept = journal.read_bytes()
-    journal.write_bytes(kept)
+        data = journal.read_bytes()
+    journal.write_bytes(data)
     async with at_work(folder, "") as user:
         assert isinstance(user.app.screen, Question)
         await user.press("f3", "f1")
@@ -123,11 +123,11 @@ async def test_home_stays_after_a_question_that_brought_no_work_back(folder, key
         await user.press("f3")
         assert user.session.program.unit is Unit.MM
     async with at_work(folder, "") as user:
-        assert sum(isinstance(screen, Question) for screen in user.app.screen_stack) == left
+        assert sum(isinstance(screen, Question) for screen in user.app.screen_stack) == questions
 
 
 @pytest.mark.parametrize(("answer", "name"), [("a", "part.toml"), ("n", None)], ids=["added", "a new program"])
-async def test_a_drawing_goes_to_the_open_program_or_begins_one(folder, answer, name):
+async def test_a_drawing_is_added_to_the_open_program_or_begins_a_new_one(folder, answer, name):
     (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
     async with at_work(folder) as user:
         await user.press("ctrl+o", "s", "enter")
@@ -138,7 +138,7 @@ async def test_a_drawing_goes_to_the_open_program_or_begins_one(folder, answer, 
         assert user.app.document.is_new is (name is None)
 
 
-async def test_a_drawing_begins_a_program_where_nothing_was_typed_yet(folder):
+async def test_a_drawing_begins_a_program_without_a_question_when_nothing_was_typed(folder):
     (folder / "square.dxf").write_bytes((DATA / "d01-square.dxf").read_bytes())
     async with at_work(folder, "") as user:
         await user.press("s", "enter")
@@ -158,7 +158,7 @@ async def test_an_nc_program_in_the_list_opens_under_proof(folder):
         assert user.app.screen.document.file.path == folder / "job.nc"
 
 
-async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
+async def test_save_as_changes_the_name_and_returns_to_the_form(folder):
     async with at_work(folder) as user:
         await user.app.run_action("app.save_as")
         await user.press(*"other", "enter")
@@ -168,7 +168,7 @@ async def test_save_as_gives_another_name_and_goes_back_to_the_form(folder):
         assert load_settings(folder / "settings.toml")[0].recent[0] == str(folder / "other.toml")
 
 
-async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
+async def test_a_message_about_a_program_disappears_with_the_next_one(folder):
     async with at_work(folder) as user:
         user.app.say("Example pocket: SAVE gives it a name.")
         await user.press("ctrl+o", "f2")
@@ -176,7 +176,7 @@ async def test_what_was_said_of_a_program_does_not_stay_on_the_next_one(folder):
         assert user.prompt == "Tool number. Space lists the tools."
 
 
-async def test_letters_that_follow_at_once_are_of_one_name(folder):
+async def test_letters_typed_in_quick_succession_spell_one_name(folder):
     for name in ("part-b.nc", "part-c.nc", "pin.nc"):
         (folder / name).write_text("M30\n")
     async with at_work(folder) as user:
@@ -188,41 +188,41 @@ async def test_letters_that_follow_at_once_are_of_one_name(folder):
         home._last_letter = 0.0
         await user.press(*"part-c")
         assert home.chosen.name == "part-c.nc"
-        # no name goes on with it, nor begins with it
+        # no name continues or begins with this letter
         await user.press("z")
         assert home.chosen.name == "part-c.nc"
 
 
-async def test_home_lists_what_was_written_while_another_screen_was_in_front(folder):
+async def test_home_lists_files_written_while_another_screen_was_in_front(folder):
     async with at_work(folder) as user:
         await user.press("ctrl+o")
         home = user.app.screen
         assert isinstance(home, HomeScreen)
         (folder / "a.nc").write_text("M30\n")
         await user.press("ctrl+o")
-        assert "a.nc" in [each.name for each in home.listed]
+        assert "a.nc" in [program.name for program in home.listed]
         assert home.chosen.path == folder / "part.toml"
         (folder / "b.nc").write_text("M30\n")
         await user.press("question_mark", "escape")
-        assert "b.nc" in [each.name for each in home.listed]
+        assert "b.nc" in [program.name for program in home.listed]
 
 
-async def test_a_drawing_that_comes_while_home_is_taken_down_is_dropped(folder, monkeypatch):
-    late = []
+async def test_a_preview_that_arrives_while_home_closes_is_dropped(folder, monkeypatch):
+    unmounted = []
 
     def on_unmount(home: HomeScreen) -> None:
         home._show_preview(folder / "part.toml", "part", None)
         home.post_message(Surveyed(Facts(folder / "part.toml")))
-        late.append(home)
+        unmounted.append(home)
 
     monkeypatch.setattr(HomeScreen, "on_unmount", on_unmount, raising=False)
     async with at_work(folder) as user:
         await user.press("ctrl+o", "f2")
-        assert len(late) == 1
+        assert len(unmounted) == 1
         assert not isinstance(user.app.screen, HomeScreen)
 
 
-async def test_a_file_that_is_in_the_way_is_asked_about(folder):
+async def test_save_as_asks_before_replacing_a_file(folder):
     (folder / "other.toml").write_bytes(example("notch").read_bytes())
     async with at_work(folder) as user:
         await user.app.run_action("app.save_as")
@@ -234,7 +234,7 @@ async def test_a_file_that_is_in_the_way_is_asked_about(folder):
         assert load(folder / "other.toml") == user.session.program
 
 
-async def test_quit_asks_while_something_is_not_saved_and_go_back_changes_nothing(folder):
+async def test_quit_asks_about_unsaved_work_and_go_back_keeps_it(folder):
     async with at_work(folder) as user:
         await user.press("pagedown", "tab", "'5.5", "enter", "ctrl+q")
         assert isinstance(user.app.screen, Question)
@@ -245,7 +245,7 @@ async def test_quit_asks_while_something_is_not_saved_and_go_back_changes_nothin
     assert journals(folder) == []
 
 
-async def test_another_program_is_opened_after_the_question_about_unsaved_work(folder):
+async def test_opening_another_program_asks_about_unsaved_work(folder):
     async with at_work(folder) as user:
         await user.press("pagedown", "tab", "'5.5", "enter", "ctrl+o")
         assert isinstance(user.app.screen, HomeScreen)
@@ -258,7 +258,7 @@ async def test_another_program_is_opened_after_the_question_about_unsaved_work(f
         assert journals(folder) == []
 
 
-async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
+async def test_a_program_opened_with_look_cannot_be_edited(folder):
     theirs = DocumentService(state=folder / "their-own")
     theirs.open(folder / "part.toml")
     async with at_work(folder) as user:
@@ -270,7 +270,7 @@ async def test_a_program_that_somebody_has_open_can_only_be_looked_at(folder):
     theirs.stop()
 
 
-async def test_a_number_typed_into_what_may_only_be_looked_at_is_no_longer_shown(folder):
+async def test_a_number_typed_into_a_look_only_program_is_not_kept(folder):
     take(folder / "part.toml", ELSEWHERE)
     async with at_work(folder) as user:
         await user.press("l")

@@ -1,4 +1,4 @@
-"""An operator's mistakes with files, on the screens: each ends in a plain sentence, and nothing is lost."""
+"""An operator's mistakes with files on the screens: each ends in a plain sentence, and nothing is lost."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def visible(folder: Path) -> set[str]:
 
 
 async def entered(user: Operator, action: str, name: str) -> None:
-    """A name typed on SAVE AS or OPEN A PATH, over the one that stands there."""
+    """Type a name over the one on SAVE AS or OPEN A PATH, and press Enter."""
     await user.app.run_action(action)
     await user.pilot.pause()
     user.screen.query_one("#entry", Input).value = name
@@ -48,7 +48,7 @@ async def entered(user: Operator, action: str, name: str) -> None:
         ("x" * 300, "the name is too long"),
     ],
 )
-async def test_a_name_that_cannot_be_saved_under_is_said_and_the_next_character_replaces_it(folder, name, words):
+async def test_an_unusable_file_name_is_explained_and_replaced_by_typing(folder, name, words):
     async with at_work(folder) as user:
         before = visible(folder)
         await entered(user, "app.save_as", name)
@@ -72,7 +72,7 @@ async def test_a_name_that_cannot_be_saved_under_is_said_and_the_next_character_
         ("part", "part.toml is open already"),
     ],
 )
-async def test_what_cannot_be_opened_is_said_and_the_program_stays(folder, name, words):
+async def test_a_failed_open_keeps_the_program(folder, name, words):
     (folder / "pyproject.toml").write_text("[project]\nname = 'x'\n")
     os.mkfifo(folder / "pipe")
     async with at_work(folder) as user:
@@ -94,7 +94,7 @@ async def test_a_folder_typed_as_a_path_shows_its_files(folder):
         assert user.app.screen.folder.resolve() == folder.parent.resolve()
 
 
-async def test_a_number_that_no_enter_followed_is_saved_and_asked_about(folder):
+async def test_a_number_typed_without_enter_is_saved_and_asked_about(folder):
     async with at_work(folder) as user:
         await user.press("tab", "'7", "ctrl+s")
         assert load(folder / "part.toml").blocks[0].tool == Number(7.0)
@@ -104,14 +104,14 @@ async def test_a_number_that_no_enter_followed_is_saved_and_asked_about(folder):
         assert user.session.block.tool == Number(8.0)
 
 
-async def test_a_text_that_is_no_number_is_mended_before_it_is_saved(folder):
+async def test_an_unreadable_number_is_not_saved(folder):
     async with at_work(folder) as user:
         await user.press("tab", "'9x", "ctrl+s")
         assert user.prompt.startswith("9x cannot be read.")
         assert load(folder / "part.toml").blocks[0].tool == Number(1.0)
 
 
-async def test_a_line_of_an_nc_text_that_the_cursor_has_not_left_is_asked_about(folder):
+async def test_quitting_asks_about_an_nc_line_still_being_typed(folder):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
@@ -122,23 +122,23 @@ async def test_a_line_of_an_nc_text_that_the_cursor_has_not_left_is_asked_about(
     assert (folder / "a.nc").read_bytes() == b"xG20 G17\nM30\n"
 
 
-async def test_quit_and_save_of_a_program_without_a_name_asks_for_one_and_then_leaves(folder):
+async def test_saving_an_unnamed_program_at_quit_asks_for_a_name_and_then_leaves(folder):
     service = DocumentService(state=folder / "own")
     opened = service.new()
     app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.press("'7", "ctrl+q", "s")
+        user = Operator(app, pilot)
+        await user.press("'7", "ctrl+q", "s")
         assert isinstance(app.screen, Phrase)
-        await one.press("escape")
+        await user.press("escape")
         assert app.return_code is None
-        await one.press("ctrl+q", "s", *"lid", "enter")
+        await user.press("ctrl+q", "s", *"lid", "enter")
         assert app.return_code == 0
     assert load(folder / "lid.toml").blocks[0].tool == Number(7.0)
 
 
 @pytest.mark.parametrize(("key", "saved"), [("d", b"G20 G17\nM30\n"), ("s", b"xG20 G17\nM30\n")])
-async def test_a_program_opened_over_an_nc_text_asks_about_its_lines_and_closes_it(folder, key, saved):
+async def test_opening_a_program_over_an_edited_nc_text_asks_and_closes_the_text(folder, key, saved):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
@@ -155,7 +155,7 @@ async def test_a_program_opened_over_an_nc_text_asks_about_its_lines_and_closes_
     assert (folder / "a.nc").read_bytes() == saved
 
 
-async def test_the_form_brought_to_the_front_over_an_nc_text_asks_about_its_lines(folder):
+async def test_returning_to_the_form_from_an_edited_nc_text_asks(folder):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
@@ -169,7 +169,7 @@ async def test_the_form_brought_to_the_front_over_an_nc_text_asks_about_its_line
         assert user.app.screen.document.unsaved
 
 
-async def test_under_a_question_no_key_saves_opens_or_asks_a_second_one(folder):
+async def test_no_key_saves_opens_or_asks_again_while_a_question_is_open(folder):
     async with at_work(folder) as user:
         await user.press("tab", "'7", "enter", "ctrl+q")
         for key in ("ctrl+s", "ctrl+o", "ctrl+z", "x", "5"):
@@ -181,12 +181,12 @@ async def test_under_a_question_no_key_saves_opens_or_asks_a_second_one(folder):
         assert user.session.block.tool == Number(7.0)
 
 
-async def test_work_that_was_discarded_is_listed_among_the_files_and_comes_back(folder, monkeypatch):
+async def test_discarded_work_is_listed_among_the_files_and_can_be_restored(folder, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(folder / "state"))
     async with at_work(folder, me=DEAD) as user:
         await user.press("tab", "'7", "enter")
-        kept = (folder / ".part.toml.cutcomp-journal").read_bytes()
-    (folder / ".part.toml.cutcomp-journal").write_bytes(kept)
+        journal = (folder / ".part.toml.cutcomp-journal").read_bytes()
+    (folder / ".part.toml.cutcomp-journal").write_bytes(journal)
     async with at_work(folder) as user:
         await user.press("d")
         assert "Ctrl+O lists it" in user.prompt
@@ -202,7 +202,7 @@ async def test_work_that_was_discarded_is_listed_among_the_files_and_comes_back(
         assert user.session.file == folder / "part.toml"
 
 
-async def test_what_may_only_be_looked_at_says_so_in_the_title_until_it_is_a_copy(folder):
+async def test_the_title_says_look_only_until_a_copy_is_saved(folder):
     theirs = DocumentService(state=folder / "their-own")
     theirs.open(folder / "part.toml")
     async with at_work(folder) as user:
@@ -216,7 +216,7 @@ async def test_what_may_only_be_looked_at_says_so_in_the_title_until_it_is_a_cop
     theirs.stop()
 
 
-async def test_what_is_typed_where_one_may_only_look_is_not_left_standing(folder):
+async def test_text_typed_into_a_look_only_program_is_removed(folder):
     theirs = DocumentService(state=folder / "their-own")
     theirs.open(folder / "part.toml")
     async with at_work(folder) as user:
@@ -231,14 +231,14 @@ async def test_what_is_typed_where_one_may_only_look_is_not_left_standing(folder
     theirs.stop()
 
 
-async def test_a_sentence_of_opening_goes_with_the_next_field_and_with_a_save(folder):
+async def test_a_save_removes_the_message_about_opening(folder):
     async with at_work(folder) as user:
         assert user.prompt.startswith("Opened: ")
         await entered(user, "app.save_as", "mine")
         assert "Opened" not in user.prompt
 
 
-async def test_characters_and_colors_that_were_chosen_are_kept(folder):
+async def test_chosen_characters_and_colors_are_stored(folder):
     async with at_work(folder) as user:
         await user.app.run_action("app.next_characters")
         await user.app.run_action("app.light_or_dark")
@@ -247,7 +247,7 @@ async def test_characters_and_colors_that_were_chosen_are_kept(folder):
         assert 'theme = "light"' in text
 
 
-async def test_a_question_for_which_there_is_no_room_is_not_answered_unread():
+async def test_a_question_that_does_not_fit_cannot_be_answered():
     async with operator(size=(20, 5)) as user:
         assert isinstance(user.app, CutcompApp)
         answers: list[str | None] = []
@@ -266,7 +266,7 @@ async def test_a_question_for_which_there_is_no_room_is_not_answered_unread():
         assert answers == ["TAKE OVER"]
 
 
-async def test_the_current_folder_may_go_away(folder, monkeypatch):
+async def test_a_deleted_current_folder_is_reported_on_saving(folder, monkeypatch):
     gone = folder / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)
@@ -274,19 +274,17 @@ async def test_the_current_folder_may_go_away(folder, monkeypatch):
     opened = service.new()
     app = CutcompApp(Session.of(load(example("pocket"))), service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
+        user = Operator(app, pilot)
         gone.rmdir()
-        await entered(one, "app.save_as", "lid")
-        assert "there is no such file or folder" in one.prompt
-        await one.press("escape", "ctrl+o")
+        await entered(user, "app.save_as", "lid")
+        assert "there is no such file or folder" in user.prompt
+        await user.press("escape", "ctrl+o")
         assert isinstance(app.screen, HomeScreen)
     service.stop()
 
 
 @pytest.mark.parametrize("action", ["app.post", "app.sheet"])
-async def test_what_is_made_of_a_program_asks_before_another_folder_or_a_file_and_never_replaces_a_program(
-    folder, action
-):
+async def test_output_asks_before_another_folder_or_a_file_and_never_replaces_a_program(folder, action):
     (folder.parent / "x.txt").write_text("somebody's")
     async with at_work(folder) as user:
         await user.app.run_action(action)

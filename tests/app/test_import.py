@@ -1,4 +1,4 @@
-"""`cutcomp import`: what it lists, takes, asks and refuses, with its exit status."""
+"""`cutcomp import`: what it lists, takes, asks and refuses, and its exit status."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from core.units import Unit
 DATA = Path(__file__).parents[1] / "data" / "dxf"
 
 
-class Here:
-    """Does a worker's work in this process: a process of its own for each command would take most of the time."""
+class InlineWorker:
+    """Does a worker's work in this process: starting a process for each command would take most of the time."""
 
     def __init__(self, function: Callable[..., object], *arguments: object) -> None:
         self.function, self.arguments = function, arguments
@@ -41,7 +41,7 @@ class Here:
 
 @pytest.fixture(autouse=True)
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.cli.import_contours.Worker", Here)
+    monkeypatch.setattr("app.cli.import_contours.Worker", InlineWorker)
 
 
 def test_the_list_has_a_row_for_each_contour(capsys: pytest.CaptureFixture[str]) -> None:
@@ -64,7 +64,7 @@ def test_contours_become_blocks_that_close_on_their_start(tmp_path: Path) -> Non
         assert len(solved.pieces) == 5
 
 
-def test_one_of_several_contours_is_chosen_or_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_one_of_several_contours_must_be_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, out = str(DATA / "d14-layers.dxf"), tmp_path / "part.toml"
     assert main(["import", source, "-o", str(out)]) == 2
     assert "The drawing has 2 chains: add --chain N" in capsys.readouterr().err
@@ -76,7 +76,7 @@ def test_one_of_several_contours_is_chosen_or_asked_for(tmp_path: Path, capsys: 
     assert main(["import", source, "--layer", "NONE", "-o", str(out)]) == 2
 
 
-def test_a_drawing_without_unit_needs_units(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_drawing_without_a_unit_needs_the_units_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, out = str(DATA / "d04-nounits.dxf"), tmp_path / "part.toml"
     assert main(["import", source, "-o", str(out)]) == 2
     assert "as IN 40.0000 x 30.0000, as MM 40.000 x 30.000: add --units in or --units mm." in capsys.readouterr().err
@@ -84,7 +84,7 @@ def test_a_drawing_without_unit_needs_units(tmp_path: Path, capsys: pytest.Captu
     assert load(out).unit is Unit.IN
 
 
-def test_start_and_reverse(tmp_path: Path) -> None:
+def test_start_and_reverse_change_the_block(tmp_path: Path) -> None:
     out = tmp_path / "part.toml"
     arguments = ["import", str(DATA / "d01-square.dxf"), "--start", "40,10", "--reverse", "-o", str(out)]
     assert main(arguments) == 0
@@ -93,7 +93,7 @@ def test_start_and_reverse(tmp_path: Path) -> None:
     assert block.cutter_comp is CutterComp.RIGHT
 
 
-def test_a_file_that_breaks_off_is_taken_only_with_the_option(
+def test_a_truncated_file_is_taken_only_with_the_damaged_option(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source, out = str(DATA / "d19-cut-off.dxf"), tmp_path / "part.toml"
@@ -107,7 +107,7 @@ def test_a_file_that_breaks_off_is_taken_only_with_the_option(
     ("name", "words"),
     [("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."), ("d17-empty.dxf", "1 TEXT was skipped"), ("gone.dxf", "")],
 )
-def test_what_cannot_be_read_is_refused_in_a_sentence(
+def test_an_unreadable_drawing_is_refused_in_a_sentence(
     name: str, words: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["import", str(DATA / name), "--list"]) == 2
@@ -120,7 +120,7 @@ def wait_for_ever(*, progress: object) -> int:
     return 0
 
 
-def test_a_worker_is_ended_after_its_limit_and_by_cancel() -> None:
+def test_a_worker_ends_at_its_limit_and_can_be_canceled() -> None:
     with pytest.raises(DrawingError, match="takes longer than"):
         Worker(wait_for_ever, limit=0.5).result()
     worker = Worker(wait_for_ever)
@@ -128,28 +128,28 @@ def test_a_worker_is_ended_after_its_limit_and_by_cancel() -> None:
     worker.cancel()
 
 
-def test_an_nc_program_comes_back_as_the_contour_it_was_posted_from(tmp_path: Path) -> None:
+def test_an_nc_program_is_imported_as_the_contour_it_was_posted_from(tmp_path: Path) -> None:
     nc, out = tmp_path / "part.nc", tmp_path / "part.toml"
     assert main(["post", str(example("overrun-square")), "--control", "linuxcnc", "-o", str(nc)]) == 0
     assert main(["import", str(nc), "--control", "linuxcnc", "--tool", "1=.5", "-o", str(out)]) == 0
-    original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
-    ends = [(segment.x_end, segment.y_end) for segment in back.segments]
+    original, imported = load(example("overrun-square")).blocks[0], load(out).blocks[0]
+    ends = [(segment.x_end, segment.y_end) for segment in imported.segments]
     assert ends == [(segment.x_end, segment.y_end) for segment in original.segments]
-    assert (back.z_bottom, back.cutter_comp, back.speed) == (original.z_bottom, original.cutter_comp, original.speed)
+    assert (imported.z_bottom, imported.cutter_comp, imported.speed) == (
+        original.z_bottom,
+        original.cutter_comp,
+        original.speed,
+    )
 
 
-def test_a_tool_without_a_diameter_names_the_option_that_gives_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_missing_diameter_of_a_tool_names_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     nc = tmp_path / "part.nc"
     assert main(["post", str(example("overrun-square")), "--control", "linuxcnc", "-o", str(nc)]) == 0
     assert main(["import", str(nc), "--control", "linuxcnc"]) == 2
     assert "On the command line: --tool 1=DIAMETER." in capsys.readouterr().err
 
 
-def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_center_path_program_needs_side_and_diameter(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     nc, out = tmp_path / "part.nc", tmp_path / "part.toml"
     assert main(["post", str(example("overrun-square")), "-o", str(nc)]) == 0
     command = ["import", str(nc), "--control", "linuxcnc", "--tool", "1=.5", "-o", str(out)]
@@ -157,18 +157,18 @@ def test_an_nc_program_of_the_center_asks_for_side_and_diameter(
     assert "its side and the tool's diameter are needed" in capsys.readouterr().err
     assert main([*command, "--side", "right"]) == 2
     assert main([*command, "--side", "right", "--diameter", "0.5"]) == 0
-    original, back = load(example("overrun-square")).blocks[0], load(out).blocks[0]
-    assert [segment.x_end for segment in back.segments] == [segment.x_end for segment in original.segments]
+    original, imported = load(example("overrun-square")).blocks[0], load(out).blocks[0]
+    assert [segment.x_end for segment in imported.segments] == [segment.x_end for segment in original.segments]
 
 
-def test_an_nc_program_that_is_not_there_is_no_new_program(tmp_path: Path) -> None:
+def test_a_missing_nc_program_is_refused_and_not_created(tmp_path: Path) -> None:
     answer = begin(DocumentService(), tmp_path / "gone.nc", None)
     assert isinstance(answer, Trouble)
     assert answer.text.endswith("gone.nc: there is no such NC program.")
     assert not list(tmp_path.iterdir())
 
 
-def test_a_drawing_that_is_not_there_is_told_before_the_screens(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_drawing_is_reported_before_the_screens_start(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([str(DATA / "gone.dxf")]) == 2
     assert "there is no such drawing" in capsys.readouterr().err
 
@@ -180,9 +180,9 @@ def test_a_screen_reads_and_lists_a_drawing_in_workers() -> None:
     assert [contour.kind.value for contour in listed.contours] == ["OUTSIDE", "HOLE"]
     holes = replace(listed.options, layers=frozenset(("HOLES",)))
     assert len(Worker(contours_of, listed.drawing, holes).result().contours) == 1
-    with pytest.raises(DrawingError) as refused:
+    with pytest.raises(DrawingError) as error:
         Worker(read_and_list, drawing_bytes(DATA / "d19-cut-off.dxf"), "d19-cut-off.dxf", None).result()
-    assert refused.value.readable == 1
+    assert error.value.readable == 1
 
 
 KILLED = """
@@ -198,12 +198,12 @@ if __name__ == "__main__":
 """
 
 
-def test_a_worker_ends_with_the_program_that_was_killed(tmp_path: Path) -> None:
+def test_a_worker_ends_when_its_program_is_killed(tmp_path: Path) -> None:
     script = tmp_path / "killed.py"
     script.write_text(KILLED)
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
-    ended = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False)
-    child = int(ended.stdout)
+    parent = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False)
+    child = int(parent.stdout)
     for _ in range(500):
         if not running(child):
             break
@@ -212,7 +212,7 @@ def test_a_worker_ends_with_the_program_that_was_killed(tmp_path: Path) -> None:
 
 
 def running(pid: int) -> bool:
-    """Whether a process does anything still; one that nobody has waited for does not."""
+    """Whether a process still runs; a zombie does not."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -220,23 +220,19 @@ def running(pid: int) -> bool:
 
 
 @pytest.mark.parametrize("option", [["--damaged"], ["--fit", "0"], ["--tolerance", "0"]])
-def test_no_option_of_a_drawing_is_dropped_for_an_nc_program(
-    option: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_drawing_option_is_refused_for_an_nc_program(option: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", "part.nc", "--control", "linuxcnc", *option]) == 2
     assert f"{option[0]} goes with a drawing only" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option", [["--side", "left"], ["--diameter", "6"], ["--tools", "t.tbl"], ["--tool", "1=6"]])
-def test_no_option_of_an_nc_program_is_dropped_for_a_drawing(
-    option: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_nc_option_is_refused_for_a_drawing(option: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", str(DATA / "d14-layers.dxf"), *option]) == 2
     assert f"{option[0]} goes with an NC program only: add --control NAME." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option", [["--chain", "1"], ["--start", "0,0"], ["--reverse"], ["--output", "part.toml"]])
-def test_a_list_takes_nothing_and_says_so(
+def test_an_option_that_takes_contours_is_refused_with_list(
     option: list[str], capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawing = (DATA / "d14-layers.dxf").resolve()
@@ -246,26 +242,26 @@ def test_a_list_takes_nothing_and_says_so(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_arcs_within_nothing_are_not_fitted_in_silence(capsys: pytest.CaptureFixture[str]) -> None:
+def test_fitting_arcs_within_0_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", str(DATA / "d14-layers.dxf"), "--list", "--fit", "0"]) == 2
     assert "--fit 0: type a length above 0, or leave --fit out." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option", ["--tolerance", "--fit", "--diameter"])
 @pytest.mark.parametrize("text", ["nan", "inf", "-1", "a"])
-def test_a_length_that_is_none_is_refused(option: str, text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unusable_length_is_refused(option: str, text: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["import", str(DATA / "d14-layers.dxf"), "--list", f"{option}={text}"])
     assert f"{option}: {text} is not a length of 0 or more" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("text", ["nan,0", "0,inf", "1", "1,2,3"])
-def test_a_start_that_is_no_place_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_start_that_is_not_a_point_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", str(DATA / "d14-layers.dxf"), "--chain", "1", "--start", text]) == 2
     assert f"--start {text}: type X,Y" in capsys.readouterr().err
 
 
-def test_a_drawing_without_a_contour_to_take_writes_no_file(
+def test_a_drawing_without_contours_writes_no_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("app.cli.import_contours.list_drawing", without_contours)
@@ -279,7 +275,9 @@ def without_contours(data: bytes, options: Namespace, *, progress: Callable[...,
     return replace(list_drawing(data, options, progress=progress), contours=())
 
 
-def test_a_chosen_chain_of_an_nc_program_keeps_its_number(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_chosen_chain_of_an_nc_program_is_reported_by_its_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     nc, out = tmp_path / "two.nc", tmp_path / "part.toml"
     cuts = "".join(f"G0 X{x}. Y-1.\nG1 Z-.1 F5.\nG41 D1 X{x}. Y0\nX{x + 2}.\nY2.\nG40 X9.\nG0 Z1.\n" for x in (0, 4))
     nc.write_text(f"G20 G17 G90\nT1 M6\nS1000 M3\nG0 Z1.\n{cuts}M2\n")

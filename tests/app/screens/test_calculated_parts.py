@@ -1,6 +1,6 @@
-"""Five drawings keyed in at 80x24 with nothing but what they give; saved, killed, restored, posted, run by LinuxCNC.
+"""Five drawings keyed in at 80x24 from their dimensions alone; saved, killed, restored, posted, run by LinuxCNC.
 
-The coordinates are compared with a calculation of the test's own: closed formulas of the single figure.
+The coordinates are compared with an independent calculation: closed formulas for each figure.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ Point = tuple[float, float]
 
 
 def start(x: float, y: float, side: str = "") -> bytes:
-    """START of a new program, the cursor on TOOL: then the cursor is on X END of segment 1."""
+    """The keys that fill in START from TOOL on and move the cursor to X END of segment 1."""
     letters = side.encode()
     return ENTER + letters + ENTER + f"{x:g}".encode() + ENTER + f"{y:g}".encode() + ENTER + b"-5" + ENTER
 
 
 def fields(form: Form, typed: dict[str, float | bool]) -> bytes:
-    """Values typed into a segment, from its first field on; Space switches TANGENT, and SOLUTION, where Enter goes."""
+    """The keys that fill in a segment from its first field; Space toggles TANGENT, and SOLUTION, reached by Enter."""
     names = [field.name for field in TABLES[form]]
-    here, keys = 0, b""
+    at, keys = 0, b""
     for name in sorted(typed.keys() - {"choice"}, key=names.index):
-        keys += TAB * (names.index(name) - here)
+        keys += TAB * (names.index(name) - at)
         keys += b" " if name == "tangent" else f"{typed[name]:g}".encode()
-        here = names.index(name)
+        at = names.index(name)
     return keys + ENTER + b" " if "choice" in typed else keys
 
 
@@ -68,7 +68,7 @@ def blend(radius: float) -> bytes:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What is keyed in, and the moves that the part is milled with: points, and (center, end) of arcs."""
+    """The keys, and the expected moves: the end of a line, or (center, end) of an arc."""
 
     keys: bytes
     segments: int
@@ -89,12 +89,12 @@ def rounded_corner() -> list[Point | tuple[Point, Point]]:
 
 
 def square_fillet() -> list[Point | tuple[Point, Point]]:
-    """Radius 10 between the X axis and the line X 60."""
+    """A fillet of radius 10 between the X axis and the line X 60."""
     return [(50.0, 0.0), ((50.0, 10.0), (60.0, 10.0)), (60.0, 40.0)]
 
 
 def third_corner(first: Point, second: Point, a: float, b: float, side: float) -> Point:
-    """The point at a from the first and b from the second, left (1) or right (-1) of the way, by the law of cosines."""
+    """The point a from the first and b from the second, to the left (1) or right (-1), by the law of cosines."""
     between = dist(first, second)
     angle = side * acos((a * a + between * between - b * b) / (2.0 * a * between))
     heading = atan2(second[1] - first[1], second[0] - first[0]) + angle
@@ -106,7 +106,7 @@ def between(first: Point, second: Point, part: float) -> Point:
 
 
 def three_arcs() -> list[Point | tuple[Point, Point]]:
-    """A CW arc of 30 between CCW arcs of 20 about (0, 20) and of 15 about (80, 30): its center is outside of both."""
+    """A CW arc of 30 tangent to CCW arcs of 20 about (0, 20) and 15 about (80, 30); its center is outside both."""
     first, last = (0.0, 20.0), (80.0, 30.0)
     center = third_corner(first, last, 50.0, 45.0, -1.0)
     return [
@@ -117,7 +117,7 @@ def three_arcs() -> list[Point | tuple[Point, Point]]:
 
 
 def cam() -> list[Point | tuple[Point, Point]]:
-    """Base circle 20 about (0, 0) and nose 8 about (30, 0), flanks of 60 that enclose both; the cutter is 3 outside."""
+    """Base circle 20 about (0, 0), nose 8 about (30, 0), flanks of 60 around both; the cutter path is 3 outside."""
     base, nose = (0.0, 0.0), (30.0, 0.0)
     low, high = (third_corner(base, nose, 40.0, 52.0, side) for side in (1.0, -1.0))
     joints = [
@@ -130,7 +130,7 @@ def cam() -> list[Point | tuple[Point, Point]]:
 
 
 def slot() -> list[Point | tuple[Point, Point]]:
-    """A slot 12 wide at 60 degrees about (40, 30), open to the edge Y 60 of a plate of 100 by 60."""
+    """A slot 12 wide at 60 degrees about (40, 30), open at the edge Y 60 of a 100 by 60 plate."""
     along, across = (cos(pi / 3.0), sin(pi / 3.0)), (sin(pi / 3.0), -cos(pi / 3.0))
     right = (40.0 + 6.0 * across[0], 30.0 + 6.0 * across[1])
     left = (40.0 - 6.0 * across[0], 30.0 - 6.0 * across[1])
@@ -214,16 +214,16 @@ def new_file(folder: Path) -> Path:
 
 
 def wait_for_file(terminal: Terminal, path: Path, holds: Callable[[Program], bool]) -> None:
-    """Until the file holds what it should; what the program writes to the screen is read meanwhile."""
-    begun = time.monotonic()
+    """Wait until the file satisfies `holds`, reading the screen output meanwhile."""
+    since = time.monotonic()
     while not holds(load(path)):
-        assert time.monotonic() - begun < PATIENCE, terminal.text
+        assert time.monotonic() - since < PATIENCE, terminal.text
         terminal.read(quiet=0.05, longest=0.2)
 
 
-def key_in(path: Path, own: dict[str, str], drawing: Drawing) -> None:
-    """The whole drawing and a save, then one more number; killed before that is saved."""
-    with running(cutcomp(str(path)), environment=own) as terminal:
+def key_in(path: Path, environment: dict[str, str], drawing: Drawing) -> None:
+    """Key in the drawing, save it, type one more number, and kill the program before that is saved."""
+    with running(cutcomp(str(path)), environment=environment) as terminal:
         terminal.until("MILL CONTOUR", longest=PATIENCE)
         terminal.read(quiet=0.3)
         terminal.send(drawing.keys + TAB + SAVE)
@@ -235,8 +235,8 @@ def key_in(path: Path, own: dict[str, str], drawing: Drawing) -> None:
         os.kill(terminal.pid, signal.SIGKILL)
 
 
-def restore(path: Path, own: dict[str, str]) -> None:
-    with running(cutcomp(str(path)), environment=own) as terminal:
+def restore(path: Path, environment: dict[str, str]) -> None:
+    with running(cutcomp(str(path)), environment=environment) as terminal:
         terminal.until("RESTORE", longest=PATIENCE)
         terminal.send(b"r")
         terminal.until("Your work is back", longest=PATIENCE)
@@ -245,13 +245,13 @@ def restore(path: Path, own: dict[str, str]) -> None:
 
 
 def milled(ran: Ran) -> list[Point | tuple[Point, Point]]:
-    """The moves of the last pass in the plane."""
+    """The feed moves in the XY plane: the end of a line, or (center, end) of an arc."""
     feeds = [move for move in ran.moves if move[0] != "STRAIGHT_TRAVERSE"]
     return [(x, y) if not turns else ((cx, cy), (x, y)) for _, x, y, _, cx, cy, turns in feeds]
 
 
 def nearest(expected: Point | tuple[Point, Point], moves: Sequence[Point | tuple[Point, Point]]) -> float:
-    """How far the nearest move of the same kind is."""
+    """The distance to the nearest move of the same kind."""
     return min(
         (apart(expected, move) for move in moves if isinstance(move[0], tuple) is isinstance(expected[0], tuple)),
         default=float("inf"),
@@ -267,11 +267,11 @@ def flat(move: Point | tuple[Point, Point]) -> list[float]:
 
 
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_a_drawing_is_keyed_in_as_it_is_and_milled_as_it_should_be(name: str, tmp_path: Path) -> None:
-    drawing, own = DRAWINGS[name], {"XDG_STATE_HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path)}
+def test_a_drawing_keyed_in_from_its_dimensions_is_milled_correctly(name: str, tmp_path: Path) -> None:
+    drawing, environment = DRAWINGS[name], {"XDG_STATE_HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path)}
     path = new_file(tmp_path)
-    key_in(path, own, drawing)
-    restore(path, own)
+    key_in(path, environment, drawing)
+    restore(path, environment)
     derived = derive(load(path))
     assert [finding.code for finding in derived.block(1).errors] == []
     ran = run(post_center_path(derived, name="PART").text, {1: 6.0 / 25.4}, tmp_path)
@@ -281,8 +281,8 @@ def test_a_drawing_is_keyed_in_as_it_is_and_milled_as_it_should_be(name: str, tm
         assert nearest(expected, moves) < 2e-3, (expected, moves)
 
 
-def test_the_expected_points_are_those_of_the_published_cases() -> None:
-    """The test's own calculation against hand figures: the corner of lines at 30 and 300 degrees is (75, 43.301270)."""
+def test_the_expected_points_agree_with_hand_calculations() -> None:
+    """By hand, the corner of the lines at 30 and 300 degrees is (75, 43.301270)."""
     touch, (center, leave), _ = rounded_corner()
     assert touch == pytest.approx((70.669873, 40.801270), abs=1e-6)
     assert center == pytest.approx((73.169873, 36.471143), abs=1e-6)

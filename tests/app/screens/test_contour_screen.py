@@ -1,4 +1,4 @@
-"""MILL CONTOUR, as an operator meets it: fields, walking, undo, softkeys."""
+"""MILL CONTOUR for the operator: fields, moving between segments, undo, softkeys."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from core.program.model import LineSegment, Number, Unread
 from tests.app.widget_pilot import operator
 
 
-async def test_a_typed_number_is_taken_and_the_cursor_goes_on():
+async def test_a_typed_number_is_taken_and_the_cursor_moves_on():
     async with operator() as user:
         await user.press("pagedown", "tab", "'5.5", "enter")
         assert user.session.block.segments[0].x_end == Number(5.5)
@@ -32,7 +32,7 @@ async def test_a_typed_number_is_taken_and_the_cursor_goes_on():
         assert user.session.derived_block.known
 
 
-async def test_a_text_that_cannot_be_read_stays_marked_and_keeps_the_cursor():
+async def test_an_unreadable_text_stays_marked_and_keeps_the_cursor():
     async with operator() as user:
         await user.press("pagedown", "tab", "'1a5", "enter")
         assert isinstance(user.session.block.segments[0].x_end, Unread)
@@ -40,14 +40,14 @@ async def test_a_text_that_cannot_be_read_stays_marked_and_keeps_the_cursor():
         assert "1a5" in user.prompt
 
 
-async def test_a_refused_look_ahead_leaves_the_old_one():
+async def test_a_refused_look_ahead_keeps_the_old_value():
     async with operator() as user:
         await user.press(*["down"] * 11, "'21", "enter")
         assert user.session.block.lookahead is None
         assert (user.value("lookahead"), user.tag("lookahead"), user.at) == ("8", "CAL", "lookahead")
 
 
-async def test_a_typed_look_ahead_is_usr_and_f3_brings_cal_back():
+async def test_a_typed_look_ahead_is_usr_and_f3_restores_cal():
     async with operator() as user:
         await user.press(*["down"] * 11, "2", "enter")
         assert (user.value("lookahead"), user.tag("lookahead")) == ("2", "USR")
@@ -55,14 +55,14 @@ async def test_a_typed_look_ahead_is_usr_and_f3_brings_cal_back():
         assert (user.value("lookahead"), user.tag("lookahead")) == ("8", "CAL")
 
 
-async def test_escape_brings_the_old_value_back():
+async def test_escape_restores_the_old_value():
     async with operator() as user:
         await user.press("pagedown", "tab", "'77", "escape")
         assert user.value("x_end") == "4.0000"
         assert user.session.history.undo_count == 0
 
 
-async def test_a_half_typed_number_is_tried_out_and_not_taken():
+async def test_a_half_typed_number_is_previewed_and_not_taken():
     async with operator() as user:
         await user.press(*["down"] * 11, "1")
         assert user.app.shown.derived_block.lookahead.value == 1
@@ -71,7 +71,7 @@ async def test_a_half_typed_number_is_tried_out_and_not_taken():
         assert user.app.shown is user.session
 
 
-async def test_undo_and_redo_put_the_cursor_on_what_they_change():
+async def test_undo_and_redo_move_the_cursor_to_what_they_change():
     async with operator() as user:
         await user.press("pagedown", "tab", "'5.5", "enter", "pagedown", "pagedown", "ctrl+z")
         assert user.session.place == FormPlace(1, 1)
@@ -80,14 +80,14 @@ async def test_undo_and_redo_put_the_cursor_on_what_they_change():
         assert user.value("x_end") == "5.5000"
 
 
-async def test_undo_forgets_what_is_half_typed():
+async def test_undo_discards_a_half_typed_number():
     async with operator() as user:
         await user.press("pagedown", "tab", "'5.5", "enter", "'9", "ctrl+z")
         assert user.session.history.redo_count == 1
         assert user.value("y_end") == "0.2500"
 
 
-async def test_walking_shows_the_form_of_each_kind_of_segment():
+async def test_moving_between_segments_shows_the_form_of_each_kind():
     async with operator() as user:
         kinds = []
         for _ in range(5):
@@ -121,7 +121,7 @@ async def test_f1_on_start_deletes_nothing():
         assert user.session.history.undo_count == 0
 
 
-async def test_a_choice_of_two_words_is_spelled_with_its_blank():
+async def test_a_choice_of_two_words_is_typed_with_its_space():
     async with operator() as user:
         await user.press("down", "down", *"profile", "space", *"right")
         assert user.value("cutter_comp") == "PROFILE RIGHT"
@@ -130,7 +130,7 @@ async def test_a_choice_of_two_words_is_spelled_with_its_blank():
         assert user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
 
 
-async def test_a_choice_is_spelled_stepped_and_listed():
+async def test_a_choice_can_be_typed_stepped_or_listed():
     async with operator() as user:
         await user.press("down", "down", "r")
         assert str(user.session.block.cutter_comp) == "RIGHT"
@@ -144,20 +144,20 @@ async def test_a_choice_is_spelled_stepped_and_listed():
         assert user.prompt == "Q is not a choice: left and right change it."
 
 
-async def test_a_block_is_left_and_a_new_one_begun():
+async def test_a_new_block_keeps_tool_feeds_and_depths():
     async with operator() as user:
         await user.press("f8")
         assert type(user.screen).__name__ == "ProgramScreen"
         await user.press("f2")
         assert user.session.place == FormPlace(2, 0)
-        said = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
-        assert depths_kept(user.session.program, 2) == said
+        message = "Tool, feeds and depths as in block 1: Z BOTTOM -0.2500, PECK DEPTH 0.1000."
+        assert depths_kept(user.session.program, 2) == message
         assert type(user.screen).__name__ == "ContourScreen"
         await user.press("tab", "'3", "enter")
         assert user.session.block.tool == Number(3.0)
 
 
-async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
+async def test_quitting_with_unsaved_work_asks_and_escape_keeps_it():
     async with operator() as user:
         await user.press("tab", "'3", "enter", "ctrl+q")
         assert type(user.app.screen).__name__ == "Question"
@@ -166,14 +166,14 @@ async def test_leaving_unsaved_work_asks_and_going_back_keeps_it():
         assert type(user.app.screen).__name__ == "ContourScreen"
 
 
-async def test_a_larger_terminal_brings_the_segment_list_up_with_its_rows():
+async def test_a_larger_terminal_shows_the_segment_list_with_its_rows():
     async with operator() as user:
         await user.pilot.resize_terminal(132, 43)
         await user.settle()
         assert user.screen.query_one("#segments", DataTable).row_count == 12
 
 
-async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
+async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once():
     async with operator("notch") as user:
         await user.press("f10")
         assert user.prompt.startswith("Up and down show the places of the findings.")
@@ -183,7 +183,7 @@ async def test_lists_say_what_their_keys_do_and_a_finding_is_told_once():
 
 @pytest.mark.parametrize("key", ["f9", "f10"])
 @pytest.mark.parametrize("close", ["again", "escape"])
-async def test_behind_a_list_the_cursor_goes_on_where_it_was(key: str, close: str):
+async def test_closing_a_list_returns_the_cursor_to_its_field(key: str, close: str):
     async with operator("notch") as user:
         await user.press(*["down"] * 3)
         field = user.at
@@ -198,7 +198,7 @@ async def test_behind_a_list_the_cursor_goes_on_where_it_was(key: str, close: st
         assert user.at == "segment"
 
 
-async def test_letters_that_a_message_offers_are_taken():
+async def test_the_letters_a_message_offers_work():
     async with operator("notch") as user:
         await user.press("ctrl+end", "pagedown", "a")
         assert user.at == "direction"
@@ -208,7 +208,7 @@ async def test_letters_that_a_message_offers_are_taken():
         assert isinstance(user.session.segment, LineSegment)
 
 
-async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
+async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():
     async with operator(size=(40, 12)) as user:
         await user.press(*["down"] * 7)
         assert user.at == "z_bottom"
@@ -217,12 +217,12 @@ async def test_on_a_tiny_terminal_the_field_with_the_cursor_comes_into_sight():
 
 
 @pytest.mark.parametrize("keys", [("7", "escape"), ("4", "tab")], ids=["taken back", "the same"])
-async def test_a_number_that_changes_nothing_is_no_longer_shown_once_it_is_not_typed(keys, monkeypatch):
-    """The derivation of the half-typed number ends after the key that ends the typing."""
-    ends = Event()
+async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(keys, monkeypatch):
+    """The derivation of the half-typed number ends only after the typing does."""
+    may_end = Event()
 
     def slow(request: Request, _: Work) -> Derived:
-        ends.wait(20)
+        may_end.wait(20)
         return derived(request)
 
     async with operator() as user:
@@ -230,14 +230,14 @@ async def test_a_number_that_changes_nothing_is_no_longer_shown_once_it_is_not_t
         before = user.value("length")
         monkeypatch.setattr("app.derivation_actions.derived", slow)
         await user.pilot.press(*keys)
-        ends.set()
+        may_end.set()
         await user.settle()
         assert user.app.shown is user.session
         assert user.value("length") == before
 
 
-async def test_a_number_tried_out_on_another_screen_is_none_of_the_form_that_is_covered():
-    """DRAW moves the cursor to a segment of another kind while two screens stand on the form."""
+async def test_a_number_half_typed_on_another_screen_leaves_the_covered_form_alone():
+    """DRAW moves the cursor to a segment of another kind while two screens cover the form."""
     async with operator() as user:
         await user.press("f5", "f7", "pagedown", "pagedown", "f8", "tab", "tab", "'2")
         assert type(user.app.screen).__name__ == "PartSetupScreen"
@@ -246,17 +246,19 @@ async def test_a_number_tried_out_on_another_screen_is_none_of_the_form_that_is_
         assert user.row("x_center").display
 
 
-async def test_a_finding_on_a_field_of_another_screen_puts_the_cursor_on_segment():
+async def test_going_to_a_finding_on_another_screen_puts_the_cursor_on_segment():
     async with operator() as user:
         await user.press("f5", "tab", "'1", "tab", "f8", "pagedown", "tab", "tab")
-        entry = next(each for each in user.screen.query_one(FindingsList).entries if each.field == "work_offset")
+        entry = next(
+            finding for finding in user.screen.query_one(FindingsList).entries if finding.field == "work_offset"
+        )
         user.app.go_to(entry)
         await user.settle()
         assert (user.session.place.segment, user.at) == (0, "segment")
 
 
-async def test_the_palette_comes_back_at_once():
-    """Before the one of a moment ago is gone."""
+async def test_the_palette_can_be_reopened_at_once():
+    """It opens even before the closing palette is gone."""
     async with operator() as user:
         user.app.action_command_palette()
         await user.pilot.pause()
@@ -266,7 +268,7 @@ async def test_the_palette_comes_back_at_once():
         assert isinstance(user.app.screen, Palette)
 
 
-async def test_a_look_at_another_window_takes_nothing_that_is_half_typed():
+async def test_switching_windows_does_not_take_a_half_typed_number():
     async with operator() as user:
         await user.press("pagedown", "tab", "'1")
         user.app.post_message(AppBlur())
@@ -281,13 +283,13 @@ async def test_a_look_at_another_window_takes_nothing_that_is_half_typed():
 
 
 @pytest.mark.parametrize(
-    ("keys", "back"), [(("f6", "tab", "tab", "'1", "enter"), "f8"), (("f4", "tab", "'.1", "enter"), "escape")]
+    ("keys", "close_key"), [(("f6", "tab", "tab", "'1", "enter"), "f8"), (("f4", "tab", "'.1", "enter"), "escape")]
 )
-async def test_what_was_edited_on_another_screen_shows_in_verdict_and_findings(keys, back):
+async def test_edits_on_another_screen_show_in_verdict_and_findings(keys, close_key):
     async with operator() as user:
         before = user.screen.query_one(Verdict).case
         await user.press(*keys)
-        await user.press(back)
+        await user.press(close_key)
         assert user.session.history.undo_count == 1
         verdict = user.screen.query_one(Verdict)
         assert verdict.case is not before
@@ -298,7 +300,7 @@ async def test_what_was_edited_on_another_screen_shows_in_verdict_and_findings(k
         )
 
 
-async def test_a_typed_look_ahead_is_taken_before_the_table_offers_others():
+async def test_a_typed_look_ahead_is_taken_before_the_table_opens():
     async with operator("notch") as user:
         await user.press(*("tab",) * 11, "'12", "space")
         assert isinstance(user.app.screen, LookaheadScreen)
@@ -309,7 +311,7 @@ async def test_a_typed_look_ahead_is_taken_before_the_table_offers_others():
         assert user.session.block.lookahead == taken
 
 
-async def test_a_repeated_segment_ends_what_was_said_of_the_undo_before():
+async def test_repeating_a_segment_removes_the_undo_message():
     async with operator("notch") as user:
         for keys in ((), ("ctrl+z",)):
             await user.press(*keys)
@@ -320,14 +322,14 @@ async def test_a_repeated_segment_ends_what_was_said_of_the_undo_before():
 
 
 @pytest.mark.parametrize("typed", ["I1.2", "2,400.5", "1-2"])
-async def test_a_coordinate_typed_on_segment_is_refused_and_goes_nowhere(typed):
+async def test_a_coordinate_typed_on_segment_is_refused(typed):
     async with operator() as user:
         await user.press(f"'{typed}", "enter")
         assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
         assert user.session.place.segment == 0
 
 
-async def test_a_number_out_of_range_is_not_called_no_number_while_it_is_typed():
+async def test_a_number_out_of_range_is_reported_with_its_range_while_typed():
     async with operator() as user:
         assert isinstance(user.screen, ContourScreen)
         user.screen.focus_field("plunge_feed")

@@ -16,7 +16,7 @@ from app.app import CutcompApp
 from app.documents.document import FileState, NcDocument
 from core.pipeline.checking import Asked
 from tests.app.screens.snapshots import NOON, Part, app_on, differing
-from tests.app.screens.test_import_drawing import Here
+from tests.app.screens.test_import_drawing import InlineWorker
 from tests.tool_tables import end_mills
 
 DATA = Path(__file__).parents[2] / "data"
@@ -61,7 +61,7 @@ def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Noon of one day; drawings are read in this process."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
     monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
-    monkeypatch.setattr("app.screens.import_drawing.Worker", Here)
+    monkeypatch.setattr("app.screens.import_drawing.Worker", InlineWorker)
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""IMPORT by keys: a drawing's contours listed, changed, picked and taken as blocks in one edit."""
+"""IMPORT by keys: a drawing's contours are listed, changed, marked and taken as blocks in one edit."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ from tests.core.importing.drawings import circle, circle_of_lines, dxf, line, sq
 DATA = Path(__file__).parents[2] / "data" / "dxf"
 
 
-class Here:
-    """Does a worker's work in this process: a process of its own for each test would take most of the time."""
+class InlineWorker:
+    """Does a worker's work in this process: starting a process for each test would take most of the time."""
 
     def __init__(self, function: Callable[..., object], *arguments: object) -> None:
         self.function, self.arguments = function, arguments
@@ -54,11 +54,11 @@ REAL_WORKER = drawing_files.Worker
 
 @pytest.fixture(autouse=True)
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.screens.import_drawing.Worker", Here)
+    monkeypatch.setattr("app.screens.import_drawing.Worker", InlineWorker)
 
 
 class Importer(Operator):
-    """An operator with IMPORT in front of him."""
+    """An operator at IMPORT."""
 
     @property
     def importing(self) -> ImportScreen:
@@ -78,9 +78,9 @@ class Importer(Operator):
                 break
         await self.settle()
 
-    async def until(self, true: Callable[[], object]) -> None:
+    async def until(self, condition: Callable[[], object]) -> None:
         for _ in range(400):
-            if true():
+            if condition():
                 await self.settle()
                 return
             await self.pilot.pause(0.01)
@@ -114,7 +114,7 @@ class Importer(Operator):
 async def importer(
     source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
 ) -> AsyncIterator[Importer]:
-    """An operator who has opened a drawing with an empty program in front of him."""
+    """An operator who has opened a drawing over an empty program."""
     path = source if isinstance(source, Path) else tmp_path / "part.dxf"
     if isinstance(source, bytes):
         path.write_bytes(source)
@@ -131,13 +131,13 @@ async def opening(
     """An operator whose drawing is still being read."""
     app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
     async with app.run_test(size=size) as pilot:
-        one = Importer(app, pilot)
-        await one.settle()
+        user = Importer(app, pilot)
+        await user.settle()
         app.show_drawing(path, fresh=fresh)
-        yield one
+        yield user
 
 
-async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_path):
+async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         assert user.rows == [
             ["1", "OUTSIDE", "0", "4", "140.000", "40.000 x 30.000"],
@@ -151,7 +151,7 @@ async def test_the_contours_are_listed_and_the_one_with_the_cursor_is_drawn(tmp_
         assert user.importing.picture.heading == "chain 2  HOLE"
 
 
-async def test_marked_contours_become_blocks_in_one_edit_that_undo_takes_back(tmp_path):
+async def test_marked_contours_become_blocks_in_one_undoable_edit(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         before = user.session.program
         await user.press("space", "down", "space", "enter")
@@ -164,7 +164,7 @@ async def test_marked_contours_become_blocks_in_one_edit_that_undo_takes_back(tm
         assert dumps(user.session.program) == dumps(before)
 
 
-async def test_the_contours_come_after_the_blocks_of_the_program(tmp_path):
+async def test_contours_are_appended_after_the_blocks_of_the_program(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         await user.press("down", "f1")
         await user.until(lambda: len(user.session.program.blocks[0].segments))
@@ -177,7 +177,7 @@ async def test_the_contours_come_after_the_blocks_of_the_program(tmp_path):
         assert user.session.place == FormPlace(2)
 
 
-async def test_a_program_begun_for_a_drawing_takes_its_unit_and_others_keep_theirs(tmp_path):
+async def test_only_a_program_begun_for_a_drawing_takes_its_unit(tmp_path):
     for fresh, unit in ((True, Unit.MM), (False, Unit.IN)):
         async with importer(DATA / "d01-square.dxf", tmp_path, unit=Unit.IN, fresh=fresh) as user:
             length = user.rows[0][4]
@@ -187,7 +187,7 @@ async def test_a_program_begun_for_a_drawing_takes_its_unit_and_others_keep_thei
             assert user.session.program.unit is unit
 
 
-async def test_a_drawing_without_unit_asks_for_it_with_both_sizes(tmp_path):
+async def test_a_drawing_without_a_unit_asks_for_it_and_shows_both_sizes(tmp_path):
     async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
         assert isinstance(user.app.screen, Question)
         assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in user.question.lines[0]
@@ -197,7 +197,7 @@ async def test_a_drawing_without_unit_asks_for_it_with_both_sizes(tmp_path):
         assert user.rows[0][4] == "3556.000"
 
 
-async def test_a_unit_that_is_not_told_leaves_the_screen(tmp_path):
+async def test_refusing_to_name_the_unit_leaves_the_screen(tmp_path):
     async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
         await user.press("escape")
         await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
@@ -226,7 +226,7 @@ async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
         (dxf(line((0, 0), (5, 5)), [(0, "LINE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]), "F2 LAYERS"),
     ],
 )
-async def test_what_cannot_be_listed_is_told_and_the_screen_stays(source, words, tmp_path):
+async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(source, words, tmp_path):
     async with importer(source, tmp_path) as user:
         await user.until(lambda: words in user.said)
         assert user.said.startswith(Tone.ERROR)
@@ -236,7 +236,7 @@ async def test_what_cannot_be_listed_is_told_and_the_screen_stays(source, words,
         await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
-async def test_a_layer_that_is_not_flat_is_left_out_by_layers(tmp_path):
+async def test_layers_leaves_out_a_layer_that_is_not_flat(tmp_path):
     slope = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
     async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as user:
         assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in user.said
@@ -247,14 +247,14 @@ async def test_a_layer_that_is_not_flat_is_left_out_by_layers(tmp_path):
         assert len(user.rows) == 1
 
 
-async def test_too_much_is_told_with_number_and_limit(tmp_path, monkeypatch):
+async def test_too_many_entities_are_reported_with_count_and_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("core.importing.dxf.MAX_ENTITIES", 3)
     async with importer(dxf(*square(0, 0, 10)), tmp_path) as user:
         assert "4" in user.said
         assert "3" in user.said
 
 
-async def test_an_open_chain_tells_its_gap_and_the_tolerance_that_joins_it(tmp_path):
+async def test_a_larger_tolerance_joins_an_open_chain(tmp_path):
     async with importer(DATA / "d06-gap-open.dxf", tmp_path) as user:
         assert user.rows[0][1] == "OPEN"
         assert "would join it" in user.about
@@ -267,7 +267,7 @@ async def test_an_open_chain_tells_its_gap_and_the_tolerance_that_joins_it(tmp_p
         assert user.rows[0][1] == "OUTSIDE"
 
 
-async def test_an_open_chain_asks_for_the_side_and_takes_nothing_without(tmp_path):
+async def test_an_open_chain_is_taken_only_after_a_side_is_chosen(tmp_path):
     async with importer(dxf(line((0, 0), (10, 0)), line((10, 0), (10, 10))), tmp_path) as user:
         before = user.session.program
         await user.press("enter")
@@ -281,7 +281,7 @@ async def test_an_open_chain_asks_for_the_side_and_takes_nothing_without(tmp_pat
         assert user.session.program.blocks[0].cutter_comp is CutterComp.RIGHT
 
 
-async def test_the_branch_question_joins_a_chain_with_one_of_the_ways(tmp_path):
+async def test_the_branch_question_joins_a_chain_with_the_chosen_way(tmp_path):
     ends = (line((0, 0), (10, 0)), line((10, 0), (20, 5)), line((10, 0), (20, -5)))
     async with importer(dxf(*ends), tmp_path) as user:
         assert [row[1] for row in user.rows] == ["OPEN"] * 3
@@ -316,7 +316,7 @@ async def test_start_and_reverse_change_the_block(tmp_path):
         assert block.cutter_comp is CutterComp.RIGHT
 
 
-async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
+async def test_fit_arcs_shows_both_counts_and_restores_the_lines(tmp_path):
     async with importer(circle_of_lines(300), tmp_path) as user:
         assert user.rows[0][3] == "300"
         await user.press("f3")
@@ -330,13 +330,13 @@ async def test_fit_arcs_tells_both_counts_and_brings_the_lines_back(tmp_path):
 
 
 def spline_export(count: int) -> bytes:
-    """A closed smooth curve as so many lines."""
+    """A smooth closed curve made of `count` lines."""
     turns = [2.0 * pi * step / count for step in range(count)]
     points = [((40 + 6 * cos(3 * turn)) * cos(turn), (25 + 4 * sin(2 * turn)) * sin(turn)) for turn in turns]
     return dxf(*(line(first, second) for first, second in pairwise([*points, points[0]])))
 
 
-async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_is_taken_back(tmp_path):
+async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_can_be_undone(tmp_path):
     async with importer(spline_export(2000), tmp_path) as user:
         before = dumps(user.session.program)
         assert user.rows[0][3] == "2000"
@@ -352,7 +352,7 @@ async def test_a_spline_export_of_two_thousand_lines_becomes_arcs_and_is_taken_b
         assert dumps(user.session.program) == before
 
 
-async def test_more_than_five_hundred_segments_advise_fit_arcs_before_they_are_taken(tmp_path):
+async def test_fit_arcs_is_advised_before_more_than_five_hundred_segments_are_taken(tmp_path):
     async with importer(circle_of_lines(600), tmp_path) as user:
         await user.press("enter")
         await user.until(lambda: isinstance(user.app.screen, Question))
@@ -377,7 +377,7 @@ async def test_equal_circles_fold_into_one_row_that_opens(tmp_path):
         assert len(user.session.program.blocks) == 1
 
 
-async def test_the_filter_holds_back_what_does_not_match(tmp_path):
+async def test_the_filter_hides_chains_that_do_not_match(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         await user.press("slash")
         assert user.prompt.startswith("Type a part of a layer, kind, length or size.")
@@ -394,7 +394,7 @@ async def test_the_filter_holds_back_what_does_not_match(tmp_path):
         assert user.prompt.startswith("Space marks")
 
 
-async def test_the_drawing_alone_zooms_and_goes_from_chain_to_chain(tmp_path):
+async def test_the_full_drawing_zooms_and_steps_from_chain_to_chain(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         await user.press("f7", "n", "plus")
         assert user.importing.picture.has_focus
@@ -407,7 +407,7 @@ async def test_the_drawing_alone_zooms_and_goes_from_chain_to_chain(tmp_path):
 
 
 @pytest.mark.parametrize("size", [(60, 20), (80, 24), (132, 43)])
-async def test_every_size_takes_a_contour_by_keys(size, tmp_path):
+async def test_a_contour_can_be_taken_by_keys_at_every_size(size, tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path, size=size) as user:
         assert user.importing.table.size.height >= 7
         assert user.importing.picture.display is (size[0] >= 80)
@@ -423,16 +423,16 @@ async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
     service = DocumentService(state=tmp_path / "own")
     app = CutcompApp(session_of(service.new(Unit.MM).document), surroundings=SURROUNDINGS, service=service, home=True)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Importer(app, pilot)
-        await one.settle()
+        user = Importer(app, pilot)
+        await user.settle()
         table = app.screen.query_one("#programs", DataTable)
         assert [str(cell) for cell in table.get_row_at(0)] == ["plate.dxf", "", "", "", "drawing"]
-        await one.press("enter")
-        await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
-        await one.ready()
-        assert one.rows[0][1] == "OUTSIDE"
-        await one.press("f8")
-        await one.until(lambda: type(app.screen).__name__ == "HomeScreen")
+        await user.press("enter")
+        await user.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
+        await user.ready()
+        assert user.rows[0][1] == "OUTSIDE"
+        await user.press("f8")
+        await user.until(lambda: type(app.screen).__name__ == "HomeScreen")
     service.stop()
 
 
@@ -444,21 +444,21 @@ async def test_open_of_a_drawing_by_its_path_lists_it(tmp_path, monkeypatch):
     program = service.new(Unit.MM).document
     app = CutcompApp(session_of(program), surroundings=SURROUNDINGS, service=service, settings_file=settings)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Importer(app, pilot)
-        await one.settle()
-        await one.press("ctrl+k", *["'i", "'m", "'p", "'o", "'r", "'t"], "'d")
-        await one.press("ctrl+k")
+        user = Importer(app, pilot)
+        await user.settle()
+        await user.press("ctrl+k", *["'i", "'m", "'p", "'o", "'r", "'t"], "'d")
+        await user.press("ctrl+k")
         await app.run_action("app.open_path")
-        await one.settle()
-        await one.press("p", "l", "a", "t", "e", "full_stop", "d", "x", "f", "enter")
-        await one.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
-        await one.ready()
-        assert one.rows[0][1] == "OUTSIDE"
-        await one.press("escape")
+        await user.settle()
+        await user.press("p", "l", "a", "t", "e", "full_stop", "d", "x", "f", "enter")
+        await user.until(lambda: any(isinstance(screen, ImportScreen) for screen in app.screen_stack))
+        await user.ready()
+        assert user.rows[0][1] == "OUTSIDE"
+        await user.press("escape")
     service.stop()
 
 
-async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatch):
+async def test_escape_leaves_the_screen_while_a_drawing_is_read(tmp_path, monkeypatch):
     monkeypatch.setattr("app.screens.import_drawing.Worker", REAL_WORKER)
     monkeypatch.setattr("app.screens.import_drawing.read_and_list", wait_for_ever)
     path = tmp_path / "slow.dxf"
@@ -470,7 +470,7 @@ async def test_escape_stops_a_process_that_reads_and_leaves(tmp_path, monkeypatc
         await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 
 
-async def test_a_list_that_comes_while_the_screen_is_taken_down_is_for_nobody(tmp_path, monkeypatch):
+async def test_a_list_that_arrives_while_the_screen_closes_is_dropped(tmp_path, monkeypatch):
     listed = asyncio.Event()
 
     async def late(work: Callable[..., object], *arguments: object) -> object:

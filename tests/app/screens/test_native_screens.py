@@ -1,4 +1,4 @@
-"""The screens beside MILL CONTOUR: keys in, session and files out."""
+"""The screens beside MILL CONTOUR: keys go in; the session and the files come out."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ async def run(user: Operator, action: str) -> None:
 
 
 async def everything(user: Operator) -> None:
-    """Wait for every worker, also those that draw and post."""
+    """Wait for every worker, including those that draw and post."""
     for _ in range(3):
         await user.app.workers.wait_for_complete()
         await user.pilot.pause()
 
 
-async def test_the_look_ahead_table_draws_the_row_with_the_cursor_and_enter_takes_it():
+async def test_the_look_ahead_table_draws_the_cursor_row_and_enter_takes_it():
     async with operator() as user:
         await run(user, "app.lookahead")
         assert isinstance(user.app.screen, LookaheadScreen)
@@ -54,7 +54,7 @@ async def test_the_look_ahead_table_draws_the_row_with_the_cursor_and_enter_take
         assert (user.value("lookahead"), user.tag("lookahead")) == ("1", "USR")
 
 
-async def test_draw_goes_from_finding_to_finding_and_back_to_the_form():
+async def test_draw_steps_through_the_findings_and_returns_to_the_form():
     async with operator() as user:
         await run(user, "app.draw")
         screen = user.app.screen
@@ -74,7 +74,7 @@ async def test_draw_goes_from_finding_to_finding_and_back_to_the_form():
         assert user.at == "segment"
 
 
-async def test_another_unit_is_asked_about_and_converts_every_length():
+async def test_changing_the_unit_asks_first_and_converts_the_lengths():
     async with operator() as user:
         await run(user, "app.parameters")
         await user.press("right", "c")
@@ -83,7 +83,7 @@ async def test_another_unit_is_asked_about_and_converts_every_length():
         assert user.session.block.x_start == Number(50.8)
 
 
-async def test_another_unit_that_is_not_wanted_changes_nothing():
+async def test_refusing_another_unit_changes_nothing():
     async with operator() as user:
         await run(user, "app.parameters")
         await user.press("right", "escape")
@@ -92,7 +92,7 @@ async def test_another_unit_that_is_not_wanted_changes_nothing():
         assert user.value("unit") == "IN"
 
 
-async def test_a_blank_parameter_shows_its_usual_value():
+async def test_a_blank_parameter_shows_its_default():
     async with operator() as user:
         await run(user, "app.parameters")
         assert (user.value("pocket_overlap"), user.tag("pocket_overlap")) == ("50.0", "DEF")
@@ -117,7 +117,7 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
 
 
 @pytest.mark.parametrize(("key", "row"), [("enter", 2), ("tab", 2), ("up", 1)])
-async def test_the_cursor_stays_on_a_tool_whose_number_moves_it(key, row):
+async def test_the_cursor_follows_a_tool_whose_new_number_moves_it(key, row):
     async with operator() as user:
         await run(user, "app.tools")
         await user.press("f2", "'.25", "enter", "f2", "'.125", "enter")
@@ -130,7 +130,7 @@ async def test_the_cursor_stays_on_a_tool_whose_number_moves_it(key, row):
         assert user.at.partition("@")[2] == str(row)
 
 
-async def test_speed_feeds_and_coolant_of_a_tool_are_proposals():
+async def test_speed_feeds_and_coolant_of_a_tool_can_be_typed():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press("tab", "tab", "tab", "'2400", "tab", "'12", "tab", "'5", "tab", "f")
@@ -140,7 +140,7 @@ async def test_speed_feeds_and_coolant_of_a_tool_are_proposals():
         assert tool.coolant is Coolant.FLOOD
 
 
-async def test_a_number_that_another_tool_has_is_refused_and_stays_to_be_mended():
+async def test_a_tool_number_in_use_is_refused():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press("f2", "shift+tab", "shift+tab", "'1", "enter")
@@ -163,7 +163,7 @@ async def test_posting_writes_the_text_that_was_shown(tmp_path, monkeypatch):
         assert not isinstance(user.app.screen, PostScreen)
 
 
-async def test_the_control_of_the_last_post_is_chosen_again(tmp_path, monkeypatch):
+async def test_post_preselects_the_control_of_the_last_post(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with operator("plate-mm") as user:
         await run(user, "app.post")
@@ -186,7 +186,7 @@ async def test_the_control_of_the_last_post_is_chosen_again(tmp_path, monkeypatc
         assert again.query_one("#post-controls", OptionList).highlighted == 1
 
 
-async def test_a_gouge_is_posted_only_after_the_phrase_that_says_so(tmp_path, monkeypatch):
+async def test_a_gouge_is_posted_only_after_the_override_phrase(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with operator("notch") as user:
         await run(user, "app.post")
@@ -212,7 +212,7 @@ async def test_blocks_are_copied_moved_and_deleted_on_the_program_screen():
         assert len(user.session.program.blocks) == 2
 
 
-async def test_help_tells_of_the_field_with_the_cursor():
+async def test_help_explains_the_field_with_the_cursor():
     async with operator() as user:
         await user.press("tab", "question_mark")
         assert isinstance(user.app.screen, HelpScreen)
@@ -233,27 +233,27 @@ async def test_the_palette_presses_a_softkey_by_its_digit_and_finds_actions_by_n
 
 
 async def test_the_palette_says_at_once_that_no_action_has_that_name():
-    """A notice that came later, as Textual's own does, found its list gone where the palette had been left."""
+    """A delayed notice, such as Textual's, finds its list gone when the palette has been closed."""
     async with operator() as user:
         await user.press("ctrl+k", *"qqqq")
-        listed = user.app.screen.query_one(OptionList)
-        assert [str(option.prompt).splitlines()[0] for option in listed.options] == [NOTHING_FOUND]
+        options = user.app.screen.query_one(OptionList)
+        assert [str(option.prompt).splitlines()[0] for option in options.options] == [NOTHING_FOUND]
         await user.press("enter")
         assert isinstance(user.app.screen, ContourScreen)
         assert user.prompt == NOTHING_FOUND
 
 
 @pytest.mark.parametrize("screen", [DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen])
-async def test_a_screen_that_is_still_being_made_waits_with_what_has_changed(screen):
+async def test_a_screen_being_composed_shows_the_latest_session_once_ready(screen):
     async with operator() as user:
-        opened = screen()
-        pushed = user.app.push_screen(opened)
+        new_screen = screen()
+        pushed = user.app.push_screen(new_screen)
         changed = replace(user.session, title="changed")
         user.app.session = user.app.shown = changed
         user.app.show_work()
         await pushed
         await user.settle()
-        assert opened.session is user.app.session
+        assert new_screen.session is user.app.session
         assert user.session.title == "changed"
 
 
@@ -270,18 +270,18 @@ async def test_every_screen_opens_at_every_size(size):
         assert load(example("pocket")) == user.session.program
 
 
-@pytest.mark.parametrize(("there", "back"), [("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")])
-async def test_screens_that_were_left_take_no_memory(there, back):
+@pytest.mark.parametrize(("open_key", "close_key"), [("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")])
+async def test_closed_screens_are_freed(open_key, close_key):
     async with operator() as user:
-        left = []
+        screens = []
         for _ in range(5):
-            await user.press(there)
-            left.append(ref(user.app.screen))
-            await user.press(back)
+            await user.press(open_key)
+            screens.append(ref(user.app.screen))
+            await user.press(close_key)
         await user.press("down", "up")
         gc.collect()
         # Textual may hold the last one
-        assert sum(screen() is not None for screen in left) <= 1
+        assert sum(screen() is not None for screen in screens) <= 1
 
 
 async def test_the_setup_sheet_is_shown_and_written(tmp_path, monkeypatch):
@@ -295,7 +295,7 @@ async def test_the_setup_sheet_is_shown_and_written(tmp_path, monkeypatch):
         assert (tmp_path / "part.txt").read_text().splitlines()[5:] == shown.splitlines()[5:]
 
 
-async def test_a_tool_table_is_read_in_its_own_unit_and_asked_about(tmp_path, monkeypatch):
+async def test_importing_a_tool_table_asks_for_its_unit(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tool.tbl").write_text("T7 P7 D6.35 ;slot drill\n")
     async with operator() as user:
@@ -308,7 +308,7 @@ async def test_a_tool_table_is_read_in_its_own_unit_and_asked_about(tmp_path, mo
         assert user.session.program.tools[1].diameter == Number(0.25)
 
 
-async def test_a_block_is_mirrored_from_the_palette_as_one_edit():
+async def test_the_palette_mirrors_a_block_in_one_edit():
     async with operator() as user:
         before = user.session.program
         await user.press("ctrl+k", *"mirror", "space", *"block")
@@ -322,7 +322,7 @@ async def test_a_block_is_mirrored_from_the_palette_as_one_edit():
         assert user.session.program == before
 
 
-async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
+async def test_an_unreadable_number_keeps_the_small_form_open():
     async with operator() as user:
         await user.app.run_action("app.shift_block")
         await user.pilot.pause()
@@ -335,7 +335,7 @@ async def test_a_number_that_cannot_be_read_keeps_the_small_form_open():
         assert user.session.history.undo_count == 0
 
 
-async def test_numbers_that_do_not_go_together_keep_the_small_form_open():
+async def test_inconsistent_numbers_keep_the_small_form_open():
     async with operator() as user:
         await user.app.run_action("app.repeat_shifted")
         await user.pilot.pause()
@@ -349,7 +349,7 @@ async def test_numbers_that_do_not_go_together_keep_the_small_form_open():
         assert user.session.history.undo_count == 1
 
 
-async def test_a_new_segment_without_a_number_is_no_segment_to_repeat():
+async def test_repeat_does_not_offer_a_new_empty_segment():
     async with operator() as user:
         await user.press("ctrl+end", "pagedown")
         count = len(user.session.block.segments) - 1
@@ -366,7 +366,7 @@ async def test_a_new_segment_without_a_number_is_no_segment_to_repeat():
         assert len(user.session.block.segments) == count
 
 
-async def test_what_was_undone_is_no_longer_told_after_the_next_edit():
+async def test_the_undo_message_disappears_after_the_next_edit():
     async with operator() as user:
         await user.press("f1", "ctrl+z")
         await user.press("pagedown", "f1", "ctrl+z")
@@ -378,7 +378,7 @@ async def test_what_was_undone_is_no_longer_told_after_the_next_edit():
         assert "Undone" not in user.prompt
 
 
-async def test_a_tool_of_four_digits_is_shown_with_all_of_them():
+async def test_a_four_digit_tool_number_is_shown_in_full():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press(*"2000", "enter")
@@ -386,7 +386,7 @@ async def test_a_tool_of_four_digits_is_shown_with_all_of_them():
         assert "2000" in "".join(segment.text for segment in field.render_line(0))
 
 
-async def test_enter_in_draw_without_a_finding_in_hand_goes_to_the_form():
+async def test_enter_in_draw_without_a_chosen_finding_returns_to_the_form():
     async with operator() as user:
         await user.press("pagedown")
         await run(user, "app.draw")
@@ -396,7 +396,7 @@ async def test_enter_in_draw_without_a_finding_in_hand_goes_to_the_form():
         assert user.session.place.segment == 1
 
 
-async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
+async def test_space_lists_tools_choices_and_look_ahead_values():
     async with operator("flange") as user:
         await user.press("tab", "space", "down", "enter")
         await everything(user)
@@ -418,13 +418,13 @@ async def test_space_lists_the_tools_the_choices_and_the_look_ahead_values():
 
 
 @pytest.mark.parametrize(("key", "count"), [("delete", 10), ("insert", 12)])
-async def test_del_and_ins_in_the_segment_list_are_delete_and_insert_segment(key, count):
+async def test_del_and_ins_delete_and_insert_segments_in_the_list(key, count):
     async with operator() as user:
         await user.press("f9", "down", "down", key)
         assert len(user.session.block.segments) == count
 
 
-async def test_a_row_of_tool_setup_has_room_for_what_is_in_it():
+async def test_a_tool_setup_row_shows_its_values_in_full():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press(*"2000", "enter", "'BALL MILL", "enter")

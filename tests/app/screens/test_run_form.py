@@ -1,4 +1,4 @@
-"""Runs on the MILL CONTOUR form: the header, what is missing, CAL while typing, SOLUTION, refusals, the drawing."""
+"""Runs on the MILL CONTOUR form: the header, missing values, CAL while typing, SOLUTION, refusals, the drawing."""
 
 from __future__ import annotations
 
@@ -31,24 +31,24 @@ def header(user: Operator) -> str:
 
 
 async def to(user: Operator, segment: int, field: str) -> None:
-    """The cursor to a field of a segment."""
+    """Move the cursor to a field of a segment."""
     await user.press("ctrl+home", *["pagedown"] * segment)
     assert isinstance(user.screen, ContourScreen)
     await user.press(*["tab"] * user.screen.names().index(field))
     assert user.at == field
 
 
-async def test_every_segment_of_a_run_says_so_in_the_header():
+async def test_the_header_names_the_run_on_each_of_its_segments():
     case = case_of(line(x_end=-10, y_end=0), line(angle=30), line(x_end=100, y_end=0, angle=300))
     async with operator(program_of(case)) as user:
-        seen = []
+        headers = []
         for _ in range(3):
             await user.press("pagedown")
-            seen.append(header(user))
-    assert seen == ["LINE", "LINE    RUN 2-3", "LINE    RUN 2-3"]
+            headers.append(header(user))
+    assert headers == ["LINE", "LINE    RUN 2-3", "LINE    RUN 2-3"]
 
 
-async def test_a_waiting_run_counts_what_is_missing_on_each_of_its_segments():
+async def test_an_incomplete_run_counts_its_missing_values_on_each_segment():
     case = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
     async with operator(program_of(case)) as user:
         for _ in range(3):
@@ -61,7 +61,7 @@ async def test_a_waiting_run_counts_what_is_missing_on_each_of_its_segments():
         assert (user.value("x_end"), user.tag("x_end")) == ("60.000", "CAL")
 
 
-async def test_a_half_typed_number_moves_the_calculated_fields_of_the_run_and_escape_brings_them_back():
+async def test_a_half_typed_number_recalculates_the_run_and_escape_restores_it():
     async with operator(golden("c18")) as user:
         await to(user, 2, "radius")
         assert (user.value("x_end"), user.tag("x_end")) == ("60.000", "CAL")
@@ -74,7 +74,7 @@ async def test_a_half_typed_number_moves_the_calculated_fields_of_the_run_and_es
         assert (user.value("y_end"), user.value("radius")) == ("10.000", "10.000")
 
 
-async def test_undo_names_the_run_whose_calculated_fields_come_back():
+async def test_undo_names_the_run_whose_calculated_fields_it_restores():
     async with operator(golden("c18")) as user:
         await to(user, 2, "radius")
         await user.press("delete", "'2", "tab", "ctrl+z")
@@ -82,7 +82,7 @@ async def test_undo_names_the_run_whose_calculated_fields_come_back():
         assert user.value("y_end") == "10.000"
 
 
-async def test_a_half_typed_number_that_undetermines_the_run_leaves_its_text_alone():
+async def test_a_half_typed_number_without_a_solution_keeps_its_text():
     async with operator(golden("c18")) as user:
         await to(user, 2, "radius")
         await user.press("delete", "'7", "'0")
@@ -92,7 +92,7 @@ async def test_a_half_typed_number_that_undetermines_the_run_leaves_its_text_alo
         assert "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 40.000." in user.prompt
 
 
-async def test_solution_is_stepped_with_space_and_arrows_and_takes_the_line_of_start():
+async def test_solution_replaces_start_and_is_stepped_with_space_and_arrows():
     async with operator(golden("c24")) as user:
         await to(user, 2, "choice")
         assert not user.row("START").display
@@ -106,14 +106,14 @@ async def test_solution_is_stepped_with_space_and_arrows_and_takes_the_line_of_s
         assert (user.session.place.segment, user.value("choice"), user.value("x_end")) == (1, "1 of 2", "18.413")
 
 
-async def test_solution_shows_how_many_there_are_while_none_is_taken():
+async def test_solution_shows_the_number_of_solutions_before_one_is_chosen():
     async with operator(golden("c24")) as user:
         await to(user, 2, "choice")
         assert user.row("choice").input is not None
         assert "? of 2" in str(user.row("choice").input.query_one("#label").render())
 
 
-async def test_a_choice_that_comes_up_while_typing_is_offered_on_a_form_that_stood_before():
+async def test_solution_appears_on_the_form_as_soon_as_two_solutions_fit():
     case = case_of(line(angle=30), line(x_end=70, y_end=10))
     async with operator(program_of(case)) as user:
         await to(user, 2, "length")
@@ -128,7 +128,7 @@ async def test_a_choice_that_comes_up_while_typing_is_offered_on_a_form_that_sto
         assert not user.row("choice").display
 
 
-async def test_enter_stops_at_solution_until_one_is_taken():
+async def test_enter_stops_at_solution_until_one_is_chosen():
     async with operator(golden("c24")) as user:
         await to(user, 2, "radius")
         stops = []
@@ -144,7 +144,7 @@ async def test_enter_stops_at_solution_until_one_is_taken():
         assert user.session.place.segment == 3
 
 
-async def test_enter_goes_through_the_last_arc_of_a_run_while_data_are_missing():
+async def test_enter_stops_at_the_fields_of_the_last_arc_while_data_are_missing():
     case = case_of(ccw(x_center=0, y_center=20, radius=20), cw(radius=30, tangent=True), ccw(tangent=True))
     async with operator(program_of(case)) as user:
         await to(user, 3, "x_end")
@@ -156,7 +156,7 @@ async def test_enter_goes_through_the_last_arc_of_a_run_while_data_are_missing()
     assert (typed.x_center, typed.y_center) == (Number(80.0), Number(30.0))
 
 
-async def test_tangent_is_switched_by_space():
+async def test_space_toggles_tangent():
     async with operator(golden("c18")) as user:
         await to(user, 2, "tangent")
         await user.press("space")
@@ -166,7 +166,7 @@ async def test_tangent_is_switched_by_space():
         assert (user.value("tangent"), header(user)) == ("YES", "ARC     RUN 1-3")
 
 
-async def test_a_last_segment_that_waits_says_that_the_next_one_may_give_it():
+async def test_an_incomplete_last_segment_says_that_the_next_one_may_complete_it():
     async with operator(program_of(case_of(line(angle=30)))) as user:
         await to(user, 1, "x_end")
         assert user.prompt.endswith("Or Page Down: the next segment may give it.")
@@ -175,14 +175,14 @@ async def test_a_last_segment_that_waits_says_that_the_next_one_may_give_it():
         assert "Page Down" not in user.prompt
 
 
-# what is said
+# messages
 
 
 KEYED = [bad for bad in BAD if bad[0] not in ("TANGENT_PLACE", "PARALLEL_TO")]
 
 
 def last_number(case: dict[str, Any]) -> tuple[int, str, float]:
-    """The last number that is typed in a case: its segment, its field and its value."""
+    """The last number typed in a case: its segment, field and value."""
     for number in range(len(case["segments"]), 0, -1):
         names = [name for name, value in case["segments"][number - 1].items() if isinstance(value, int | float)]
         names = [name for name in names if name != "tangent"]
@@ -192,7 +192,7 @@ def last_number(case: dict[str, Any]) -> tuple[int, str, float]:
 
 
 def blanked(program: Program, segment: int, field: str) -> Program:
-    """The program before a field of a segment was typed."""
+    """The program with a field of a segment blanked."""
     block = program.blocks[0]
     blank: dict[str, Any] = {field: None}
     before = replace(block.segments[segment - 1], **blank)
@@ -200,7 +200,7 @@ def blanked(program: Program, segment: int, field: str) -> Program:
     return replace(program, blocks=(replace(block, segments=segments),))
 
 
-async def test_each_refusal_stands_on_the_form_as_soon_as_the_last_number_is_typed():
+async def test_each_refusal_appears_as_soon_as_the_last_number_is_typed():
     async with operator() as user:
         for code, text, case in KEYED:
             segment, field, value = last_number(case)
@@ -213,7 +213,7 @@ async def test_each_refusal_stands_on_the_form_as_soon_as_the_last_number_is_typ
 
 
 @pytest.mark.parametrize("field", ["length", "angle"])
-async def test_two_numbers_that_contradict_are_both_named_and_blanking_either_mends_it(field: str):
+async def test_blanking_either_of_two_contradicting_numbers_resolves_the_run(field: str):
     case = case_of(line(angle=30), line(x_end=100, y_end=0, angle=300))
     async with operator(program_of(case)) as user:
         await to(user, 2, "length")
@@ -225,7 +225,7 @@ async def test_two_numbers_that_contradict_are_both_named_and_blanking_either_me
         assert (len(run.answers), run.code) == ((1, None) if field == "length" else (2, "PICK_SOLUTION"))
 
 
-async def test_what_the_cursor_does_not_stand_on_is_not_said_of_segments_outside_the_run():
+async def test_a_message_about_a_run_is_not_shown_on_segments_outside_it():
     case = case_of(line(angle=30), line(x_end=100, y_end=0, angle=120), line(x_end=0, y_end=50))
     async with operator(program_of(case)) as user:
         await user.press("pagedown", "tab")
@@ -235,7 +235,7 @@ async def test_what_the_cursor_does_not_stand_on_is_not_said_of_segments_outside
         assert "backwards" not in user.prompt
 
 
-async def test_a_typed_angle_of_one_segment_is_taken_without_an_end():
+async def test_a_typed_length_is_taken_and_leaves_two_solutions():
     case = case_of(cw(radius=12), line(tangent=True, x_end=50, y_end=-20))
     async with operator(program_of(case)) as user:
         await to(user, 2, "length")
@@ -247,10 +247,10 @@ async def test_a_typed_angle_of_one_segment_is_taken_without_an_end():
 # the drawing
 
 
-def part_drawn(user: Operator, style: Style) -> int:
-    """Cells of the loupe in the looks of a style."""
-    drawn = user.screen.query_one("#loupe", Drawing).drawn
-    return 0 if drawn is None else int((drawn.picture.styles == style.value).sum())
+def cells_drawn(user: Operator, style: Style) -> int:
+    """The number of loupe cells drawn in a style."""
+    picture = user.screen.query_one("#loupe", Drawing).drawn
+    return 0 if picture is None else int((picture.picture.styles == style.value).sum())
 
 
 async def drawn(user: Operator) -> None:
@@ -259,34 +259,34 @@ async def drawn(user: Operator) -> None:
     await user.pilot.pause()
 
 
-async def test_solutions_that_are_not_taken_are_dotted_while_the_cursor_is_on_their_run():
+async def test_other_solutions_are_dotted_while_the_cursor_is_on_their_run():
     async with operator(golden("c24")) as user:
         await to(user, 1, "choice")
         await drawn(user)
-        dashed = part_drawn(user, Style.SURFACE)
-        assert dashed
-        assert not part_drawn(user, Style.UNTAKEN)
+        surface_cells = cells_drawn(user, Style.SURFACE)
+        assert surface_cells
+        assert not cells_drawn(user, Style.UNTAKEN)
         pictures = []
         for _ in range(2):
             await user.press("space")
             await drawn(user)
-            assert part_drawn(user, Style.UNTAKEN) > 4
-            shown = user.screen.query_one("#loupe", Drawing).drawn
-            assert shown is not None
-            pictures.append(shown.picture.rows)
+            assert cells_drawn(user, Style.UNTAKEN) > 4
+            loupe = user.screen.query_one("#loupe", Drawing).drawn
+            assert loupe is not None
+            pictures.append(loupe.picture.rows)
         assert pictures[0] != pictures[1]
         await user.press("ctrl+home")
         await drawn(user)
-        assert not part_drawn(user, Style.UNTAKEN)
+        assert not cells_drawn(user, Style.UNTAKEN)
 
 
-async def test_an_undetermined_run_is_sketched_as_far_as_headings_and_centers_are_known():
+async def test_an_undetermined_run_is_sketched_from_known_headings_and_centers():
     case = case_of(line(angle=0), ccw(x_center=50, y_center=20, radius=10), line(tangent=True, x_end=90))
     async with operator(program_of(case)) as user:
         await user.press("pagedown")
         await drawn(user)
         assert user.session.derived_block.solved.runs[0].taken is None
-        assert part_drawn(user, Style.SURFACE) > 8
+        assert cells_drawn(user, Style.SURFACE) > 8
         await to(user, 2, "x_center")
         before = user.screen.query_one("#loupe", Drawing).drawn
         await user.press("delete", "'7", "'0")
