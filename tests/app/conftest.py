@@ -41,7 +41,7 @@ def _own_state(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 @pytest.fixture
 def state(tmp_path: Path) -> Path:
-    """The user's state folder, which holds the journals of programs without a writable folder."""
+    """The user's state folder, for journals that cannot lie beside a document."""
     return tmp_path / "own"
 
 

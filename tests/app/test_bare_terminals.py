@@ -1,4 +1,4 @@
-"""Terminals without colors, or older than UTF-8, through a real pseudo-terminal."""
+"""Terminals without colors or UTF-8, through a real pseudo-terminal."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ PENS = re.compile(rb"\x1b\[([0-9;]*)m")
 
 
 def colored(data: bytes) -> set[bytes]:
-    """Sequences that ask for a color, the terminal's own ink and paper (39, 49) among them."""
-    return {one for one in PENS.findall(data) if re.search(rb"(?:^|;)(?:[34][0-9]|9[0-7]|10[0-7])(?:;|$)", one)}
+    """Sequences that set a color, including the default foreground and background (39, 49)."""
+    return {pen for pen in PENS.findall(data) if re.search(rb"(?:^|;)(?:[34][0-9]|9[0-7]|10[0-7])(?:;|$)", pen)}
 
 
 @pytest.mark.parametrize(
@@ -36,7 +36,7 @@ def colored(data: bytes) -> set[bytes]:
     [("vt100", "C.UTF-8"), ("vt220", "C"), ("xterm-mono", "C.UTF-8"), ("xterm", "C.UTF-8"), ("linux", "C")],
 )
 def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, locale: str) -> None:
-    """In a dialog that has tones for everything, and on the form behind it."""
+    """This covers a dialog with many tones and the form behind it."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     take(part, ELSEWHERE)
     with running([*PROGRAM, str(part)], environment={"TERM": term, "LANG": locale}) as terminal:
@@ -51,7 +51,7 @@ def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, locale: 
         assert terminal.seen.isascii() == (term.startswith("vt") or locale == "C")
 
 
-def test_braille_that_is_asked_for_is_drawn_on_a_vt100_too() -> None:
+def test_requested_braille_is_drawn_even_on_a_vt100() -> None:
     arguments = [*PROGRAM, "--characters", "braille", "--example", "pocket"]
     with running(arguments, environment={"TERM": "vt100"}) as terminal:
         terminal.until("GOUGE none", longest=30.0)
@@ -59,14 +59,14 @@ def test_braille_that_is_asked_for_is_drawn_on_a_vt100_too() -> None:
         assert re.search("[\u2801-\u28ff]", terminal.text)
 
 
-def told_apart(field: LineInput) -> tuple[int, int]:
-    """How many cells of the field with the cursor are reversed on a terminal without colors, how many underlined."""
+def marked_cells(field: LineInput) -> tuple[int, int]:
+    """The numbers of reversed and of underlined cells of the field with the cursor, on a terminal without colors."""
     (strip,) = field.render_lines(Region(0, 0, field.size.width, 1))
     cells = [(len(text), style.reverse, style.underline) for text, style, _ in strip if style is not None]
-    return sum(one for one, reverse, _ in cells if reverse), sum(one for one, _, line in cells if line)
+    return sum(count for count, reverse, _ in cells if reverse), sum(count for count, _, line in cells if line)
 
 
-async def test_without_colors_a_field_is_reversed_and_the_place_in_it_underlined() -> None:
+async def test_without_colors_a_field_is_reversed_and_its_cursor_underlined() -> None:
     app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
     async with app.run_test(size=(80, 24)) as pilot:
         seen = set()
@@ -75,15 +75,15 @@ async def test_without_colors_a_field_is_reversed_and_the_place_in_it_underlined
             field = app.focused
             if isinstance(field, LineInput):
                 seen.add(field.name)
-                assert told_apart(field) == (field.size.width - 1, 1)
+                assert marked_cells(field) == (field.size.width - 1, 1)
             await pilot.press("tab")
         assert {"segment", "tool", "x_start"} <= seen
         await pilot.press("4", "2", "left")
         assert isinstance(app.focused, LineInput)
-        assert told_apart(app.focused) == (app.focused.size.width - 1, 1)
+        assert marked_cells(app.focused) == (app.focused.size.width - 1, 1)
 
 
-async def test_without_colors_what_a_dialog_stands_on_stays_in_sight() -> None:
+async def test_without_colors_the_screen_behind_a_dialog_stays_visible() -> None:
     app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
     async with app.run_test(size=(80, 24)) as pilot:
         await pilot.press("tab", "7", "enter", "ctrl+q")
@@ -93,8 +93,8 @@ async def test_without_colors_what_a_dialog_stands_on_stays_in_sight() -> None:
 
 
 @pytest.mark.parametrize("size", [(20, 5), (1, 1)])
-def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[int, int]) -> None:
-    """On 20 by 5, and on one cell, the keys still act; larger again, everything is there."""
+def test_a_too_small_terminal_is_reported_and_keys_still_work(tmp_path: Path, size: tuple[int, int]) -> None:
+    """On 20 by 5, and on one cell, keys still work; enlarged again, the terminal shows everything."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     with running([*PROGRAM, str(part)], columns=size[0], rows=size[1]) as terminal:
         while b"\x1b[?1049h" not in terminal.seen:
@@ -112,7 +112,7 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
         terminal.until("undo 1")
 
 
-async def test_a_terminal_that_stays_too_small_says_its_new_size() -> None:
+async def test_a_terminal_that_stays_too_small_shows_its_new_size() -> None:
     async with operator(size=(20, 5)) as user:
         assert user.prompt == "Window is 20x5; it needs 60x20."
         for width, height in ((59, 24), (80, 19)):
@@ -134,7 +134,7 @@ async def test_a_terminal_that_stays_too_small_says_its_new_size() -> None:
         ({"TERM": "something"}, 8, False),
         ({"TERM": "vt100", "COLORTERM": "truecolor"}, 0, False),
         ({"TERM": "vt100", "TEXTUAL_COLOR_SYSTEM": "256"}, 0, False),
-        # a system without a table, or whose table has not this one
+        # a system without a terminal table, or whose table lacks this terminal
         ({"TERM": "vt220-8"}, None, True),
         ({"TERM": "screen-m"}, None, True),
         ({"TERM": "something"}, None, False),
@@ -147,14 +147,14 @@ def test_which_terminals_have_no_colors(environment: dict[str, str], known: int 
 @pytest.mark.parametrize(
     "name", ["xterm", "xterm-256color", "screen.xterm", "tmux", "linux", "putty", "vte", "ansi-color"]
 )
-def test_names_that_are_known_to_have_colors_need_no_table(name: str) -> None:
+def test_terminals_known_to_have_colors_need_no_table(name: str) -> None:
     def table(name: str) -> int | None:
         raise AssertionError(name)
 
     assert not monochrome({"TERM": name}, table)
 
 
-def test_a_vt100_has_no_utf_8_and_an_xterm_without_colors_has() -> None:
+def test_a_vt100_has_no_utf_8_but_a_monochrome_xterm_has() -> None:
     assert [ascii_only({"TERM": name}) for name in ("vt100", "vt220-8", "xterm-mono", "vte")] == [
         True,
         True,
@@ -167,12 +167,12 @@ def test_a_vt100_has_no_utf_8_and_an_xterm_without_colors_has() -> None:
     assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}, "block")[0] == "utf-8"
 
 
-async def test_without_colors_the_answer_with_the_cursor_is_reversed() -> None:
+async def test_without_colors_only_the_answer_with_the_cursor_is_reversed() -> None:
     app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, few_colors=True)
     async with app.run_test(size=(80, 24)) as pilot:
         await pilot.press("tab", "7", "enter", "ctrl+q")
         await pilot.pause()
         answers = app.screen.query_one("#answers", OptionRows)
         rows = answers.render_lines(Region(0, 0, answers.size.width, answers.size.height))
-        told = [any(style is not None and style.reverse for _, style, _ in row) for row in rows]
-        assert told == [row == answers.highlighted for row in range(len(rows))]
+        reversed_rows = [any(style is not None and style.reverse for _, style, _ in row) for row in rows]
+        assert reversed_rows == [row == answers.highlighted for row in range(len(rows))]

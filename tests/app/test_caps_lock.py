@@ -1,4 +1,4 @@
-"""Caps Lock may be on: a letter that does something does it as a capital too."""
+"""Caps Lock may be on: every letter key also works as a capital."""
 
 from __future__ import annotations
 
@@ -20,23 +20,26 @@ def letters_of(binding: object) -> set[str]:
 
 
 def bound() -> dict[str, set[str]]:
-    """The letters of each binding of the program, by its class and its action."""
-    found: dict[str, set[str]] = {}
+    """The letters of each key binding of the program, by class and action."""
+    letters_by_binding: dict[str, set[str]] = {}
     for module in pkgutil.walk_packages(app.__path__, "app."):
-        for each in vars(importlib.import_module(module.name)).values():
-            if isinstance(each, type) and issubclass(each, DOMNode) and each.__module__.startswith("app."):
-                found |= {f"{each.__name__} {one.action}": letters_of(one) for one in vars(each).get("BINDINGS", ())}
-    return {name: letters for name, letters in found.items() if letters}
+        for member in vars(importlib.import_module(module.name)).values():
+            if isinstance(member, type) and issubclass(member, DOMNode) and member.__module__.startswith("app."):
+                letters_by_binding |= {
+                    f"{member.__name__} {binding.action}": letters_of(binding)
+                    for binding in vars(member).get("BINDINGS", ())
+                }
+    return {name: letters for name, letters in letters_by_binding.items() if letters}
 
 
-def test_every_letter_is_bound_as_a_capital_too() -> None:
-    found = bound()
-    assert len(found) > 10
-    for name, letters in found.items():
+def test_every_bound_letter_is_also_bound_as_a_capital() -> None:
+    bindings = bound()
+    assert len(bindings) > 10
+    for name, letters in bindings.items():
         assert letters == {letter.swapcase() for letter in letters}, name
 
 
-async def test_capitals_go_from_finding_to_finding_on_draw():
+async def test_a_capital_n_steps_through_the_findings_on_draw():
     async with operator("pocket") as user:
         await user.press("f7", "N")
         assert isinstance(user.screen, DrawScreen)

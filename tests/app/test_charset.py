@@ -1,4 +1,4 @@
-"""The locale's name decides which characters are written; others become one ASCII character each."""
+"""The locale's name decides which characters are written; any other becomes one ASCII character."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")
         ({"LANG": "xx.no-such-set"}, "ascii"),
     ],
 )
-def test_what_a_locale_says(environment: dict[str, str], name: str) -> None:
+def test_the_character_set_follows_from_the_locale(environment: dict[str, str], name: str) -> None:
     assert charset(environment) == name
 
 
 @pytest.mark.parametrize(
-    ("environment", "wanted", "found"),
+    ("environment", "chosen", "found"),
     [
         ({"LANG": "C.UTF-8", "TERM": "xterm"}, "", ("utf-8", BRAILLE_FIRST)),
         ({"LANG": "C.UTF-8", "TERM": "linux"}, "", ("utf-8", BLOCK_FIRST)),
@@ -52,11 +52,13 @@ def test_what_a_locale_says(environment: dict[str, str], name: str) -> None:
         ({"LANG": "de_DE", "TERM": "xterm"}, "ascii", ("iso8859-1", ("ascii",))),
     ],
 )
-def test_what_is_drawn_with(environment: dict[str, str], wanted: str, found: tuple[str, tuple[str, ...]]) -> None:
-    assert characters(environment, wanted) == found
+def test_the_drawing_characters_follow_from_locale_terminal_and_choice(
+    environment: dict[str, str], chosen: str, found: tuple[str, tuple[str, ...]]
+) -> None:
+    assert characters(environment, chosen) == found
 
 
-def test_one_character_for_one() -> None:
+def test_each_character_is_replaced_by_one_ascii_character() -> None:
     assert lookalike("│ a… Ünï 中 ⣿ \x9b") == "| a~ Uni ? * ?"
     assert lookalike("╭━╮┃ ▲▼ ✓ ✖ × ▆▏") == "+-+| ^v + ! x ##"
     drawn = [text for mode in Mode for text in (*cells(mode).table, cells(mode).arrows, cells(mode).bar)]
@@ -64,7 +66,7 @@ def test_one_character_for_one() -> None:
 
 
 @pytest.mark.parametrize(("name", "text"), product(("ascii", "iso8859-1", "utf-8"), ("│⣿Üä…", "\ud800", "中\u0301")))
-def test_nothing_written_ends_the_program(name: str, text: str) -> None:
+def test_no_written_text_raises_an_error(name: str, text: str) -> None:
     written = io.BytesIO()
     stream = io.TextIOWrapper(written, encoding="utf-8")
     settle(stream, name)

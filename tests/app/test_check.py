@@ -431,10 +431,10 @@ def test_a_program_is_found_by_the_number_it_begins_with(tmp_path: Path) -> None
     """A file on disk may be named like gauge_o1002.cnc."""
     (tmp_path / "other.nc").write_text("%\nO1003\nM99\n%")
     (tmp_path / "gauge_o1002.cnc").write_text("%\n(GAUGE)\nO1002 (PART)\nG1 X5. F100.\nM99\n%")
-    found = FolderLibrary(tmp_path)(1002)
-    assert found is not None
-    assert found[0] == "gauge_o1002.cnc"
-    assert b"X5." in found[1]
+    entry = FolderLibrary(tmp_path)(1002)
+    assert entry is not None
+    assert entry[0] == "gauge_o1002.cnc"
+    assert b"X5." in entry[1]
     assert FolderLibrary(tmp_path)(1004) is None
     assert FolderLibrary(None)(1002) is None
 

@@ -1,4 +1,4 @@
-"""`check --json`: one shape whatever is asked for, with a state for everything that can come of a program."""
+"""`check --json`: one shape for every request, with a state for every outcome of a program."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def results(
         ("O1 (NO MOVES)\nG21\nM30\n", "fanuc", "empty"),
     ],
 )
-def test_the_state_says_what_came_of_a_program(
+def test_the_state_names_the_outcome_of_a_program(
     text: str, control: str, state: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     (result,) = results(capsys, tmp_path, text, control)
@@ -49,29 +49,29 @@ def test_a_gouge_has_its_depth_and_line_in_program_units(capsys: pytest.CaptureF
     assert result["deepest_gouge"] == {"depth": pytest.approx(5.0, abs=0.1), "line": 4}
 
 
-def test_all_controls_have_the_same_shape_and_say_where_they_part(
+def test_results_of_all_controls_have_one_shape_and_say_where_they_differ(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    told = results(capsys, tmp_path, SLANTING, "all")
-    assert len({tuple(sorted(result)) for result in told}) == 1
-    by_name = {result["control"]: result for result in told}
+    answers = results(capsys, tmp_path, SLANTING, "all")
+    assert len({tuple(sorted(result)) for result in answers}) == 1
+    by_name = {result["control"]: result for result in answers}
     assert {"fanuc:a", "fanuc:b", "haas:a", "allen-bradley:a", "heidenhain", "three-block"} <= by_name.keys()
     parting = by_name["fanuc:a"]["parts_from"]
     assert isinstance(parting, dict)
     assert set(parting) == {"control", "line", "farthest_line", "distance"}
 
 
-def test_a_file_that_cannot_be_read_has_the_same_shape(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    (known,) = results(capsys, tmp_path, GROOVE, "fanuc")
+def test_the_result_of_an_unreadable_file_has_the_same_shape(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (readable,) = results(capsys, tmp_path, GROOVE, "fanuc")
     assert check([str(tmp_path / "none.nc"), "--control", "fanuc", "--json"]) == 2
     (result,) = json.loads(capsys.readouterr().out)["results"]
-    assert set(result) == set(known)
+    assert set(result) == set(readable)
     assert (result["state"], result["control"]) == ("unreadable", None)
 
 
-def test_a_program_in_the_folder_is_called_and_its_moves_count_for_the_call(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_moves_of_a_called_file_have_the_line_of_the_call(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "O3001.nc").write_text("%\nO3001\nG1 X#1 F9.\nG1 Y#2 Z[1/0]\nM99\n%\n")
     (result,) = results(capsys, tmp_path, "O1\nG21 G90\nG65 P3001 A5. B7.\nM30\n", "fanuc")
     moves, findings = result["moves"], result["findings"]

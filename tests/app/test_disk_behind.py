@@ -1,4 +1,4 @@
-"""A folder that does not answer: the screen goes on, says so, and nothing is written by two at once."""
+"""A hanging folder: the screen keeps working and says so, and only one thread writes at a time."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["folder"]
 
 @dataclass
 class Folder:
-    """A disk that hangs while `hanging`; `writers` counts those who wait for it at once, at most."""
+    """A disk that hangs while `hanging`; `most` is the largest number of writers that waited at once."""
 
     hanging: bool = False
     answers: Event = field(default_factory=Event)
@@ -46,7 +46,7 @@ class Folder:
 
 @pytest.fixture
 def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
-    """fsync hangs when it is told to."""
+    """A disk whose fsync hangs on request."""
     monkeypatch.setattr(file_actions, "DISK", 0.05)
     disk, fsync = Folder(), os.fsync
 
@@ -64,7 +64,7 @@ def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
     disk.answers.set()
 
 
-async def test_keys_go_on_while_the_folder_hangs_and_everything_is_kept_when_it_answers(folder, disk):
+async def test_keys_work_while_the_folder_hangs_and_all_edits_are_kept_later(folder, disk):
     async with at_work(folder) as user:
         disk.dies()
         await user.press("tab", "'7", "enter")
@@ -85,7 +85,7 @@ async def test_keys_go_on_while_the_folder_hangs_and_everything_is_kept_when_it_
         assert disk.most == 1
 
 
-async def test_what_is_typed_while_a_save_hangs_is_not_saved_and_not_lost(folder, disk):
+async def test_edits_typed_while_a_save_hangs_are_kept_unsaved(folder, disk):
     async with at_work(folder) as user:
         await user.press("tab", "'7", "enter")
         disk.dies()
@@ -107,7 +107,7 @@ async def test_what_is_typed_while_a_save_hangs_is_not_saved_and_not_lost(folder
         assert disk.most == 1
 
 
-async def test_a_program_whose_folder_hangs_can_be_left_after_asking(folder, disk):
+async def test_a_program_whose_folder_hangs_can_be_left_after_a_question(folder, disk):
     async with at_work(folder) as user:
         disk.dies()
         await user.press("tab", "'7", "enter", "ctrl+q")
@@ -147,7 +147,7 @@ async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder
         assert user.session.unsaved
 
 
-async def test_the_copy_of_an_nc_text_has_the_line_that_is_being_typed(folder, disk, tmp_path):
+async def test_a_copy_of_an_nc_text_includes_the_line_being_typed(folder, disk, tmp_path):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
@@ -164,7 +164,7 @@ async def test_the_copy_of_an_nc_text_has_the_line_that_is_being_typed(folder, d
         await disk.comes_back(user)
 
 
-async def test_a_name_without_a_file_gets_no_ending_on_the_sheet(folder):
+async def test_the_sheet_adds_no_suffix_to_a_name_that_is_not_a_file(folder):
     async with at_work(folder) as user:
         user.app.push_screen(SheetScreen("."))
         await user.settle()
@@ -174,28 +174,28 @@ async def test_a_name_without_a_file_gets_no_ending_on_the_sheet(folder):
 
 
 @pytest.fixture
-def asked(folder, monkeypatch) -> list[str]:
-    """What the thread that reads the keys has asked of the folder of the program: it would hang with it."""
+def folder_calls(folder, monkeypatch) -> list[str]:
+    """The system calls that the main thread, which reads the keys, makes on the program's folder: they might hang."""
     calls = list[str]()
 
     def watched(name: str) -> None:
-        ask = getattr(os, name)
+        real = getattr(os, name)
 
-        def asked(path, *arguments, **options):
+        def recorded(path, *arguments, **options):
             if current_thread() is main_thread() and str(path).startswith(str(folder)):
                 calls.append(f"{name} {path}")
-            return ask(path, *arguments, **options)
+            return real(path, *arguments, **options)
 
-        monkeypatch.setattr(os, name, asked)
+        monkeypatch.setattr(os, name, recorded)
 
     for name in ("stat", "lstat", "open", "scandir", "listdir"):
         watched(name)
     return calls
 
 
-async def test_the_thread_of_the_keys_asks_the_folder_nothing(folder, asked):
+async def test_the_main_thread_never_accesses_the_folder(folder, folder_calls):
     async with at_work(folder) as user:
-        asked.clear()
+        folder_calls.clear()
         written = []
         await user.press("tab", "'1", "enter", "ctrl+s")
         for action, name in (("app.post", "part.nc"), ("app.sheet", "part.html")):
@@ -207,5 +207,5 @@ async def test_the_thread_of_the_keys_asks_the_folder_nothing(folder, asked):
             await user.app.workers.wait_for_complete()
             await user.settle()
             written.append(folder / name)
-        assert asked == []
+        assert folder_calls == []
     assert all(path.exists() for path in written)

@@ -1,4 +1,4 @@
-"""What the first paint waits for: the screen that is seen, and none of those that are not."""
+"""The first paint waits only for the screen in front, not for the other screens."""
 
 import sys
 from pathlib import Path
@@ -70,11 +70,11 @@ LATER = {
 
 def loaded(tmp_path: Path, *arguments: str) -> set[str]:
     """The modules at the first paint of the program with these arguments."""
-    return set(told(STARTED, tmp_path, *arguments))
+    return set(reported(STARTED, tmp_path, *arguments))
 
 
-def told(script: str, tmp_path: Path, *arguments: str) -> list[str]:
-    """The lines that a script writes which starts the program with these arguments."""
+def reported(script: str, tmp_path: Path, *arguments: str) -> list[str]:
+    """The lines that the script writes when it starts the program with these arguments."""
     out = tmp_path / "told.txt"
     with running([sys.executable, "-c", script, *arguments, str(out)]) as terminal:
         terminal.read(quiet=10.0)
@@ -83,7 +83,7 @@ def told(script: str, tmp_path: Path, *arguments: str) -> list[str]:
 
 
 def screens(modules: set[str]) -> set[str]:
-    """The modules of the screens among them."""
+    """The screen modules among these."""
     return {name.removeprefix("app.screens.") for name in modules if name.startswith("app.screens.")}
 
 
@@ -94,21 +94,21 @@ def part(tmp_path: Path) -> str:
     return str(path)
 
 
-def test_a_file_loads_the_form_alone(tmp_path: Path, part: str) -> None:
+def test_opening_a_file_loads_only_the_form(tmp_path: Path, part: str) -> None:
     modules = loaded(tmp_path, part)
     assert screens(modules) == FORM
     assert modules & LATER == set()
 
 
 def test_home_loads_no_other_screen(tmp_path: Path) -> None:
-    """Its workers, which look through the folder meanwhile, may be faster than the paint."""
+    """Its workers, which read the folder meanwhile, may load more before the paint."""
     modules = loaded(tmp_path)
     assert screens(modules) == {*FORM, "home"}
     assert "app.nc_proof.screen" not in modules
 
 
-def test_no_more_than_the_lock_is_forced_to_the_disk_before_the_first_paint(tmp_path: Path, part: str) -> None:
-    forced = told(FORCED, tmp_path, part)
-    before, behind = forced[: forced.index("PAINT")], forced[forced.index("PAINT") + 1 :]
+def test_only_the_lock_is_synced_to_disk_before_the_first_paint(tmp_path: Path, part: str) -> None:
+    forced = reported(FORCED, tmp_path, part)
+    before, after = forced[: forced.index("PAINT")], forced[forced.index("PAINT") + 1 :]
     assert [Path(name).name for name in before] == [".part.toml.cutcomp-lock"]
-    assert any("settings" in name for name in behind)
+    assert any("settings" in name for name in after)

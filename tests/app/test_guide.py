@@ -1,4 +1,4 @@
-"""The guided first part: an operator who does what the prompt says, and one who does not."""
+"""The guided first part: an operator who follows the prompt, and one who does not."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ KEYS = {"Page Down": "pagedown", "Page Up": "pageup", "Ctrl+S": "ctrl+s", "Ctrl+
 
 @asynccontextmanager
 async def guided(folder: Path) -> AsyncIterator[Operator]:
-    """An operator who chose the guide."""
+    """An operator who has started the guide."""
     service = DocumentService(state=folder / "own")
     opened = service.new()
     app = CutcompApp(session_of(opened.document), surroundings=SURROUNDINGS, service=service, opened=opened)
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
+        user = Operator(app, pilot)
+        await user.settle()
         app.action_guide()
-        await one.settle()
-        yield one
-        await one.settle()
+        await user.settle()
+        yield user
+        await user.settle()
     service.stop()
 
 
 async def obey(user: Operator) -> None:
-    """Press what the guide says, and nothing else."""
+    """Press only what the guide says."""
     text = user.prompt.removeprefix("GUIDE ").strip()
     if typed := re.search(r": type (\S+), then Enter", text):
         await user.press(f"'{typed[1]}", "enter")
@@ -51,7 +51,7 @@ async def obey(user: Operator) -> None:
         assert "being calculated" in text
 
 
-async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path, monkeypatch):
+async def test_following_the_guide_leads_to_a_posted_file_even_after_wrong_keys(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with guided(tmp_path) as user:
         await user.press("tab", "7", "enter", "pagedown")
@@ -68,7 +68,7 @@ async def test_by_its_own_words_to_a_posted_file_even_after_wrong_keys(tmp_path,
     assert (tmp_path / "plate.nc").exists()
 
 
-async def test_escape_ends_it_and_the_plate_stays(tmp_path, monkeypatch):
+async def test_escape_ends_the_guide_and_keeps_the_plate(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with guided(tmp_path) as user:
         assert user.prompt.startswith("GUIDE  ")

@@ -1,4 +1,4 @@
-"""Program text being edited: what nobody touched is written back byte by byte."""
+"""Editing an NC text: untouched lines are written back byte by byte."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DATA = (
 
 
 @pytest.mark.parametrize("data", DATA)
-def test_what_is_read_is_what_would_be_written(data: bytes) -> None:
+def test_an_unedited_text_is_written_as_read(data: bytes) -> None:
     listing = NcText.read(data)
     assert listing.data == data
     assert "".join(listing.lines).encode(listing.encoding) == data
@@ -45,7 +45,7 @@ def test_lines_are_those_the_controls_count(data: bytes) -> None:
         assert [listing.text(row) for row in range(len(listing))] == lines_of(data)
 
 
-def test_lines_of_utf_16_are_those_the_controls_count() -> None:
+def test_lines_of_utf_16_are_split_as_the_controls_count_them() -> None:
     data = "\ufeffG1 X1\r\nG0".encode("utf-16-le")
     listing = NcText.read(data)
     assert [listing.text(row) for row in range(len(listing))] == lines_of(data) == ["G1 X1", "G0"]
@@ -59,13 +59,13 @@ def test_a_changed_line_keeps_its_end_and_its_neighbors() -> None:
     assert changed(listing, 2, "M30").data == b"G1 X1\r\nG0\rM30"
 
 
-def test_the_mark_of_utf_8_stays_before_a_changed_first_line() -> None:
+def test_a_changed_first_line_keeps_the_byte_order_mark_of_utf_8() -> None:
     listing = NcText.read(b"\xef\xbb\xbfG1\n")
     assert listing.text(0) == "G1"
     assert changed(listing, 0, "G0").data == b"\xef\xbb\xbfG0\n"
 
 
-def test_lines_are_inserted_with_the_end_the_file_has() -> None:
+def test_inserted_lines_take_the_line_end_of_the_file() -> None:
     listing = NcText.read(b"A\r\nB")
     assert inserted(listing, 0, "X").data == b"X\r\nA\r\nB"
     assert inserted(listing, 1, "X").data == b"A\r\nX\r\nB"
@@ -73,7 +73,7 @@ def test_lines_are_inserted_with_the_end_the_file_has() -> None:
     assert inserted(NcText(), 0, "X").data == b"X\n"
 
 
-def test_deleting_ends_with_nothing() -> None:
+def test_deleting_every_line_leaves_nothing() -> None:
     listing = deleted(NcText.read(b"A\nB\n"), 0)
     assert listing.data == b"B\n"
     assert deleted(deleted(listing, 0), 0).data == b""
@@ -84,19 +84,19 @@ def test_undo_and_redo_go_through_every_state() -> None:
     states.append(changed(states[-1], 1, "X"))
     states.append(inserted(states[-1], 0, "Y"))
     states.append(deleted(states[-1], 3))
-    back = states[-1]
+    text = states[-1]
     for state in reversed(states[:-1]):
-        back = back.undone()
-        assert back.lines == state.lines
-    assert not back.unsaved
-    assert back.undone() is back
+        text = text.undone()
+        assert text.lines == state.lines
+    assert not text.unsaved
+    assert text.undone() is text
     for state in states[1:]:
-        back = back.redone()
-        assert back.lines == state.lines
-    assert back.redone() is back
+        text = text.redone()
+        assert text.lines == state.lines
+    assert text.redone() is text
 
 
-def test_saved_is_what_was_written_wherever_undo_goes() -> None:
+def test_undo_and_redo_compare_with_what_was_written() -> None:
     typed = changed(NcText.read(b"A\n"), 0, "B")
     saved = typed.written(typed.data)
     assert not saved.unsaved
@@ -105,7 +105,7 @@ def test_saved_is_what_was_written_wherever_undo_goes() -> None:
     assert changed(saved.undone(), 0, "B").unsaved
 
 
-def test_what_an_encoding_cannot_hold_is_known() -> None:
+def test_a_text_knows_what_its_encoding_cannot_hold() -> None:
     assert not NcText.read(b"(\xe9)\n").takes("\u2192")
     assert NcText.read(b"G1\n").takes("\u2192")
 
@@ -125,13 +125,13 @@ def test_which_files_are_nc_programs(name: str, text: str, nc: bool, tmp_path: P
     assert is_nc(tmp_path / name) is nc
 
 
-def test_what_is_no_file_is_no_nc_program(tmp_path: Path) -> None:
+def test_a_folder_or_a_missing_file_is_no_nc_program(tmp_path: Path) -> None:
     assert not is_nc(tmp_path)
     assert not is_nc(tmp_path / "none.nc")
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig"])
-def test_the_mark_of_the_encoding_stays_in_front(encoding: str) -> None:
+def test_edits_keep_the_byte_order_mark_in_front(encoding: str) -> None:
     listing = NcText.read("A\nB\n".encode(encoding))
     first = inserted(listing, 0, "X")
     assert first.data == "X\nA\nB\n".encode(encoding)

@@ -1,4 +1,4 @@
-"""Every form in which a locale is named, through a real pseudo-terminal: what is written is what the terminal takes."""
+"""Every form of a locale name, through a real pseudo-terminal: only characters of its set are written."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.terminal import cutcomp, running
 PROGRAM = cutcomp("--example", "pocket")
 BRAILLE = re.compile("[\u2801-\u28ff]")
 NONE = {"LANG": None}
-"""No variable of the locale at all."""
+"""No locale variable at all."""
 
 
 @pytest.mark.parametrize(
@@ -22,7 +22,7 @@ NONE = {"LANG": None}
         (NONE, "ascii"),
         ({"LANG": "C.UTF-8", "LC_ALL": "C"}, "ascii"),
         ({"LANG": "C.UTF-8", "LC_CTYPE": "POSIX"}, "ascii"),
-        # neither is installed here: Python takes them for C
+        # these two are not installed: Python treats them as C
         ({"LANG": "C", "LC_CTYPE": "de_DE.ISO-8859-1"}, "latin-1"),
         ({"LANG": "C.UTF-8", "LC_ALL": "de_DE@euro"}, "latin-1"),
         ({"LANG": "xx_YY.UTF-8"}, "utf-8"),
@@ -30,7 +30,7 @@ NONE = {"LANG": None}
     ],
     ids=str,
 )
-def test_the_drawing_is_what_the_locale_says(locale: dict[str, str | None], characters: str) -> None:
+def test_the_drawing_uses_the_characters_of_the_locale(locale: dict[str, str | None], characters: str) -> None:
     with running(PROGRAM, environment=locale) as terminal:
         terminal.until("GOUGE none", longest=30.0)
         terminal.read(quiet=0.3)
@@ -63,12 +63,14 @@ def test_a_letter_of_latin_1_is_written_and_read_as_one_byte() -> None:
         ({"LC_CTYPE": "C.UTF-8"}, {"LC_CTYPE": "UTF-8"}, "utf-8"),
         ({"LC_CTYPE": "C.UTF-8", "LANG": "de_DE.ISO-8859-1"}, {}, "iso8859-1"),
         ({"LC_CTYPE": "C.UTF-8", "LANG": "C", "LC_ALL": "C.UTF-8"}, {}, "utf-8"),
-        # a system that does not tell what a program was started with
+        # a system that does not reveal the environment at the start
         ({"LC_CTYPE": "C.UTF-8", "LANG": "C"}, None, "ascii"),
         ({"LC_CTYPE": "C.utf8", "LANG": "en_US.UTF-8"}, None, "utf-8"),
         ({"LC_CTYPE": "UTF-8"}, None, "utf-8"),
         ({"LC_CTYPE": "C.UTF-8", "LANG": "C", "PYTHONCOERCECLOCALE": "0"}, None, "utf-8"),
     ],
 )
-def test_whose_lc_ctype_it_is(environment: dict[str, str], started: dict[str, str] | None, name: str) -> None:
+def test_an_lc_ctype_set_by_python_is_ignored(
+    environment: dict[str, str], started: dict[str, str] | None, name: str
+) -> None:
     assert charset(own(environment, lambda: started)) == name

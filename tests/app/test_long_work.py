@@ -1,4 +1,4 @@
-"""Long work: the status line tells how far it is, Esc stops it, and it can be begun again."""
+"""Long work: the status line shows its progress, Esc stops it, and it can be started again."""
 
 from __future__ import annotations
 
@@ -23,29 +23,29 @@ from tests.app.widget_pilot import Operator, operator
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
-    """Work is long as soon as it has begun."""
+    """Work counts as long as soon as it starts."""
     monkeypatch.setattr(work, "SHOWN_AFTER", 0.0)
     monkeypatch.setattr(work, "STOPS_AFTER", 0.0)
     monkeypatch.setattr("app.work_actions.SHOWN_AFTER", 0.02)
 
 
 class Slow:
-    """Work that is at 40 % until it may go on."""
+    """Work that stays at 40 % until it may go on."""
 
     def __init__(self, monkeypatch, module, name):
         self.real, self.go, self.stopped = getattr(module, name), Event(), False
         monkeypatch.setattr(module, name, self)
 
-    def __call__(self, *about, progress=None):
-        told = progress or about[-1]
+    def __call__(self, *arguments, progress=None):
+        report = progress or arguments[-1]
         while not self.go.is_set():
             try:
-                told(0.4)
+                report(0.4)
             except Stopped:
                 self.stopped = True
                 raise
             sleep(0.005)
-        return self.real(*about) if progress is None else self.real(*about, progress=progress)
+        return self.real(*arguments) if progress is None else self.real(*arguments, progress=progress)
 
 
 def status(user: Operator) -> str:
@@ -53,12 +53,12 @@ def status(user: Operator) -> str:
 
 
 async def seen(user: Operator, text: str) -> None:
-    """Wait until the status line says so."""
+    """Wait until the status line contains this text."""
     while text not in status(user):
         await user.pilot.pause(0.01)
 
 
-async def test_a_long_derivation_tells_how_far_it_is_and_escape_stops_it(monkeypatch):
+async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
         await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
@@ -77,7 +77,7 @@ async def test_a_long_derivation_tells_how_far_it_is_and_escape_stops_it(monkeyp
         assert "stopped" not in str(verdict.border_title)
 
 
-async def test_a_half_typed_number_that_is_given_up_leaves_nothing_uncalculated(monkeypatch):
+async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
         await user.pilot.press("tab", "2", "enter", "down", "4")
@@ -87,7 +87,7 @@ async def test_a_half_typed_number_that_is_given_up_leaves_nothing_uncalculated(
         assert user.app.shown is user.session
 
 
-async def test_a_long_table_is_stopped_and_made_when_it_is_asked_for(monkeypatch):
+async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "lookahead_table")
         await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
@@ -103,7 +103,7 @@ async def test_a_long_table_is_stopped_and_made_when_it_is_asked_for(monkeypatch
 
 @asynccontextmanager
 async def posting(monkeypatch):
-    """An operator before POST NC, which makes the text and is at 40 %."""
+    """An operator at POST NC while the text is being made and is at 40 %."""
     async with operator() as user:
         slow = Slow(monkeypatch, post_module, "nc_text")
         user.app.action_post()
@@ -112,45 +112,45 @@ async def posting(monkeypatch):
         yield user, slow
 
 
-async def test_posting_is_stopped_and_enter_makes_the_text_again(monkeypatch):
-    async with posting(monkeypatch) as (one, slow):
-        await one.press("escape")
+async def test_escape_stops_posting_and_enter_makes_the_text_again(monkeypatch):
+    async with posting(monkeypatch) as (user, slow):
+        await user.press("escape")
         assert slow.stopped
-        # more becomes known of the same program
-        one.screen.show_session(one.session)
-        assert "Stopped. Enter makes the NC text." in str(one.screen.query_one("#post-findings").render())
+        # a later result for the same program arrives
+        user.screen.show_session(user.session)
+        assert "Stopped. Enter makes the NC text." in str(user.screen.query_one("#post-findings").render())
         slow.go.set()
-        await one.press("enter")
-        await one.pilot.pause(0.2)
-        assert isinstance(one.screen, post_module.PostScreen)
-        assert one.screen.made is not None
-        assert "Free:" in status(one)
+        await user.press("enter")
+        await user.pilot.pause(0.2)
+        assert isinstance(user.screen, post_module.PostScreen)
+        assert user.screen.made is not None
+        assert "Free:" in status(user)
 
 
 @pytest.mark.parametrize("typed", ["", "9"])
 async def test_enter_posts_once_the_text_is_made_unless_the_name_changes(monkeypatch, tmp_path, typed):
     monkeypatch.chdir(tmp_path)
-    async with posting(monkeypatch) as (one, slow):
-        await one.press("enter")
-        assert one.prompt == "The NC text is being made and posted then. Esc stops it."
-        await one.press(*typed)
+    async with posting(monkeypatch) as (user, slow):
+        await user.press("enter")
+        assert user.prompt == "The NC text is being made and posted then. Esc stops it."
+        await user.press(*typed)
         slow.go.set()
-        await one.settle()
-        await one.pilot.pause(0.2)
-        await one.settle()
+        await user.settle()
+        await user.pilot.pause(0.2)
+        await user.settle()
         assert [path.suffix for path in tmp_path.iterdir()] == ([] if typed else [".nc"])
 
 
-async def test_the_program_can_end_while_it_makes_an_nc_text(monkeypatch):
+async def test_the_program_can_end_while_an_nc_text_is_made(monkeypatch):
     async with posting(monkeypatch) as (_, slow):
         pass
-    given_up = monotonic() + 5
-    while not slow.stopped and monotonic() < given_up:
+    deadline = monotonic() + 5
+    while not slow.stopped and monotonic() < deadline:
         sleep(0.005)
     assert slow.stopped
 
 
-async def test_a_run_of_a_control_is_stopped_and_says_that_nothing_is_judged(monkeypatch):
+async def test_escape_stops_a_run_of_a_control_and_the_outcome_says_so(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, proof_module, "run")
         user.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))

@@ -1,4 +1,4 @@
-"""A message over the screen leaves nothing of it behind, whatever else changes as it goes."""
+"""A message over the screen leaves no trace, whatever else changes as it disappears."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.terminal import cutcomp, running
 CTRL_L = b"\x0c"
 
 
-async def test_the_screen_is_painted_as_a_whole_once_the_last_message_has_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_the_whole_screen_is_repainted_after_the_last_message(monkeypatch: pytest.MonkeyPatch) -> None:
     program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True) as pilot:
         painted: list[int] = []
@@ -39,7 +39,7 @@ async def test_the_screen_is_painted_as_a_whole_once_the_last_message_has_gone(m
         assert set(painted) == {0}
 
 
-async def test_a_program_that_has_ended_paints_nothing() -> None:
+async def test_an_ended_program_ignores_the_end_of_a_message() -> None:
     program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True):
         later: list[Callable[[], None]] = []
@@ -51,15 +51,15 @@ async def test_a_program_that_has_ended_paints_nothing() -> None:
     later[0]()
 
 
-def test_a_list_that_closes_as_a_message_goes_leaves_nothing_of_it() -> None:
+def test_a_list_closing_with_a_message_leaves_no_trace_of_it() -> None:
     with running(cutcomp("--example", "pocket")) as terminal:
         terminal.until("GOUGE none", longest=30.0)
         for keys, shown in ((b"\x1b[6~\x1b[6~", "of 11"), (b"\x1bOP", "Deleted segment"), (b"\x1b[21~", "FINDINGS ")):
             terminal.send(keys)
             terminal.until(shown)
-        begun = monotonic()
-        while "Deleted segment" in terminal.text and monotonic() - begun < 10.0:
-            # slowly enough that no key is left behind
+        since = monotonic()
+        while "Deleted segment" in terminal.text and monotonic() - since < 10.0:
+            # slowly enough that every key is processed
             terminal.send(b"\x1b[21~")
             terminal.read(quiet=0.4, longest=0.5)
         terminal.read(quiet=2.0)

@@ -1,4 +1,4 @@
-"""The mouse, where it is asked for, and what the settings keep of the looks."""
+"""The mouse, when it is turned on, and the looks kept in the settings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ async def click_at(user: Operator, drawing: Drawing, point: tuple[float, float])
     while drawing.drawn is None:
         await user.pilot.pause(0.01)
     column, row = drawing.drawn.view.cell(point, *drawing.size)
-    # a frame of one row stands above the picture
+    # the frame takes one row above the picture
     await user.pilot.click(drawing, offset=(int(column), int(row) + 1))
     await user.settle()
 
@@ -41,7 +41,7 @@ async def test_a_click_in_the_drawing_goes_to_the_nearest_segment():
         assert user.session.place.segment == 1
 
 
-async def test_a_click_on_the_number_of_a_finding_takes_it_in_hand():
+async def test_a_click_on_the_number_of_a_finding_selects_it():
     async with operator() as user:
         assert isinstance(user.screen, ContourScreen)
         place = user.screen.entries[2].at

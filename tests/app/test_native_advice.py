@@ -1,4 +1,4 @@
-"""Advice on the screens: it follows the verdict once no key has come for a while, and tells what would mend it."""
+"""Advice on the screens: it follows the verdict after a pause in typing and says what would help."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def slot() -> Program:
 
 
 async def advised(user: Operator) -> list[str]:
-    """The texts of all findings once nothing more is looked for."""
+    """The texts of all findings once the search for advice has ended."""
     for _ in range(200):
         table = user.session.lookahead_table
         if table is not None and table.complete:
@@ -42,30 +42,30 @@ async def advised(user: Operator) -> list[str]:
     return [entry.text for entry in user.screen.entries]
 
 
-async def test_the_list_says_which_look_ahead_is_clean_and_enter_goes_to_it():
+async def test_the_list_names_a_clean_look_ahead_and_enter_goes_to_it():
     async with operator("notch", size=(132, 43)) as user:
-        found = await advised(user)
+        findings = await advised(user)
         advice = "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
-        assert advice in found
-        await user.press("f10", *["down"] * found.index(advice), "enter")
+        assert advice in findings
+        await user.press("f10", *["down"] * findings.index(advice), "enter")
         assert (user.at, user.session.place.segment) == ("lookahead", 0)
         assert user.prompt.replace("\n", " ") == advice
         await user.press("3", "enter")
         assert not user.session.derived_block.errors
 
 
-async def test_the_largest_tool_that_fits_is_told_in_the_list_and_on_tool():
+async def test_the_largest_tool_that_fits_is_named_in_the_list_and_on_tool():
     async with operator(slot()) as user:
         fits = "Tool too big; the largest that does not gouge: 0.3318, with look-ahead 1."
-        found = await advised(user)
-        gouges = [text for text in found if text.startswith("GOUGE")]
-        assert found[: len(gouges) + 1] == [*gouges, fits]
+        findings = await advised(user)
+        gouges = [text for text in findings if text.startswith("GOUGE")]
+        assert findings[: len(gouges) + 1] == [*gouges, fits]
         assert "none is clean, F10 says why" in str(user.screen.query_one("#strip").render())
         await user.press("tab")
         assert (user.at, user.prompt) == ("tool", fits)
 
 
-async def test_a_key_ends_the_search_for_what_would_help(monkeypatch):
+async def test_a_key_ends_the_search_for_advice(monkeypatch):
     searches, go = [], Event()
 
     def searching(_, __, table, wanted):

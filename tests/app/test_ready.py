@@ -1,4 +1,4 @@
-"""READY on POST and on the setup sheet stands alone only where nothing is deleted: else the segments stand below it."""
+"""READY on POST and on the setup sheet is followed by the segments that the look-ahead deletes, if any."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ READY_BUT = "READY to post. Know before you run it:"
 
 def program(name: str, lookahead: int, path: PathChoice = PathChoice.CONTROL) -> Program:
     """An example with a look-ahead and a path."""
-    made = load(example(name))
-    blocks = tuple(replace(block, lookahead=Number(float(lookahead))) for block in made.blocks)
-    return replace(made, blocks=blocks, parameters=replace(made.parameters, path=path))
+    example_program = load(example(name))
+    blocks = tuple(replace(block, lookahead=Number(float(lookahead))) for block in example_program.blocks)
+    return replace(example_program, blocks=blocks, parameters=replace(example_program.parameters, path=path))
 
 
-async def said(user: Operator, widget: str) -> str:
-    """What a part of the screen says once everything is worked out."""
+async def text_of(user: Operator, widget: str) -> str:
+    """The text of a widget once all calculations are done."""
     await user.app.workers.wait_for_complete()
     await user.settle()
     return str(user.screen.query_one(widget, Static).content)
@@ -39,21 +39,21 @@ async def said(user: Operator, widget: str) -> str:
         ("flange", 2, PathChoice.CONTROL, ""),
     ],
 )
-async def test_ready_is_said_with_the_segments_that_the_look_ahead_deletes(
+async def test_ready_names_the_segments_that_the_look_ahead_deletes(
     name: str, lookahead: int, path: PathChoice, deleted: str
 ) -> None:
     async with operator(program(name, lookahead, path)) as user:
         user.app.action_post()
         await user.settle()
-        shown = await said(user, "#post-findings")
-        assert "Ready to post." in shown
-        assert [line[line.index("DELETED") :] for line in shown.splitlines() if "DELETED" in line] == (
+        findings = await text_of(user, "#post-findings")
+        assert "Ready to post." in findings
+        assert [line[line.index("DELETED") :] for line in findings.splitlines() if "DELETED" in line] == (
             [f"DELETED block 1 segments {deleted}"] if deleted else []
         )
         await user.press("f8")
         user.app.action_sheet()
         await user.settle()
-        sheet = await said(user, "#sheet-text")
+        sheet = await text_of(user, "#sheet-text")
         numbers = {"9": "SEGMENT 9", "2-4": "SEGMENTS 2, 3, 4"}
         top = [line for line in sheet.split("TOOLS")[0].splitlines() if "DELETED" in line]
         assert top == ([f"  ! Block 1: DELETED BY THE LOOK-AHEAD: {numbers[deleted]}"] if deleted else [])

@@ -1,4 +1,4 @@
-"""Ends that nobody asked for, through a real pty: signals, dropped links, terminals that take nothing."""
+"""Unexpected ends, through a real pty: signals, dropped links, blocked terminals."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.app.test_safety_terminal import PROGRAM
 from tests.terminal import Terminal, running
 
 PATIENCE = 3.0
-"""Seconds within which a program must have ended."""
+"""Seconds within which a program must end."""
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def part(tmp_path: Path) -> Path:
 
 
 def typed(terminal: Terminal) -> None:
-    """One field accepted, one half typed."""
+    """Type one field and accept it, and type half of another."""
     terminal.until("MILL CONTOUR")
     terminal.send(b"7\t")
     terminal.until("undo 1")
@@ -37,27 +37,27 @@ def typed(terminal: Terminal) -> None:
 
 
 def left(part: Path) -> History:
-    """What the journal beside the program holds; there is no lock any more, and nothing else."""
-    assert [one.name for one in part.parent.iterdir()] == [".part.toml.cutcomp-journal"]
-    found = read(part.with_name(".part.toml.cutcomp-journal"))
-    assert found is not None
-    assert isinstance(found.work, History)
-    return found.work
+    """The work in the journal beside the program; no lock and no other file is left."""
+    assert [child.name for child in part.parent.iterdir()] == [".part.toml.cutcomp-journal"]
+    journal = read(part.with_name(".part.toml.cutcomp-journal"))
+    assert journal is not None
+    assert isinstance(journal.work, History)
+    return journal.work
 
 
 def ended(pid: int, longest: float = PATIENCE) -> int:
-    """The exit status of a program whose terminal nobody reads."""
-    begun = time.monotonic()
-    while time.monotonic() - begun < longest:
-        done, code = os.waitpid(pid, os.WNOHANG)
-        if done:
+    """The exit status of a program whose terminal is not read."""
+    since = time.monotonic()
+    while time.monotonic() - since < longest:
+        finished, code = os.waitpid(pid, os.WNOHANG)
+        if finished:
             return os.waitstatus_to_exitcode(code)
         time.sleep(0.01)
     raise AssertionError("still running")
 
 
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT])
-def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) -> None:
+def test_a_signal_ends_the_program_cleanly(part: Path, number: signal.Signals) -> None:
     with running([*PROGRAM, str(part)]) as terminal:
         before = termios.tcgetattr(terminal.fd)
         typed(terminal)
@@ -71,13 +71,13 @@ def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) 
     assert left(part).program.blocks[0].tool == Number(7.0)
 
 
-def test_an_undo_typed_at_the_end_does_not_stop_the_end(part: Path) -> None:
-    """Ctrl+Z means a stop again once the terminal is given back, before the program has ended."""
+def test_ctrl_z_during_the_end_does_not_stop_the_program(part: Path) -> None:
+    """Once the terminal is given back, Ctrl+Z would stop the program before it has ended."""
     with running([*PROGRAM, str(part)]) as terminal:
         typed(terminal)
         os.kill(terminal.pid, signal.SIGTERM)
-        begun = time.monotonic()
-        while (status := terminal.ended()) is None and time.monotonic() - begun < PATIENCE:
+        since = time.monotonic()
+        while (status := terminal.ended()) is None and time.monotonic() - since < PATIENCE:
             with suppress(OSError):
                 terminal.send(b"\x1a")
             terminal.read(quiet=0.0005, longest=0.001)
@@ -85,19 +85,19 @@ def test_an_undo_typed_at_the_end_does_not_stop_the_end(part: Path) -> None:
     assert left(part).program.blocks[0].tool == Number(7.0)
 
 
-def test_a_signal_with_everything_saved_leaves_nothing(part: Path) -> None:
+def test_a_signal_after_a_save_leaves_no_journal(part: Path) -> None:
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
         terminal.send(b"7\t\x13")
         terminal.until("Saved")
         os.kill(terminal.pid, signal.SIGTERM)
         assert terminal.status(PATIENCE) == 143
-    assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
+    assert [child.name for child in part.parent.iterdir()] == ["part.toml"]
     assert load(part).blocks[0].tool == Number(7.0)
 
 
 def drop(terminal: Terminal) -> None:
-    """Close our end of the terminal for good; its number stays taken, for the end of `running`."""
+    """Close our end of the terminal for good; the descriptor stays in use until `running` ends."""
     null = os.open(os.devnull, os.O_RDWR)
     os.dup2(null, terminal.fd)
     os.close(null)
@@ -112,21 +112,21 @@ def test_a_dropped_link_ends_the_program(part: Path) -> None:
 
 
 def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
-    """In a session of its own the program gets no SIGHUP: its input just ends."""
+    """In its own session, the program gets no SIGHUP: its input just ends."""
     with running(["setsid", "--wait", *PROGRAM, str(part)]) as terminal:
         typed(terminal)
-        begun = time.monotonic()
+        since = time.monotonic()
         drop(terminal)
         lock = part.with_name(".part.toml.cutcomp-lock")
-        while lock.exists() and time.monotonic() - begun < PATIENCE:
+        while lock.exists() and time.monotonic() - since < PATIENCE:
             time.sleep(0.01)
     assert left(part).program.blocks[0].tool == Number(7.0)
 
 
 def stall(terminal: Terminal, journal: Path) -> int:
-    """Output is stopped, as by a line that has died; type until the program does nothing with it any more.
+    """Stop the output, as a dead line does, and type until the program no longer reacts.
 
-    Returns how many keys' edits were seen on the disk; how many that are depends on how often the program paints.
+    Returns the number of edits seen on disk, which depends on how often the program paints.
     """
     line = os.open(Path(f"/proc/{terminal.pid}/fd/0").readlink(), os.O_RDWR | os.O_NOCTTY)
     termios.tcflow(line, termios.TCOOFF)
@@ -139,31 +139,31 @@ def stall(terminal: Terminal, journal: Path) -> int:
             if time.monotonic() - since > PATIENCE:
                 return count
             time.sleep(0.01)
-        # time for the picture of this key
+        # time to paint after this key
         time.sleep(0.03)
     raise AssertionError("the terminal took everything")
 
 
-def test_a_terminal_that_takes_nothing_cannot_keep_the_program_alive(part: Path) -> None:
-    """The event loop waits for the terminal for ever: no timer and no callback of it runs any more."""
+def test_a_blocked_terminal_cannot_keep_the_program_alive(part: Path) -> None:
+    """The event loop waits for the terminal forever, so none of its timers and callbacks runs."""
     with running([*PROGRAM, str(part)]) as terminal:
         before = termios.tcgetattr(terminal.fd)
         terminal.until("MILL CONTOUR")
         terminal.send(b"\t")
-        kept = stall(terminal, part.with_name(".part.toml.cutcomp-journal"))
-        begun = time.monotonic()
+        edits = stall(terminal, part.with_name(".part.toml.cutcomp-journal"))
+        since = time.monotonic()
         os.kill(terminal.pid, signal.SIGTERM)
         assert ended(terminal.pid, GRACE + PATIENCE) == 143
-        assert time.monotonic() - begun > 1.0, "the loop was not blocked: nothing was tested"
+        assert time.monotonic() - since > 1.0, "the loop was not blocked: nothing was tested"
         assert termios.tcgetattr(terminal.fd) == before
-    found = left(part)
-    assert kept > 5
-    assert found.undo_count == kept
-    assert found.undo_label == "TOOL of START, block 1"
+    history = left(part)
+    assert edits > 5
+    assert history.undo_count == edits
+    assert history.undo_label == "TOOL of START, block 1"
 
 
-def test_a_disk_that_takes_nothing_is_told_and_the_work_goes_on(part: Path) -> None:
-    """No file may grow beyond one kilobyte: the journal stops in the middle of a line."""
+def test_a_full_disk_is_reported_and_work_continues(part: Path) -> None:
+    """No file may exceed one kilobyte, so a write to the journal fails in the middle of a line."""
     limited = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", *PROGRAM, str(part)]
     with running(limited, environment={"PYTHONDONTWRITEBYTECODE": "1"}) as terminal:
         terminal.until("MILL CONTOUR")
@@ -182,7 +182,7 @@ def test_a_disk_that_takes_nothing_is_told_and_the_work_goes_on(part: Path) -> N
     assert len(data) <= 1024
 
 
-def test_two_operators_with_one_file(part: Path) -> None:
+def test_two_operators_of_one_file_both_keep_their_work(part: Path) -> None:
     with running([*PROGRAM, str(part)]) as first:
         first.until("MILL CONTOUR")
         first.send(b"7\t\x13")
@@ -202,8 +202,8 @@ def test_two_operators_with_one_file(part: Path) -> None:
             first.until("TAKEN OVER")
             first.send(b"k")
             first.until("part.mine-")
-            written = time.monotonic() + 10
-            while not (mine := [*part.parent.glob("part.mine-*.toml")]) and time.monotonic() < written:
+            deadline = time.monotonic() + 10
+            while not (mine := [*part.parent.glob("part.mine-*.toml")]) and time.monotonic() < deadline:
                 first.read(quiet=0.05)
     assert load(part).blocks[0].tool == Number(9.0)
     assert load(mine[0]).blocks[0].tool == Number(8.0)

@@ -17,8 +17,8 @@ from tests.terminal import Terminal, cutcomp, running
 PROGRAM = cutcomp()
 
 
-def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
-    """A degree sign from a Latin-1 terminal, and half a letter of UTF-8 before a key."""
+def test_bytes_that_are_not_utf_8_do_not_end_the_program(tmp_path: Path) -> None:
+    """The bytes are a degree sign from a Latin-1 terminal and half a UTF-8 letter before a key."""
     part = tmp_path / "part.toml"
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
@@ -34,29 +34,29 @@ def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("term", ["dumb", ""])
-def test_a_terminal_without_a_cursor_is_refused_with_a_sentence(term: str) -> None:
+def test_a_terminal_without_cursor_addressing_is_refused(term: str) -> None:
     with running(PROGRAM, environment={"TERM": term}) as terminal:
         assert terminal.status() == 2
         assert terminal.text.startswith(f"cutcomp: the terminal says TERM={term}, which cannot place a cursor.")
 
 
-def test_without_a_terminal_there_is_a_sentence() -> None:
-    done = subprocess.run(PROGRAM, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr.startswith("cutcomp: the screens need a terminal")
-    assert "\x1b" not in done.stderr
+def test_a_start_without_a_terminal_is_refused() -> None:
+    result = subprocess.run(PROGRAM, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("cutcomp: the screens need a terminal")
+    assert "\x1b" not in result.stderr
 
 
-def test_errors_into_a_file_are_no_terminal(tmp_path: Path) -> None:
+def test_a_start_with_standard_error_in_a_file_is_refused(tmp_path: Path) -> None:
     """The screens are painted on standard error."""
     with running(["sh", "-c", f"exec {' '.join(PROGRAM)} 2> {tmp_path / 'errors'}"]) as terminal:
         assert terminal.status() == 2
     assert (tmp_path / "errors").read_text().startswith("cutcomp: the screens need a terminal")
 
 
-def test_no_color() -> None:
-    """Cells without a style of their own end the program where colors are filtered out."""
+def test_no_color_does_not_end_the_program() -> None:
+    """Cells without their own style would end the program when colors are filtered out."""
     with running([*PROGRAM, "--example"], environment={"NO_COLOR": "1"}) as terminal:
         terminal.until("GOUGE none")
         terminal.send(b"\x1bOS\x1b[18~\t\t9\r\x1b7")
@@ -67,8 +67,8 @@ def test_no_color() -> None:
 LATIN = {"PYTHONIOENCODING": "latin-1", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C"}
 
 
-def test_a_locale_of_eight_bits_gets_a_drawing_in_ascii() -> None:
-    """Braille would become the text of its escapes, six cells for one."""
+def test_an_eight_bit_locale_gets_an_ascii_drawing() -> None:
+    """Braille would be written as escapes, six cells for one."""
     with running([*PROGRAM, "--example"], environment=LATIN) as terminal:
         terminal.until("GOUGE none")
         terminal.read(quiet=0.5)
@@ -92,7 +92,7 @@ sys.exit(run(Path(sys.argv[1])))
 """
 
 
-def test_a_fault_of_our_own_ends_with_a_status_and_keeps_the_work(tmp_path: Path) -> None:
+def test_an_internal_fault_ends_with_an_error_status_and_keeps_the_work(tmp_path: Path) -> None:
     part = tmp_path / "part.toml"
     with running([sys.executable, "-c", FAULTY, str(part)]) as terminal:
         terminal.until("MILL CONTOUR")
@@ -100,12 +100,12 @@ def test_a_fault_of_our_own_ends_with_a_status_and_keeps_the_work(tmp_path: Path
         terminal.until("undo 1")
         terminal.send(b"\x19")
         assert terminal.status() not in (0, None)
-    assert [one.name for one in tmp_path.iterdir()] == [".part.toml.cutcomp-journal"]
+    assert [child.name for child in tmp_path.iterdir()] == [".part.toml.cutcomp-journal"]
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("Block 1: TOOL 7, was 1.")
 
 
-def test_text_of_a_file_never_moves_the_cursor_of_the_terminal(tmp_path: Path) -> None:
+def test_control_characters_of_a_file_are_left_out(tmp_path: Path) -> None:
     """Control characters in unread text and in the name of the file are left out."""
     part = tmp_path / "pa\x1b[2Jrt.toml"
     part.write_text(
@@ -119,20 +119,20 @@ def test_text_of_a_file_never_moves_the_cursor_of_the_terminal(tmp_path: Path) -
         assert terminal.status() in (0, 1)
         assert "\x1b" not in terminal.text
     part.write_text("format = 2\n")
-    done = subprocess.run([*PROGRAM, "path", str(part)], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert "\x1b" not in done.stderr
-    assert os.linesep in done.stderr
+    result = subprocess.run([*PROGRAM, "path", str(part)], capture_output=True, text=True, check=False)
+    assert result.returncode == 2
+    assert "\x1b" not in result.stderr
+    assert os.linesep in result.stderr
 
 
 def spoilt(terminal: Terminal, text: str) -> None:
-    """Somebody else writes on the screen."""
+    """Another program writes on the screen."""
     terminal.stream.feed(b"\x1b[0m\x1b[2J\x1b[H$ ls\r\npart.nc\r\n$ fg\r\n")
     assert text not in terminal.text
 
 
 def painted_whole(terminal: Terminal) -> None:
-    """Wait until nothing of the first paint is still to come: it would write over what `spoilt` wrote."""
+    """Wait for the end of the first paint, which would overwrite the text of `spoilt`."""
     terminal.until("GOUGE none")
     terminal.until("best 2")
     terminal.read(quiet=1.0)
@@ -145,7 +145,7 @@ def stopped(terminal: Terminal, number: signal.Signals) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGTSTP, signal.SIGSTOP])
-def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: signal.Signals) -> None:
+def test_the_screen_is_repainted_after_a_stop_and_keys_arrive_once(number: signal.Signals) -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
         painted_whole(terminal)
         before = terminal.text.splitlines()[:23]
@@ -159,12 +159,12 @@ def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: 
         terminal.until("12345")
 
 
-def test_a_screen_that_was_written_on_is_painted_again_by_a_key_or_a_size_that_is_the_same() -> None:
+def test_ctrl_l_or_a_resize_signal_repaints_a_spoilt_screen() -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
         painted_whole(terminal)
-        for ask in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
+        for repaint in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
             spoilt(terminal, "GOUGE none")
-            ask()
+            repaint()
             terminal.until("GOUGE none")
             terminal.read(quiet=0.3)
             assert "$ ls" not in terminal.text

@@ -1,4 +1,4 @@
-"""Text out of files never reaches a terminal or an NC file as control characters, wherever it is shown."""
+"""Text from files never reaches a terminal or an NC file as control characters."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from tests.core.program.parts import line, program
 from tests.terminal import cutcomp, running
 
 EVIL = "\x1b]0;a\x07\x1b[2J\u009b5n\x7f\r\u202e[/q])(M30%\u2028"
-"""A title, a cleared screen, a question to the terminal, a reversed line, markup of Textual that it would refuse, an
-end of the comment, a new line."""
+"""A title, a cleared screen, a terminal query, reversed text, invalid Textual markup, the end of a comment, a new
+line."""
 
 
 ESCAPES = ("\x1b]0;", "\x1b[2J")
-"""What a terminal would obey; the program itself sends neither."""
+"""Sequences a terminal would obey; the program itself sends neither."""
 
 
 def unread(form: Form, path: str) -> str:
-    """A table of unread texts with every field of a form that takes a number."""
-    names = [one.name for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    """A table of unread texts for all number fields of a form."""
+    names = [field.name for field in TABLES[form] if field.kind not in (Kind.CHOICE, Kind.TEXT)]
     lines = [f"{name} = {json.dumps(EVIL)}\n" for name in names if name not in ("number", "lookahead")]
     return f"[{path}.unread]\n{''.join(lines)}"
 
@@ -62,10 +62,10 @@ def part(tmp_path: Path) -> Path:
 
 
 def harmless(text: str) -> bool:
-    return all(one.isprintable() for one in text.split("\n"))
+    return all(line.isprintable() for line in text.split("\n"))
 
 
-def test_the_hostile_program_is_one() -> None:
+def test_the_hostile_text_is_a_valid_program() -> None:
     assert loads(HOSTILE, "hostile").blocks[0].segments
     assert not harmless(EVIL)
 
@@ -98,11 +98,11 @@ STEPS = (
     (BACK, "1 block"),
     (b"\x0f", "CUTCOMP"),
 )
-"""Through every screen of a program: what is typed, and what is on the screen then."""
+"""The keys through every screen of a program, and the text that each screen then shows."""
 
 
-def test_every_screen(part: Path) -> None:
-    """What the program sends is looked through for what the file holds."""
+def test_no_screen_sends_control_characters_of_a_file(part: Path) -> None:
+    """The output of the program contains none of the dangerous characters of the file."""
     with running(cutcomp(str(part)), cwd=str(part.parent)) as terminal:
         terminal.until(FORM, longest=60.0)
         for keys, text in STEPS:
@@ -117,7 +117,7 @@ def test_every_screen(part: Path) -> None:
     assert [evil for evil in (*ESCAPES, "\x7f", "\u202e", "\u2028", "\u009b") if evil in sent] == []
 
 
-def test_a_hostile_nc_text(tmp_path: Path) -> None:
+def test_nc_proof_sends_no_control_characters_of_a_file(tmp_path: Path) -> None:
     nc = tmp_path / "c[" / "d]evil.nc"
     nc.parent.mkdir()
     nc.write_text(f"G20\n({EVIL.replace(chr(13), '')})\nM30\n", encoding="utf-8")
@@ -145,31 +145,35 @@ COMMANDS = [
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize("content", [HOSTILE, HOSTILE + f"\nx = {json.dumps(EVIL)}\n", f'x = "{EVIL}"\n'])
-def test_every_command(part: Path, command: list[str], content: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_command_prints_control_characters_of_a_file(
+    part: Path, command: list[str], content: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     part.write_text(content, encoding="utf-8")
     with suppress(SystemExit):
         main([*command, str(part)])
-    told = capsys.readouterr()
-    assert harmless(told.out), told.out
-    assert harmless(told.err), told.err
+    output = capsys.readouterr()
+    assert harmless(output.out), output.out
+    assert harmless(output.err), output.err
 
 
-def test_names_are_comments_in_an_nc_file_and_nothing_else(tmp_path: Path) -> None:
-    """What a name holds cannot end its comment, begin an order, or end the file."""
-    good = Path(tmp_path / "M99 %)(.toml")
+def test_names_appear_only_as_comments_in_an_nc_file(tmp_path: Path) -> None:
+    """A name cannot end its comment, start a command, or end the file."""
+    part = Path(tmp_path / "M99 %)(.toml")
     sides = (line(x_end=x, y_end=y) for x, y in ((30.0, 0.0), (30.0, 30.0), (0.0, 30.0), (0.0, 0.0)))
     square = program(*sides, start={"cutter_comp": CutterComp.ON})
-    save(square, good)
-    text = good.read_text(encoding="utf-8")
-    good.write_text(
+    save(square, part)
+    text = part.read_text(encoding="utf-8")
+    part.write_text(
         text.replace("END MILL", ") G0 Z-9 (MSG, %").replace("[[tool]]", '[setup]\nname = ")M30"\n[[tool]]')
     )
-    done = subprocess.run([sys.executable, "-m", "app", "post", str(good)], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    for row in done.stdout.splitlines():
-        bare, _, comment = row.partition("(")
-        assert "Z-9" not in bare
+    result = subprocess.run(
+        [sys.executable, "-m", "app", "post", str(part)], capture_output=True, text=True, check=False
+    )
+    assert result.returncode == 0, result.stderr
+    for row in result.stdout.splitlines():
+        code, _, comment = row.partition("(")
+        assert "Z-9" not in code
         assert comment.count("(") == 0
         assert comment.count(")") == (1 if comment else 0)
         assert "%" not in comment
-    assert done.stdout.count("M30") - done.stdout.count("]M30") == 1
+    assert result.stdout.count("M30") - result.stdout.count("]M30") == 1

@@ -1,4 +1,4 @@
-"""Only what differs is sent, and the terminal shows what the whole would have made of it."""
+"""Only differences are sent, and the terminal shows the same as if everything were sent."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FORGOTTEN = ("\x1b[?1049h", "\x1b7", "\x1b[2J", "\x1b[3;3H\x1b[K", "wörld\x08",
 
 
 class Watched:
-    """A terminal that gets what is sent, beside one that gets everything."""
+    """A terminal that receives the differences beside one that receives everything."""
 
     def __init__(self, *, erases: bool = True) -> None:
         self.ours, self.whole = (self._screen() for _ in range(2))
@@ -31,7 +31,7 @@ class Watched:
     @staticmethod
     def _screen() -> pyte.Screen:
         screen = pyte.Screen(COLUMNS, ROWS)
-        # as the driver has it: no wrapping at the end of a line
+        # as the driver sets it: no wrapping at the end of a line
         pyte.Stream(screen).feed("\x1b[?7l")
         return screen
 
@@ -47,24 +47,24 @@ class Watched:
         self.whole.resize(rows, columns)
 
     def scribble(self, data: str) -> None:
-        """Somebody else writes."""
+        """Another program writes on the terminal."""
         pyte.Stream(self.ours).feed(data)
         self.shown.forget()
 
     @property
     def alike(self) -> bool:
-        cursors = [(one.cursor.y, one.cursor.x) for one in (self.ours, self.whole)]
+        cursors = [(screen.cursor.y, screen.cursor.x) for screen in (self.ours, self.whole)]
         return seen(self.ours) == seen(self.whole) and cursors[0] == cursors[1]
 
 
 def seen(screen: pyte.Screen) -> list[Any]:
-    """Every cell as it is seen: of a blank, only what a blank shows."""
+    """Every cell as displayed: of a blank, only its background counts."""
     cells = [screen.buffer[y][x] for y in range(screen.lines) for x in range(screen.columns)]
     return [(" ", cell.bg) if cell.data == " " and not (cell.reverse or cell.underscore) else cell for cell in cells]
 
 
 def covering(text: str = " ", style: str = "44", columns: int = COLUMNS, rows: int = ROWS) -> str:
-    """The whole terminal in one style, as Textual sends it."""
+    """The whole terminal filled in one style, as Textual sends it."""
     lines = [f"\x1b[{row + 1};1H\x1b[{style}m{(text * columns)[:columns]}\x1b[0m" for row in range(rows)]
     return "\n".join(lines) + "\x1b[1;1H"
 
@@ -107,7 +107,7 @@ def test_somebody_elses_writing_is_gone_with_the_next_whole_picture(before: str,
     assert watched.alike
 
 
-def test_the_same_again_costs_nothing_but_the_cursors_way() -> None:
+def test_repeating_a_picture_sends_nothing() -> None:
     watched = Watched()
     watched.write(covering("a "))
     assert watched.write(covering("a ")) == ""
@@ -119,19 +119,19 @@ def test_only_cells_that_differ_are_sent() -> None:
     assert watched.write("\x1b[2;1H\x1b[44maaaaaabaaaaa\x1b[0m\x1b[1;1H") == "\x1b[2;7H\x1b[44mb\x1b[H\x1b[0m"
 
 
-def test_a_short_way_is_written_over() -> None:
+def test_a_short_gap_is_written_over() -> None:
     watched = Watched()
     watched.write(covering("a", ""))
     assert watched.write("\x1b[2;1Hbabaaaaaaabb\x1b[1;1H") == "\x1b[2Hbab\x1b[7Cbb\x1b[H"
 
 
-def test_blanks_to_the_end_are_erased() -> None:
+def test_blanks_up_to_the_end_of_a_line_are_erased() -> None:
     watched = Watched()
     watched.write(covering("a"))
     assert watched.write("\x1b[2;1H\x1b[44maa          \x1b[0m\x1b[1;1H") == "\x1b[2;3H\x1b[44m\x1b[K\x1b[H\x1b[0m"
 
 
-def test_where_erasing_leaves_no_color_blanks_are_written() -> None:
+def test_colored_blanks_are_written_when_erasing_leaves_no_color() -> None:
     watched = Watched(erases=False)
     assert "\x1b[K" not in watched.write(covering("a "))
     watched.write(covering("a"))
@@ -140,7 +140,7 @@ def test_where_erasing_leaves_no_color_blanks_are_written() -> None:
 
 
 @pytest.mark.parametrize("data", FORGOTTEN)
-def test_behind_what_is_not_known_everything_is_sent(data: str) -> None:
+def test_everything_is_sent_after_an_unknown_sequence(data: str) -> None:
     watched = Watched()
     watched.write(covering("a"))
     assert watched.write(data) == slim(data)
@@ -150,18 +150,18 @@ def test_behind_what_is_not_known_everything_is_sent(data: str) -> None:
     assert watched.write("\x1b[2;1H\x1b[44maa\x1b[0m\x1b[1;1H") == ""
 
 
-def test_another_size_forgets() -> None:
+def test_a_new_size_forgets_the_picture() -> None:
     watched = Watched()
     watched.write(covering("a"))
     watched.resize(COLUMNS + 2, ROWS + 1)
-    old = covering("b")
-    assert watched.write(old) == slim(old)
+    wrong_size = covering("b")
+    assert watched.write(wrong_size) == slim(wrong_size)
     watched.write(covering("c", columns=COLUMNS + 2, rows=ROWS + 1))
     assert watched.alike
     assert watched.write("\x1b[1;1H\x1b[44mc\x1b[0m\x1b[1;1H") == ""
 
 
-def test_forgotten_in_the_middle_of_a_write_all_is_sent_with_the_next_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_everything_is_sent_after_forgetting_in_the_middle_of_a_write(monkeypatch: pytest.MonkeyPatch) -> None:
     watched = Watched()
     watched.write(covering("a"))
     over = Picture.over

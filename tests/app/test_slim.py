@@ -1,4 +1,4 @@
-"""Fewer bytes, the same cells: whatever is written, a terminal shows what it showed before."""
+"""Fewer bytes, the same cells: the terminal shows the same as with the full output."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ OTHERS = (
 
 
 def shown(data: str) -> list[tuple[Any, ...]]:
-    """Every cell as it is seen: of a blank, only what a blank shows."""
+    """Every cell as displayed: of a blank, only its background counts."""
     screen = pyte.Screen(20, 6)
     pyte.Stream(screen).feed(data)
     cells = [screen.buffer[y][x] for y in range(6) for x in range(20)]
@@ -40,7 +40,7 @@ def _seen(cell: Any) -> tuple[Any, ...]:
 
 
 def painted(pieces: list[tuple[str, str, str]]) -> str:
-    """As Textual writes: a sequence, then a style, a text, and a reset."""
+    """Text as Textual writes it: a sequence, then a style, a text, and a reset."""
     return "".join(f"{other}\x1b[{style}m{text}\x1b[0m" for other, style, text in pieces)
 
 
@@ -77,13 +77,13 @@ def test_nothing_but_styles_is_ever_left_out(data: str) -> None:
         ("plain", "plain"),
     ],
 )
-def test_what_is_sent(data: str, sent: str) -> None:
+def test_redundant_styles_are_left_out(data: str, sent: str) -> None:
     assert slim(data) == sent
 
 
-def test_styles_are_read_and_told_apart() -> None:
-    one = read("1;38;2;1;2;3;48;5;4")
-    assert one == (frozenset({"1"}), "38;2;1;2;3", "48;5;4")
-    assert change(PLAIN, one) == "\x1b[1;38;2;1;2;3;48;5;4m"
-    assert change(one, one) == ""
-    assert change(one, PLAIN) == "\x1b[0m"
+def test_changing_a_style_sends_only_what_differs() -> None:
+    style = read("1;38;2;1;2;3;48;5;4")
+    assert style == (frozenset({"1"}), "38;2;1;2;3", "48;5;4")
+    assert change(PLAIN, style) == "\x1b[1;38;2;1;2;3;48;5;4m"
+    assert change(style, style) == ""
+    assert change(style, PLAIN) == "\x1b[0m"

@@ -1,4 +1,4 @@
-"""Keys that a slow link splits, through a real pseudo-terminal: they act as keys or not at all, and lose no work."""
+"""Keys split by a slow link, through a real pseudo-terminal: they act as keys or not at all, and lose no work."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def square(tmp_path: Path) -> Path:
 
 @contextmanager
 def on_x_start(part: Path, line: Line | None = None) -> Iterator[Terminal]:
-    """The cursor on X START, a number half typed."""
+    """The program with the cursor on X START and a number half typed."""
     with running([*PROGRAM, str(part)]) as inner, relayed(inner, line or Line()) as terminal:
         terminal.until("best", longest=30.0)
         terminal.send(b"\t\t\t\t2.5")
@@ -46,7 +46,7 @@ def split(terminal: Terminal, tail: bytes, seconds: float) -> None:
 
 
 def left_with_work(part: Path) -> None:
-    """A program that is killed with work that was not saved."""
+    """Kill the program while it has unsaved work."""
     with running([*PROGRAM, str(part)]) as terminal:
         terminal.until("best", longest=30.0)
         terminal.send(b"\t7\r")
@@ -56,7 +56,7 @@ def left_with_work(part: Path) -> None:
 
 
 @pytest.mark.parametrize("seconds", [0.15, 0.28])
-def test_a_split_arrow_down_takes_the_number_and_goes_on(square: Path, seconds: float) -> None:
+def test_a_split_arrow_down_takes_the_number_and_moves_on(square: Path, seconds: float) -> None:
     with on_x_start(square) as terminal:
         split(terminal, b"[B", seconds)
         terminal.until("undo 1")
@@ -66,15 +66,15 @@ def test_a_split_arrow_down_takes_the_number_and_goes_on(square: Path, seconds: 
     assert load(square).blocks[0].x_start == Number(2.5)
 
 
-@pytest.mark.parametrize(("tail", "there"), [(b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")])
-def test_a_split_function_key_is_its_softkey(square: Path, tail: bytes, there: str) -> None:
+@pytest.mark.parametrize(("tail", "title"), [(b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")])
+def test_a_split_function_key_presses_its_softkey(square: Path, tail: bytes, title: str) -> None:
     with on_x_start(square) as terminal:
         split(terminal, tail, 0.15)
-        terminal.until(there)
+        terminal.until(title)
 
 
 @pytest.mark.parametrize("tail", [b"[B", b"OS", b"[17~"])
-def test_a_rest_that_comes_later_is_told_and_neither_typed_nor_a_key(square: Path, tail: bytes) -> None:
+def test_a_late_tail_is_reported_and_neither_typed_nor_a_key(square: Path, tail: bytes) -> None:
     with on_x_start(square) as terminal:
         split(terminal, tail, 0.6)
         terminal.until(CAME_TORN)
@@ -85,7 +85,7 @@ def test_a_rest_that_comes_later_is_told_and_neither_typed_nor_a_key(square: Pat
     assert load(square).blocks[0].x_start == Number(3.25)
 
 
-def test_esc_and_a_digit_and_esc_alone_still_work(square: Path) -> None:
+def test_esc_with_a_digit_and_esc_alone_still_work(square: Path) -> None:
     with on_x_start(square) as terminal:
         terminal.send(ESC + b"6")
         terminal.until("IMPORT TABLE")
@@ -105,15 +105,15 @@ def test_a_split_arrow_on_the_question_discards_nothing(square: Path, seconds: f
         split(terminal, b"[D", seconds)
         terminal.read(quiet=1.0)
         assert "Kept as a backup" not in terminal.text
-    # an Esc whose rest is late goes back from the question, which comes again at the next start
+    # an Esc whose tail is late leaves the question, which returns at the next start
     with running([*PROGRAM, str(square)]) as terminal:
         terminal.until("UNSAVED WORK FOUND", longest=30.0)
         terminal.send(b"r")
         terminal.until("Your work is back")
 
 
-def test_a_letter_alone_loses_nothing(square: Path) -> None:
-    """However a key is split: what one that types D by accident discards is kept."""
+def test_d_alone_on_the_question_keeps_a_backup(square: Path) -> None:
+    """Even a D typed by accident keeps the discarded work as a backup."""
     left_with_work(square)
     with running([*PROGRAM, str(square)]) as terminal:
         terminal.until("UNSAVED WORK FOUND")
@@ -122,8 +122,8 @@ def test_a_letter_alone_loses_nothing(square: Path) -> None:
     assert list(square.parent.glob(".square.toml.cutcomp-journal.discarded-*"))
 
 
-def test_keys_over_a_line_whose_bytes_come_apart_by_up_to_300_ms(square: Path) -> None:
-    """Every byte has a delay of its own: no key types anything, and each number goes where it was meant to go."""
+def test_keys_work_over_a_link_with_delays_of_up_to_300_ms(square: Path) -> None:
+    """Each byte has its own delay: no key types anything, and each number goes into its field."""
     line = Line(jitter=0.3, chance=random.Random(7))
     with on_x_start(square, line) as terminal:
         terminal.send(b"\x1b[B3.5\x1b[B-4.5\x1b[A\x1b[A\x1b[15~")

@@ -1,4 +1,4 @@
-"""Stopped and continued in the middle of anything, the screens go on."""
+"""The screens survive a stop and a continue at any moment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.terminal.driver import TerminalDriver
 
 
 class Loop:
-    """An event loop that only notes what it is to do between two tasks."""
+    """An event loop that only records the callbacks for later."""
 
     def __init__(self) -> None:
         self.later: list[Callable[[], None]] = []
@@ -20,7 +20,7 @@ class Loop:
         self.later.append(work)
 
 
-def test_a_signal_in_the_middle_of_a_write_waits_for_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stop_signal_during_a_write_takes_effect_after_it(monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
     monkeypatch.setattr(os, "kill", lambda *_: done.append("stop"))
     monkeypatch.setattr(TerminalDriver, "suspend_application_mode", lambda _: done.append("suspend"))

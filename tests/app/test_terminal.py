@@ -1,4 +1,4 @@
-"""The program in a real pseudo-terminal: keys as terminals send them, bytes no terminal should send, idleness."""
+"""The program in a real pseudo-terminal: keys as terminals send them, invalid bytes, and idleness."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from tests.terminal import Terminal, cutcomp, running
 ROOT = Path(__file__).parents[2]
 ESC = b"\x1b"
 CLOCK = 200
-"""Bytes of a clock that happens to change its minute just then."""
+"""Bytes for a clock that may change its minute meanwhile."""
 TITLES = {4: "PROGRAM PARAMETERS", 5: "PART SETUP", 6: "TOOL SETUP", 7: "zoom", 8: "1 block"}
-"""What stands on the screen after a softkey on SEGMENT."""
+"""The text on the screen after each softkey pressed on SEGMENT."""
 
 
 @contextmanager
 def on_example(folder: Path, name: str = "overrun-square", more: Mapping[str, str] | None = None) -> Iterator[Terminal]:
-    """The program on a copy of an example, its first verdict on the screen."""
+    """The program on a copy of an example, once its first verdict is shown."""
     file = folder / f"{name}.toml"
     shutil.copy(example(name), file)
-    own = {"HOME": str(folder), "XDG_STATE_HOME": str(folder), "XDG_DATA_HOME": str(folder), "PYTHONPATH": str(ROOT)}
-    with running(cutcomp(str(file)), environment={**own, **(more or {})}, cwd=str(folder)) as terminal:
+    base = {"HOME": str(folder), "XDG_STATE_HOME": str(folder), "XDG_DATA_HOME": str(folder), "PYTHONPATH": str(ROOT)}
+    with running(cutcomp(str(file)), environment={**base, **(more or {})}, cwd=str(folder)) as terminal:
         terminal.until("MILL CONTOUR", longest=30.0)
         terminal.until("best", longest=30.0)
         yield terminal
@@ -44,7 +44,7 @@ def function_keys() -> dict[str, tuple[bytes, int]]:
     }
 
 
-def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
+def test_every_sequence_of_a_function_key_presses_its_softkey(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
         for name, (sequence, number) in function_keys().items():
             terminal.send(sequence)
@@ -56,7 +56,7 @@ def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
             terminal.until("SEGMENT >", longest=5.0)
 
 
-def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
+def test_f3_of_xterm_restores_the_calculated_look_ahead(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
         terminal.until("CUTCOMP LOOKAHEAD CAL      2")
         terminal.send(b"\t" * 11 + b"4\r")
@@ -66,7 +66,7 @@ def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
         terminal.until("CUTCOMP LOOKAHEAD CAL      2")
 
 
-def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
+def test_esc_and_a_digit_may_be_typed_slowly(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
         terminal.send(ESC)
         terminal.until("1 to 8 press the softkey now")
@@ -76,7 +76,7 @@ def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("byte", [b"\xb0", b"\xff", b"\xc3(", b"\x80\x81\x82"])
-def test_a_byte_that_is_not_utf_8_ends_nothing(tmp_path: Path, byte: bytes) -> None:
+def test_a_byte_that_is_not_utf_8_does_not_end_the_program(tmp_path: Path, byte: bytes) -> None:
     with on_example(tmp_path) as terminal:
         terminal.send(b"\t\t\t\t7" + byte)
         terminal.read(quiet=0.3)
@@ -92,7 +92,7 @@ def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}, {"TERM": "xterm", "NO_COLOR": "1"}], ids=str)
-def test_letters_differ_from_their_ground_and_the_cursor_from_letters(tmp_path: Path, more: dict[str, str]) -> None:
+def test_letters_and_the_cursor_are_visible(tmp_path: Path, more: dict[str, str]) -> None:
     with on_example(tmp_path, more=more) as terminal:
         terminal.send(b"\t\t\t\t")
         terminal.read(quiet=0.5)
@@ -103,7 +103,7 @@ def test_letters_differ_from_their_ground_and_the_cursor_from_letters(tmp_path: 
         assert (cursor.bg, cursor.reverse) != (label.bg, label.reverse)
 
 
-def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
+def test_ctrl_q_asks_and_discarding_ends_with_status_0(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
         terminal.send(b"\t9\r\x11")
         terminal.until("QUIT?")
@@ -111,10 +111,10 @@ def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
         assert terminal.status() == 0
 
 
-def test_a_file_that_cannot_be_used_is_one_sentence_and_status_2(tmp_path: Path) -> None:
+def test_an_unusable_file_gives_one_sentence_and_status_2(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_text("format = 1\nunits = 'IN'\nshape = 3\n")
-    own = {"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}
-    with running(cutcomp(str(tmp_path / "bad.toml")), environment=own) as terminal:
+    environment = {"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}
+    with running(cutcomp(str(tmp_path / "bad.toml")), environment=environment) as terminal:
         assert terminal.status() == 2
         assert "line 3" in terminal.text
         assert "shape" in terminal.text

@@ -1,4 +1,4 @@
-"""Two operators, one program, through real pseudo-terminals: whoever is killed is asked about the work again."""
+"""Two operators of one program, through real pseudo-terminals: killed work is offered again to its owner."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ PATIENCE = 60.0
 
 @contextmanager
 def operator(part: Path, login: str) -> Iterator[Terminal]:
-    """The program as it runs under a login, with a state folder of its own."""
-    own = part.parent.parent / login
-    environment = {"LOGNAME": login, "XDG_STATE_HOME": str(own), "XDG_CONFIG_HOME": str(own)}
+    """The program run under a login with its own state folder."""
+    state = part.parent.parent / login
+    environment = {"LOGNAME": login, "XDG_STATE_HOME": str(state), "XDG_CONFIG_HOME": str(state)}
     with running([*PROGRAM, part.name], environment=environment, cwd=str(part.parent)) as terminal:
         yield terminal
 
 
 def killed(terminal: Terminal) -> None:
-    """kill -9, waited for: a dead one that nobody has waited for counts as running."""
+    """kill -9 and wait, because a zombie counts as running."""
     os.kill(terminal.pid, signal.SIGKILL)
     terminal.status(PATIENCE)
 
 
 def tool(terminal: Terminal, number: str, undo: int) -> None:
-    """TOOL typed, from wherever the cursor is."""
+    """Type TOOL, wherever the cursor is."""
     terminal.send(b"\x1b[1;5H\t" + number.encode() + b"\t")
     terminal.until(f"undo {undo}", longest=PATIENCE)
 
@@ -47,7 +47,7 @@ def saved(terminal: Terminal) -> None:
     assert terminal.status(PATIENCE) == 0
 
 
-def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(part: Path) -> None:
+def test_anns_work_is_offered_to_bob_and_to_ann_again_after_bob_saves(part: Path) -> None:
     with operator(part, "ann") as ann:
         ann.until("MILL CONTOUR", longest=PATIENCE)
         tool(ann, "7", 1)
@@ -68,25 +68,25 @@ def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(p
 
 
 def saved_over(terminal: Terminal) -> None:
-    """The file was written since the work began: both are kept."""
+    """Save over a file written since the work began; both versions are kept."""
     terminal.send(b"\x13")
     terminal.until("CHANGED MEANWHILE", longest=PATIENCE)
     terminal.send(b"y")
     terminal.until("Saved", longest=PATIENCE)
 
 
-def test_what_was_typed_on_after_a_take_over_is_offered_at_the_next_start(part: Path) -> None:
+def test_edits_typed_after_a_take_over_are_offered_at_the_next_start(part: Path) -> None:
     with operator(part, "ann") as first:
         first.until("MILL CONTOUR", longest=PATIENCE)
         tool(first, "7", 1)
-        typed_on_after_a_take_over(part, first)
+        type_on_after_a_take_over(part, first)
     with operator(part, "ann") as again:
         again.until("UNSAVED WORK FOUND", longest=PATIENCE)
         again.until("2 edits", longest=PATIENCE)
 
 
-def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
-    """By the same login; what the first one typed since is seen by nobody."""
+def type_on_after_a_take_over(part: Path, first: Terminal) -> None:
+    """The same login takes over; nobody sees what the first program types afterwards."""
     with operator(part, "ann") as second:
         second.until("OPEN ALREADY", longest=PATIENCE)
         second.send(b"t")
@@ -102,7 +102,7 @@ def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b'{"user": "a'])
-def test_a_lock_without_content_is_nobodys(part: Path, content: bytes) -> None:
+def test_an_empty_or_torn_lock_is_ignored(part: Path, content: bytes) -> None:
     part.with_name(f".{part.name}.cutcomp-lock").write_bytes(content)
     with operator(part, "ann") as ann:
         ann.until("MILL CONTOUR", longest=PATIENCE)
@@ -110,7 +110,7 @@ def test_a_lock_without_content_is_nobodys(part: Path, content: bytes) -> None:
         assert "OPEN ALREADY" not in ann.text
 
 
-def test_what_may_only_be_looked_at_says_so(part: Path) -> None:
+def test_a_look_only_program_says_so_and_cannot_be_edited(part: Path) -> None:
     with operator(part, "ann") as ann:
         ann.until("MILL CONTOUR", longest=PATIENCE)
         with operator(part, "bob") as bob:

@@ -1,4 +1,4 @@
-"""INCH or MM? is asked once where a part's size looks typed in the other unit; the unit stands large twice."""
+"""INCH or MM? is asked once when a part looks typed in the other unit; the unit is shown large in two places."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ GOUGED = "CUTCOMP LOOKAHEAD 3 does not gouge but leaves 0.9000 uncut."
 
 
 def plate(width: float, height: float, tool: float, unit: Unit = Unit.IN) -> Program:
-    """A rectangle cut outside, and the diameter of the tool."""
+    """A rectangle cut outside with a tool of this diameter."""
     ends = [(0, 0), (0, height), (width, height), (width, 0), (0, 0)]
     lines = tuple(line(x_end=x, y_end=y, feed=9) for x, y in ends[1:])
     return replace(program(*lines), unit=unit, tools=(Tool(1, "END MILL", Number(tool)),))
 
 
 def question(part: Program) -> str:
-    found = unit_question(derive(part))
-    return "" if found is None else sentence(found, part.unit)
+    finding = unit_question(derive(part))
+    return "" if finding is None else sentence(finding, part.unit)
 
 
-def test_a_tool_of_more_than_half_the_smaller_side_asks_for_the_unit() -> None:
+def test_a_tool_larger_than_half_the_smaller_side_asks_for_the_unit() -> None:
     assert question(plate(4, 0.9, 0.5)) == f"INCH or MM? {LARGE}"
     assert question(plate(4, 1.0, 0.5)) == ""
 
 
 @pytest.mark.parametrize(
-    ("part", "said"),
+    ("part", "text"),
     [
         (plate(0.24, 0.2, 0.01), "INCH or MM? The part is only 0.2400 by 0.2000. The program is in INCH."),
         (plate(0.26, 0.2, 0.01), ""),
@@ -52,14 +52,14 @@ def test_a_tool_of_more_than_half_the_smaller_side_asks_for_the_unit() -> None:
         (plate(6.1, 4, 1, Unit.MM), ""),
     ],
 )
-def test_a_part_that_is_small_as_a_whole_asks_for_the_unit(part: Program, said: str) -> None:
-    assert question(part) == said
+def test_a_very_small_part_asks_for_the_unit(part: Program, text: str) -> None:
+    assert question(part) == text
 
 
-def test_an_open_contour_and_one_half_typed_ask_nothing() -> None:
-    whole = plate(0.2, 0.2, 0.5)
-    block = whole.blocks[0]
-    assert question(replace(whole, blocks=(replace(block, segments=block.segments[:-1]),))) == ""
+def test_an_open_contour_asks_nothing() -> None:
+    closed = plate(0.2, 0.2, 0.5)
+    block = closed.blocks[0]
+    assert question(replace(closed, blocks=(replace(block, segments=block.segments[:-1]),))) == ""
 
 
 async def test_the_form_asks_once() -> None:
@@ -71,13 +71,13 @@ async def test_the_form_asks_once() -> None:
         assert "INCH or MM?" not in user.prompt
 
 
-async def test_posting_asks_once_and_goes_on() -> None:
+async def test_posting_asks_once_and_continues() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
         user.app.action_post()
         await user.settle()
-        asked = user.app.screen
-        assert isinstance(asked, Question)
-        assert asked.lines == (f"INCH or MM? {LARGE}",)
+        question_screen = user.app.screen
+        assert isinstance(question_screen, Question)
+        assert question_screen.lines == (f"INCH or MM? {LARGE}",)
         await user.pilot.press("i")
         await user.settle()
         assert isinstance(user.app.screen, PostScreen)
@@ -87,7 +87,7 @@ async def test_posting_asks_once_and_goes_on() -> None:
         assert isinstance(user.app.screen, PostScreen)
 
 
-async def test_the_other_unit_leads_to_where_it_is_changed() -> None:
+async def test_choosing_the_other_unit_opens_program_parameters() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
         user.app.action_post()
         await user.settle()
@@ -96,7 +96,7 @@ async def test_the_other_unit_leads_to_where_it_is_changed() -> None:
         assert isinstance(user.app.screen, ParametersScreen)
 
 
-async def test_going_back_asks_again() -> None:
+async def test_escape_repeats_the_question_at_the_next_post() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
         for _ in range(2):
             user.app.action_post()
@@ -106,7 +106,7 @@ async def test_going_back_asks_again() -> None:
             await user.settle()
 
 
-async def test_a_usual_part_is_posted_without_a_question() -> None:
+async def test_an_ordinary_part_is_posted_without_a_question() -> None:
     async with operator(plate(4, 3, 0.5)) as user:
         user.app.action_post()
         await user.settle()
@@ -114,7 +114,7 @@ async def test_a_usual_part_is_posted_without_a_question() -> None:
 
 
 @pytest.mark.parametrize(("unit", "word"), [(Unit.IN, "I N C H"), (Unit.MM, "M M")])
-async def test_the_unit_stands_large_where_a_program_begins_and_where_it_is_posted(unit: Unit, word: str) -> None:
+async def test_the_unit_is_shown_large_on_a_new_program_and_on_post(unit: Unit, word: str) -> None:
     async with operator(Program(unit=unit, blocks=(Block(),))) as user:
         units = user.screen.query_one("#units", Label)
         assert word in str(units.content)
@@ -126,21 +126,21 @@ async def test_the_unit_stands_large_where_a_program_begins_and_where_it_is_post
         assert str(user.screen.query_one(".head-unit", Label).content) == word
 
 
-def test_the_command_asks_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_post_command_warns_about_the_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     save(plate(4, 0.9, 0.5), tmp_path / "part.toml")
     main(["post", str(tmp_path / "part.toml")])
     assert f"warning: INCH or MM? {LARGE}" in capsys.readouterr().err
 
 
-def test_a_refusal_names_its_block_and_the_largest_tool(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_refusal_names_its_block_and_a_clean_look_ahead(capsys: pytest.CaptureFixture[str]) -> None:
     for control in ([], ["--control", "linuxcnc"]):
         assert main(["post", str(example_path("notch")), *control]) == 1
-        said = capsys.readouterr().err
-        assert "nothing was posted. Block 1, segment 4: GOUGE 0.2500 deep" in said
-        assert f"Block 1: {GOUGED}" in said
+        err = capsys.readouterr().err
+        assert "nothing was posted. Block 1, segment 4: GOUGE 0.2500 deep" in err
+        assert f"Block 1: {GOUGED}" in err
 
 
-async def test_the_post_screen_names_the_lookahead_that_is_clean() -> None:
+async def test_the_post_screen_names_the_clean_look_ahead() -> None:
     async with operator("notch") as user:
         user.app.action_post()
         await user.settle()
@@ -149,23 +149,23 @@ async def test_the_post_screen_names_the_lookahead_that_is_clean() -> None:
         assert f"Block 1: {GOUGED}" in str(user.screen.query_one("#post-findings", Static).content)
 
 
-def test_the_sheet_names_the_lookahead_that_is_clean_and_asks_for_the_unit() -> None:
+def test_the_sheet_names_the_clean_look_ahead_and_asks_for_the_unit() -> None:
     notch = derive(load(example_path("notch")))
     for write in (sheet_text, sheet_page):
-        said = " ".join(write(notch, name="notch", day="").split())
-        assert f"Block 1: {GOUGED}" in said.replace("! ", "")
-    asked = sheet_text(derive(plate(4, 0.9, 0.5)), name="plate", day="")
-    assert "INCH or MM? The tool is 0.5000 across" in asked
-    assert "READY to post. Know before you run it:" in asked
+        text = " ".join(write(notch, name="notch", day="").split())
+        assert f"Block 1: {GOUGED}" in text.replace("! ", "")
+    sheet = sheet_text(derive(plate(4, 0.9, 0.5)), name="plate", day="")
+    assert "INCH or MM? The tool is 0.5000 across" in sheet
+    assert "READY to post. Know before you run it:" in sheet
 
 
-def test_where_no_lookahead_is_clean_the_largest_tool_is_named_rounded_down() -> None:
+def test_the_largest_tool_is_named_rounded_down_when_no_look_ahead_is_clean() -> None:
     """A slot 10 mm wide in an inch program: 0.3937 is clean, 0.3938 is not."""
     ends = [(0.0, 0.0), (10 / 25.4, 0.0), (10 / 25.4, 2.0)]
     sides = (line(x_end=x, y_end=y, feed=9) for x, y in ends)
     slot = program(*sides, start={"cutter_comp": CutterComp.LEFT, "x_start": Number(0.0), "y_start": Number(2.0)})
     parameters = replace(slot.parameters, blend_offset=Number(0.0))
     part = replace(slot, unit=Unit.IN, parameters=parameters, tools=(Tool(1, "END MILL", Number(0.5)),))
-    found = remedy_for_gouge(derive(part).block(1), part)
-    assert found is not None
-    assert sentence(found, Unit.IN) == "Block 1: the tool is too big; the largest that does not gouge: 0.3937."
+    remedy = remedy_for_gouge(derive(part).block(1), part)
+    assert remedy is not None
+    assert sentence(remedy, Unit.IN) == "Block 1: the tool is too big; the largest that does not gouge: 0.3937."

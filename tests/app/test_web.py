@@ -1,4 +1,4 @@
-"""Which addresses are served, and who is let in."""
+"""The addresses that are served, and who may connect."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.cli.web import adapted, address, command, is_local, knows, refusal, wel
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
-def test_this_machines_own_addresses(host: str) -> None:
+def test_addresses_of_this_machine_are_served(host: str) -> None:
     assert is_local(host)
     assert refusal(host, allow_network=False) == ""
 
@@ -28,15 +28,15 @@ def test_other_addresses_are_refused_until_allowed(host: str, capsys: pytest.Cap
 
 
 @pytest.mark.parametrize("port", ["99999", "65536", "0", "-1", "x", "8_0", "²"])
-def test_a_port_that_is_none_is_a_sentence(port: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
+def test_an_invalid_port_is_refused_in_a_sentence(port: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as error:
         main(["serve", f"--port={port}"])
-    assert ended.value.code == 2
+    assert error.value.code == 2
     assert f"{port} is no port; ports go from 1 to 65535." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
-    ("fault", "told"),
+    ("fault", "reason"),
     [
         (OSError(errno.EADDRINUSE, "error while attempting to bind"), "another program uses this port."),
         (OSError(errno.EADDRNOTAVAIL, "error while attempting to bind"), "this is not an address of this machine."),
@@ -45,35 +45,35 @@ def test_a_port_that_is_none_is_a_sentence(port: str, capsys: pytest.CaptureFixt
         (UnicodeError("label too long"), "no such machine is known."),
     ],
 )
-def test_an_address_that_cannot_be_served_is_a_sentence(
-    fault: Exception, told: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_an_unservable_address_is_refused_in_a_sentence(
+    fault: Exception, reason: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def serve(*_: object) -> None:
         raise fault
 
     monkeypatch.setattr("app.cli.web_server.serve", serve)
     assert main(["serve", "--port", "8123"]) == 2
-    said = capsys.readouterr().err
-    assert f"http://127.0.0.1:8123 cannot be served: {told}" in said
-    assert "Errno" not in said
+    err = capsys.readouterr().err
+    assert f"http://127.0.0.1:8123 cannot be served: {reason}" in err
+    assert "Errno" not in err
 
 
-def test_a_port_that_another_program_listens_on_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_port_in_use_is_refused_in_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         assert main(["serve", "--port", str(other.getsockname()[1])]) == 2
-    said = capsys.readouterr().err
-    assert "another program uses this port. Choose another one with --port." in said
-    assert "Errno" not in said
+    err = capsys.readouterr().err
+    assert "another program uses this port. Choose another one with --port." in err
+    assert "Errno" not in err
 
 
-def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:
+def test_a_file_name_is_one_shell_word_and_not_an_option() -> None:
     words = shlex.split(command(Path("-o; rm $(x) `y`.toml")))
     assert words[-2] == "--"
     assert words[-1].endswith("/-o; rm $(x) `y`.toml")
 
 
 @pytest.mark.parametrize(
-    ("asked", "origin", "let_in"),
+    ("host", "origin", "let_in"),
     [
         ("127.0.0.1:8000", "http://127.0.0.1:8000", True),
         ("localhost:8000", "http://localhost:8000", True),
@@ -87,11 +87,11 @@ def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:
         ("127.0.0.1:8000", "http://[1", False),
     ],
 )
-def test_only_the_served_page_may_connect(asked: str, origin: str, let_in: bool) -> None:
-    assert welcome(asked, origin, "127.0.0.1", 8000) is let_in
+def test_only_the_served_page_may_connect(host: str, origin: str, let_in: bool) -> None:
+    assert welcome(host, origin, "127.0.0.1", 8000) is let_in
 
 
-def test_addresses_as_typed_into_a_browser() -> None:
+def test_the_printed_address_can_be_typed_into_a_browser() -> None:
     assert address("127.0.0.1", 80) == "http://127.0.0.1:80"
     assert address("::1", 8000) == "http://[::1]:8000"
 
@@ -103,20 +103,20 @@ PAGE = """<link
 <div data-session-websocket-url="ws://0.0.0.0:8000/ws"></div></body>"""
 
 
-@pytest.mark.parametrize("asked", ["shop-pc:8000", "192.168.1.5:8000", "[::1]:8000", "localhost:8000"])
-def test_the_page_connects_to_the_address_it_was_asked_for_under(asked: str) -> None:
-    page = adapted(PAGE, "http://0.0.0.0:8000", asked)
-    assert f'"http://{asked}/static/js/textual.js"' in page
-    assert f'"ws://{asked}/ws"' in page
+@pytest.mark.parametrize("host", ["shop-pc:8000", "192.168.1.5:8000", "[::1]:8000", "localhost:8000"])
+def test_the_page_connects_to_the_address_that_was_requested(host: str) -> None:
+    page = adapted(PAGE, "http://0.0.0.0:8000", host)
+    assert f'"http://{host}/static/js/textual.js"' in page
+    assert f'"ws://{host}/ws"' in page
     assert "0.0.0.0" not in page
 
 
-@pytest.mark.parametrize("asked", ["", '"><script>', "a b"])
-def test_what_is_no_address_does_not_get_into_the_page(asked: str) -> None:
-    assert "http://0.0.0.0:8000/static" in adapted(PAGE, "http://0.0.0.0:8000", asked)
+@pytest.mark.parametrize("host", ["", '"><script>', "a b"])
+def test_an_invalid_host_does_not_get_into_the_page(host: str) -> None:
+    assert "http://0.0.0.0:8000/static" in adapted(PAGE, "http://0.0.0.0:8000", host)
 
 
-def test_the_page_asks_no_other_machine_for_anything() -> None:
+def test_the_page_loads_no_fonts_from_another_machine() -> None:
     assert "fonts" not in adapted(PAGE, "http://0.0.0.0:8000", "shop-pc:8000")
 
 
@@ -125,5 +125,5 @@ def test_a_path_without_the_secret_is_refused(path: str) -> None:
     assert not knows(path, "abc")
 
 
-def test_a_path_below_the_secret_is_let_in() -> None:
+def test_a_path_below_the_secret_is_accepted() -> None:
     assert knows("/abc/static/js/textual.js", "abc")

@@ -1,4 +1,4 @@
-"""The document that a name on the command line means."""
+"""The document that a name on the command line opens."""
 
 from __future__ import annotations
 
@@ -36,26 +36,26 @@ def opened(service: DocumentService, name: str) -> Opened[Any]:
     return result
 
 
-def test_a_name_without_suffix_opens_what_save_as_made_of_it(service: DocumentService, folder: Path) -> None:
+def test_a_name_without_suffix_opens_the_existing_toml_file(service: DocumentService, folder: Path) -> None:
     document = opened(service, "pk2").document
     assert document.program == load(folder / "pk2.toml")
     assert document.file.path == Path("pk2.toml")
 
 
 @pytest.mark.usefixtures("folder")
-def test_a_name_without_suffix_that_is_nowhere_becomes_what_save_as_makes_of_it(service: DocumentService) -> None:
+def test_a_new_name_without_suffix_gets_the_toml_suffix(service: DocumentService) -> None:
     result = opened(service, "new")
     assert result.document.file.path == Path("new.toml")
     assert result.notice.text == "new.toml does not exist yet: saving makes it."
 
 
-def test_a_file_that_is_there_keeps_its_name(service: DocumentService, folder: Path) -> None:
+def test_an_existing_file_without_suffix_keeps_its_name(service: DocumentService, folder: Path) -> None:
     (folder / "pk2").write_text(dumps(load(example("notch"))))
     document = opened(service, "pk2").document
     assert (document.file.path, document.program) == (Path("pk2"), load(example("notch")))
 
 
-def test_without_work_the_fault_of_the_file_is_told(service: DocumentService, folder: Path) -> None:
+def test_an_unreadable_file_is_reported_by_name(service: DocumentService, folder: Path) -> None:
     (folder / "pk2.toml").write_bytes(b"no program")
     result = begin(service, Path("pk2.toml"), None)
     assert isinstance(result, Trouble)

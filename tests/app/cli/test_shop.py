@@ -26,7 +26,7 @@ def test_a_sheet_on_standard_output_is_text(part: Path, capsys: pytest.CaptureFi
     assert "PROGRAM            pocket\n" in out
 
 
-def test_a_sheet_with_the_drawing_and_one_that_says_do_not_run(part: Path) -> None:
+def test_an_html_sheet_has_a_drawing_and_a_gouged_one_says_do_not_run(part: Path) -> None:
     assert main(["sheet", str(part), "-o", str(part.with_suffix(".html"))]) == 0
     assert "<svg" in part.with_suffix(".html").read_text()
     assert main(["sheet", str(example("notch")), "-o", str(part.with_suffix(".txt"))]) == 1
@@ -38,29 +38,27 @@ def test_two_diameters_of_tool_0_are_refused(part: Path, capsys: pytest.CaptureF
     assert "tool 0 has two diameters" in capsys.readouterr().err
 
 
-def test_what_cannot_be_read_or_written(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_unreadable_and_unwritable_files_are_one_sentence_each(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sheet", "none.toml"]) == 2
     assert main(["sheet", str(part), "-o", str(part / "x.txt")]) == 2
     assert main(["tools", str(part), "--import", "none.tbl"]) == 2
     assert capsys.readouterr().err.count("cutcomp: ") == 3
 
 
-def test_an_import_that_is_whole(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_import_adds_the_tools_of_a_table(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = part.with_name("tool.tbl")
     table.write_text("T7 P1 D12.7 ;BALL\nT8\n")
     assert main(["tools", str(part), "--import", str(table), "--units", "mm"]) == 0
     assert load(part).tools[-2:] == (Tool(7, "BALL", Number(0.5)), Tool(8))
-    said = capsys.readouterr()
-    assert "line 2, column 1: warning: Tool 8 has no diameter" in said.err
-    assert "T7          0.5000 IN  BALL\n" in said.out
+    output = capsys.readouterr()
+    assert "line 2, column 1: warning: Tool 8 has no diameter" in output.err
+    assert "T7          0.5000 IN  BALL\n" in output.out
 
 
-def test_nothing_is_imported_into_a_program_that_somebody_has_open(
-    part: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_nothing_is_imported_into_a_program_open_elsewhere(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table, before = part.with_name("tool.tbl"), part.read_bytes()
     table.write_text("T7 P1 D.5\n")
-    # a process of another host may always be alive
+    # a process of another host may be alive
     lock = take(part, Owner("bob", "office", 7, "", "2025-03-04T05:00:00+01:00"))
     assert isinstance(lock, Lock)
     assert main(["tools", str(part), "--import", str(table)]) == 2
@@ -79,7 +77,9 @@ def test_an_import_with_a_fault_changes_nothing(part: Path, capsys: pytest.Captu
     assert "line 2, column 4: D,5 is not a word" in capsys.readouterr().err
 
 
-def test_what_is_no_tool_table_is_told_alike_in_a_few_lines(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_and_tools_report_an_invalid_tool_table_alike_in_a_few_lines(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     program, before = part.with_name("a.nc"), part.read_bytes()
     program.write_text("G1 X1.\n" * 75 + "M2\n")
     assert main(["check", str(program), "--control", "linuxcnc", "--tools", str(program)]) == 2
@@ -93,7 +93,9 @@ def test_what_is_no_tool_table_is_told_alike_in_a_few_lines(part: Path, capsys: 
     assert (len(checked.err.splitlines()), last) == (4, f"{program}: 73 more faults.")
 
 
-def test_the_faults_of_a_table_are_told_before_its_warnings(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_faults_of_a_table_are_reported_even_after_many_warnings(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     table = part.with_name("tool.tbl")
     table.write_text("T1\nT2\nT3\nT4\nT7 D,5\n")
     assert main(["tools", str(part), "--import", str(table)]) == 2

@@ -24,7 +24,7 @@ NC = "G20 G90 G17\nG0 X0 Y0\nT1 M6\nM30\n"
         (("proof", "part.nc", "--control", "fanuc", "--tool", "1=.375"), ("NC PROOF", "fanuc", "1=0.375")),
     ],
 )
-def test_the_screens_stand_on_what_was_asked_for(
+def test_the_arguments_choose_the_first_screen(
     arguments: tuple[str, ...], seen: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "part.nc").write_text(NC)
@@ -35,18 +35,18 @@ def test_the_screens_stand_on_what_was_asked_for(
             terminal.until(text, longest=30)
 
 
-def test_a_file_that_is_yet_to_be_made_is_not_called_saved(tmp_path: Path) -> None:
+def test_a_new_file_is_not_called_saved(tmp_path: Path) -> None:
     with running([*PROGRAM, str(tmp_path / "new.toml")]) as terminal:
         terminal.until("saving makes it")
         assert "saved" not in terminal.text.splitlines()[-1]
 
 
-def test_a_program_is_no_nc_file_to_prove(tmp_path: Path) -> None:
+def test_proof_refuses_a_contour_program(tmp_path: Path) -> None:
     part = tmp_path / "part.toml"
     part.write_text(Path("app/examples/pocket.toml").read_text())
-    done = subprocess.run([*PROGRAM, "proof", part], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert "is a program, not an NC file" in done.stderr
+    result = subprocess.run([*PROGRAM, "proof", part], capture_output=True, text=True, check=False)
+    assert result.returncode == 2
+    assert "is a program, not an NC file" in result.stderr
 
 
 def test_the_child_of_a_server_needs_no_terminal() -> None:
@@ -62,9 +62,9 @@ def test_the_child_of_a_server_needs_no_terminal() -> None:
     try:
         data = b""
         while b"MILL CONTOUR" not in data:
-            got = os.read(child.stdout.fileno(), 65536)
-            assert got, data
-            data += got
+            chunk = os.read(child.stdout.fileno(), 65536)
+            assert chunk, data
+            data += chunk
     finally:
         child.send_signal(signal.SIGTERM)
         child.stdin.close()
@@ -72,7 +72,7 @@ def test_the_child_of_a_server_needs_no_terminal() -> None:
         child.wait(10)
 
 
-def test_clicks_act_where_the_mouse_is_asked_for_and_are_the_terminal_s_again_by_the_palette() -> None:
+def test_the_mouse_option_takes_clicks_and_the_palette_releases_them() -> None:
     with running([*PROGRAM, "--example", "pocket", "--mouse"]) as terminal:
         terminal.until("of 11", longest=30)
         terminal.read(quiet=0.5)

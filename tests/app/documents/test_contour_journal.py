@@ -1,4 +1,4 @@
-"""Edits of a contour program as values for JSON: small, and read back as strictly as a program file."""
+"""Edits of a contour program as JSON values: small, and read back as strictly as a program file."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_one_field_is_one_small_record() -> None:
     assert delta(PART, edited) == {"block": [0, {}, [1, 1, [["LINE", {"y_end": 2.5}]]]]}
 
 
-def test_a_blank_and_an_unreadable_text() -> None:
+def test_a_blank_and_an_unreadable_text_are_recorded() -> None:
     blank = type_field(PART, FormPlace(1), "x_start", None)
     unread = type_field(PART, FormPlace(1), "x_start", Unread("2..5", "two points"))
     assert isinstance(blank, Program)
@@ -46,7 +46,7 @@ def test_a_blank_and_an_unreadable_text() -> None:
     assert delta(PART, unread) == {"block": [0, {"x_start": ["2..5", "two points"]}, [3, 0, []]]}
 
 
-def test_segments_in_and_out() -> None:
+def test_an_inserted_and_a_deleted_segment_are_recorded() -> None:
     longer = insert_segment(PART, FormPlace(1, 2), LineSegment())
     shorter = delete_segment(PART, FormPlace(1, 1))
     assert isinstance(longer, Program)
@@ -86,30 +86,30 @@ def test_segments_in_and_out() -> None:
         {"blocks": [0, 1, [[{}]]]},
     ],
 )
-def test_what_is_no_difference_is_refused(values: object) -> None:
+def test_an_invalid_difference_is_refused(values: object) -> None:
     with pytest.raises(DamagedError):
         applied(PART, values)
 
 
-def test_a_thousand_segments_share_all_but_one() -> None:
+def test_applying_an_edit_shares_the_unchanged_segments() -> None:
     long = program(*(line(x_end=float(number)) for number in range(1000)))
     edited = type_field(long, FormPlace(1, 500), "x_end", Number(0.5))
     assert isinstance(edited, Program)
-    again = applied(long, delta(long, edited))
-    assert again == edited
-    shared = zip(again.blocks[0].segments, long.blocks[0].segments, strict=True)
-    assert sum(one is other for one, other in shared) == 999
+    result = applied(long, delta(long, edited))
+    assert result == edited
+    shared = zip(result.blocks[0].segments, long.blocks[0].segments, strict=True)
+    assert sum(segment is other for segment, other in shared) == 999
     assert len(json.dumps(delta(long, edited))) < 80
 
 
-def test_units_change_everything() -> None:
+def test_a_change_of_unit_is_one_small_record() -> None:
     inch = replace(PART, unit=Unit.IN)
     assert PART.unit is Unit.MM
     assert delta(PART, inch) == {"unit": "IN"}
     assert applied(PART, {"unit": "IN"}) == inch
 
 
-def test_a_long_history_begins_a_journal_with_its_last_edits() -> None:
+def test_a_journal_of_a_long_history_begins_with_its_last_edits() -> None:
     history = History(PART)
     for number in range(MAX_WHOLE_EDITS + 9):
         edited = type_field(history.program, FormPlace(1, 2), "y_end", Number(float(number)))

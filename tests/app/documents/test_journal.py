@@ -102,15 +102,15 @@ steps = st.lists(st.one_of(st.floats(-9, 9).map(typed), st.just(History.undo), s
 
 @settings(max_examples=60, derandomize=True, deadline=None)
 @given(steps)
-def test_any_edits_are_read_back(edits: list[EditStep]) -> None:
-    data, history = journal(*edits)
+def test_any_edits_come_back(made: list[EditStep]) -> None:
+    data, history = journal(*made)
     assert read(data).work == history
     assert read(whole(history)).work == history
 
 
 @settings(max_examples=40, derandomize=True, deadline=None)
 @given(steps, steps)
-def test_several_edits_of_one_key_are_read_back_or_start_a_new_journal(
+def test_several_edits_in_one_key_come_back_or_begin_a_journal_anew(
     before: list[EditStep], key: list[EditStep]
 ) -> None:
     data, old = journal(*before)
@@ -121,7 +121,7 @@ def test_several_edits_of_one_key_are_read_back_or_start_a_new_journal(
 
 @settings(max_examples=15, derandomize=True, deadline=None)
 @given(programs, programs)
-def test_any_program_is_read_back(first: Program, second: Program) -> None:
+def test_any_program_comes_back(first: Program, second: Program) -> None:
     history = History(first).do(second, "everything")
     assert read(whole(history)).work == history
 
@@ -143,13 +143,13 @@ def test_a_journal_cut_anywhere_yields_its_whole_lines() -> None:
 
 @settings(max_examples=200, derandomize=True, deadline=None)
 @given(st.data())
-def test_a_wrong_byte_is_never_accepted(draws: st.DataObject) -> None:
+def test_a_wrong_byte_is_never_taken_for_a_right_one(draws: st.DataObject) -> None:
     data, history = journal(*STEPS)
     at = draws.draw(st.integers(0, len(data) - 1))
-    byte = draws.draw(st.integers(0, 255).filter(lambda value: value != data[at]))
-    result = read_journal(data[:at] + bytes([byte]) + data[at + 1 :])
+    byte = draws.draw(st.integers(0, 255).filter(lambda one: one != data[at]))
+    found = read_journal(data[:at] + bytes([byte]) + data[at + 1 :])
     before = data[: data.rfind(b"\n", 0, at) + 1]
-    assert result is None or result.work == (read(before).work if before else history)
+    assert found is None or found.work == (read(before).work if before else history)
 
 
 def test_a_damaged_middle_is_reported_and_a_torn_end_is_not() -> None:
@@ -204,7 +204,7 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
 
 @settings(derandomize=True, deadline=None)
 @given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00", b"\xef\xbb\xbfA\n"]))
-def test_any_edits_of_an_nc_text_are_read_back(work: list[tuple[str, int, str]], content: bytes) -> None:
+def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], content: bytes) -> None:
     text = NcText.read(content)
     data = lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]
     for kind, row, typed_text in work:
@@ -213,12 +213,12 @@ def test_any_edits_of_an_nc_text_are_read_back(work: list[tuple[str, int, str]],
         assert records is not None
         data += lines(continuing(records, (row,), TIME), _sum(data))[0]
     for written in (data, lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]):
-        result = read(written)
-        assert not result.damaged
-        assert isinstance(result.work, NcText)
-        assert (result.work.lines, result.work.encoding) == (text.lines, text.encoding)
-        assert (len(result.work.past), len(result.work.future)) == (len(text.past), len(text.future))
-        assert result.work.unsaved
+        found = read(written)
+        assert not found.damaged
+        assert isinstance(found.work, NcText)
+        assert (found.work.lines, found.work.encoding) == (text.lines, text.encoding)
+        assert (len(found.work.past), len(found.work.future)) == (len(text.past), len(text.future))
+        assert found.work.unsaved
 
 
 def test_differences_between_texts_are_sentences() -> None:

@@ -37,13 +37,13 @@ def records_between(old: History, new: History) -> list[Record]:
     return list(continuing(records, PLACE, TIME))
 
 
-def first() -> list[Record]:
+def first_records() -> list[Record]:
     return list(records_of(History(PART)))
 
 
-def begun(path: Path) -> JournalFile:
+def begun_journal(path: Path) -> JournalFile:
     file = JournalFile(path)
-    file.add(first())
+    file.add(first_records())
     return file
 
 
@@ -56,7 +56,7 @@ def add(file: JournalFile, old: History, step: EditStep) -> History:
 
 def test_every_edit_is_in_the_file_when_add_returns(tmp_path: Path) -> None:
     path, history = tmp_path / "j", History(PART)
-    file = begun(path)
+    file = begun_journal(path)
     for step in STEPS:
         history = add(file, history, step)
         assert read(path.read_bytes()).work == history
@@ -67,13 +67,13 @@ def test_every_edit_is_in_the_file_when_add_returns(tmp_path: Path) -> None:
 def test_an_existing_journal_is_set_aside(tmp_path: Path) -> None:
     path = tmp_path / "j"
     path.write_text("somebody else's")
-    begun(path).remove()
+    begun_journal(path).remove()
     assert [child.read_text() for child in tmp_path.iterdir()] == ["somebody else's"]
 
 
 def test_remove_leaves_the_journal_of_another_program(tmp_path: Path) -> None:
     path = tmp_path / "j"
-    file = begun(path)
+    file = begun_journal(path)
     aside = set_aside(path, "taken")
     path.write_text("another's")
     file.remove()
@@ -83,7 +83,7 @@ def test_remove_leaves_the_journal_of_another_program(tmp_path: Path) -> None:
 
 def test_replacing_a_long_journal_makes_it_shorter(tmp_path: Path) -> None:
     path = tmp_path / "j"
-    file = begun(path)
+    file = begun_journal(path)
     history = History(PART)
     for number in range(50):
         history = add(file, history, typed(float(number)))
@@ -99,7 +99,7 @@ def test_edits_made_on_a_full_disk_are_written_once_there_is_room(
 ) -> None:
     """A partial write is undone; the next edit writes everything."""
     path = tmp_path / "j"
-    file = begun(path)
+    file = begun_journal(path)
     history = add(file, History(PART), typed(2.0))
     before = path.read_bytes()
     real = os.write
@@ -130,7 +130,7 @@ def test_a_full_disk_starts_no_journal(tmp_path: Path, monkeypatch: pytest.Monke
     with monkeypatch.context() as patch:
         patch.setattr(os, "write", full)
         with pytest.raises(OSError, match="No space"):
-            file.add(first())
+            file.add(first_records())
     assert list(tmp_path.iterdir()) == []
     history = add(file, History(PART), typed(2.0))
     assert read((tmp_path / "j").read_bytes()).work == history
@@ -145,7 +145,7 @@ def test_the_journal_of_a_link_lies_beside_the_linked_file(tmp_path: Path) -> No
 
 def test_a_shorter_journal_never_overwrites_another_programs_journal(tmp_path: Path) -> None:
     path = tmp_path / "j"
-    file = begun(path)
+    file = begun_journal(path)
     history = add(file, History(PART), typed(2.0))
     long = set_aside(path, "theirs")
     path.write_text("another's")
@@ -173,7 +173,7 @@ def test_a_journal_has_the_permissions_of_its_program(tmp_path: Path) -> None:
     program.touch()
     program.chmod(0o664)
     file = JournalFile(journal_path(program), program=program)
-    file.add(first())
+    file.add(first_records())
     assert journal_path(program).stat().st_mode & 0o777 == 0o664
 
 
@@ -187,7 +187,7 @@ def test_a_journal_interrupted_at_its_start_is_whole_or_absent(
 ) -> None:
     """This includes replacing a longer journal."""
     path = tmp_path / "j"
-    file = begun(path) if again else JournalFile(path)
+    file = begun_journal(path) if again else JournalFile(path)
 
     def half(handle: int, data: bytes) -> None:
         os.write(handle, data[: len(data) // 2])
@@ -195,19 +195,19 @@ def test_a_journal_interrupted_at_its_start_is_whole_or_absent(
 
     monkeypatch.setattr("app.documents.journal_file.write_all", half)
     with pytest.raises(Killed):
-        file.replace(first()) if again else file.add(first())
+        file.replace(first_records()) if again else file.add(first_records())
     remaining = [child for child in tmp_path.iterdir() if child != new_path(path)]
     assert remaining == ([path] if again else [])
     if again:
         assert read(path.read_bytes()).work == History(PART)
         monkeypatch.undo()
-        begun(tmp_path / "other").replace(first())
-        file.replace(first())
+        begun_journal(tmp_path / "other").replace(first_records())
+        file.replace(first_records())
         assert not new_path(path).exists()
 
 
 def test_a_new_journal_is_private_and_holds_the_edits(tmp_path: Path) -> None:
-    file = begun(tmp_path / "j")
+    file = begun_journal(tmp_path / "j")
     history = add(file, History(PART), typed(2.0))
     assert read((tmp_path / "j").read_bytes()).work == history
     assert file.standing() == tmp_path / "j"
@@ -223,7 +223,7 @@ def test_a_full_disk_leaves_no_half_journal(tmp_path: Path, monkeypatch: pytest.
     with monkeypatch.context() as patch:
         patch.setattr("app.documents.journal_file.write_all", full)
         with pytest.raises(OSError, match="No space"):
-            file.add(first())
+            file.add(first_records())
     assert list(tmp_path.iterdir()) == []
     file.add([])
     assert read((tmp_path / "j").read_bytes()).work == History(PART)
@@ -243,7 +243,7 @@ def test_a_journal_whose_group_cannot_be_set_gives_it_the_permissions_of_others(
 
     monkeypatch.setattr(os, "fchown", refused)
     file = JournalFile(journal_path(program), program=program)
-    file.add(first())
+    file.add(first_records())
     assert journal_path(program).stat().st_mode & 0o777 == 0o644
 
 
@@ -295,7 +295,7 @@ GONE = [
 def test_a_lost_journal_is_noticed(tmp_path: Path, gone: Callable[[Path], None]) -> None:
     path = tmp_path / "shop" / "j"
     path.parent.mkdir()
-    file = begun(path)
+    file = begun_journal(path)
     assert not file.lost()
     gone(path)
     assert file.lost()
@@ -303,7 +303,7 @@ def test_a_lost_journal_is_noticed(tmp_path: Path, gone: Callable[[Path], None])
 
 
 def test_a_journal_set_aside_by_a_colleague_is_not_lost(tmp_path: Path) -> None:
-    file = begun(tmp_path / "j")
+    file = begun_journal(tmp_path / "j")
     set_aside(tmp_path / "j", "theirs")
     assert not file.lost()
 
@@ -322,7 +322,7 @@ def test_a_journal_begun_meanwhile_by_another_program_is_not_overwritten(
     with monkeypatch.context() as patch:
         patch.setattr("app.documents.journal_file.write_all", begun_by_another)
         with pytest.raises(FileExistsError):
-            file.add(first())
+            file.add(first_records())
     assert path.read_text() == "another's"
     file.add([])
     assert file.aside is not None

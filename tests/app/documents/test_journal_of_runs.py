@@ -1,4 +1,4 @@
-"""The journal of what ties segments to each other: relative numbers, TANGENT, parallels, picks."""
+"""The journal of values that connect segments: relative numbers, TANGENT, parallels, picks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from app.documents.contour_journal import altered, difference
 from core.program.model import ArcSegment, Direction, LineSegment, Number, Relative
 
 
-def test_what_ties_segments_comes_back_from_the_journal() -> None:
+def test_values_that_connect_segments_are_read_back_from_the_journal() -> None:
     line = LineSegment(
         x_end=Relative(1.5),
         tangent=True,
@@ -23,5 +23,5 @@ def test_what_ties_segments_comes_back_from_the_journal() -> None:
     )
     arc = ArcSegment(Direction.CCW, x_center=Relative(-2.0), start_angle=Relative(90.0), choice=4096)
     for empty, segment in ((LineSegment(), line), (ArcSegment(), arc)):
-        kept = json.loads(json.dumps(difference(empty, segment)))
-        assert altered(empty, kept) == segment
+        stored = json.loads(json.dumps(difference(empty, segment)))
+        assert altered(empty, stored) == segment

@@ -1,4 +1,4 @@
-"""An NC text and the lines of an editor on it."""
+"""An NC text and the lines of its editor."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def test_an_editor_gives_back_the_lines_it_shows_and_undo_brings_the_file_back(o
     assert edited.undone().redone().lines == edited.lines
 
 
-def test_lines_that_nobody_touched_keep_their_own_ends():
+def test_untouched_lines_keep_their_line_ends():
     text = NcText.read(b"G0 X0\r\nG1 X1\nM30\r\n")
     edited = text.with_texts(("G0 X0", "G1 X2", "M30", ""))
     assert edited.data == b"G0 X0\r\nG1 X2\nM30\r\n"
 
 
-def test_a_mark_of_the_encoding_stays_in_front():
+def test_an_edit_keeps_the_byte_order_mark_in_front():
     text = NcText.read("\ufeffG0 X0\nM30\n".encode())
     assert text.texts == ("G0 X0", "M30", "")
     assert text.with_texts(("G0 X5", "M30", "")).data == "\ufeffG0 X5\nM30\n".encode()

@@ -1,4 +1,4 @@
-"""Names of files as they are typed."""
+"""File names as typed by the operator."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from app.documents.paths import as_program, is_folder, program_named, typed, wit
 LONG = "中" * 100
 
 
-def test_a_home_that_is_nobodys_stays_as_it_is_typed() -> None:
+def test_a_tilde_is_expanded_only_for_an_existing_user() -> None:
     assert typed(" ~ ") == Path.home()
     assert typed("~nobody_at_all/x") == Path("~nobody_at_all/x")
 
 
-def test_a_suffix_where_there_is_none() -> None:
+def test_a_suffix_is_added_only_to_a_name_without_one() -> None:
     assert with_suffix(Path("part"), ".nc") == Path("part.nc")
     assert with_suffix(Path("part.tap"), ".nc") == Path("part.tap")
     assert with_suffix(Path("/"), ".nc") == Path("/")
@@ -27,5 +27,5 @@ def test_a_suffix_where_there_is_none() -> None:
 
 
 @pytest.mark.parametrize("name", ["bracket 1.5", "part.nc", "part.", "part"])
-def test_a_program_ends_in_toml_or_no_list_would_show_it(name: str) -> None:
+def test_every_program_name_ends_in_toml(name: str) -> None:
     assert as_program(Path(name)) == program_named(Path(name)) == Path(f"{name}.toml")

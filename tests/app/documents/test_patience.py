@@ -1,4 +1,4 @@
-"""Folders and files that do not answer keep nobody waiting."""
+"""Hanging folders and files keep nobody waiting."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from app.documents.patience import within
 
 @pytest.fixture
 def never() -> Iterator[Event]:
-    """An event that comes when the test is over."""
+    """An event that is set only after the test."""
     event = Event()
     yield event
     event.set()
 
 
-def test_work_in_time_returns_and_raises_as_it_is() -> None:
+def test_work_done_in_time_returns_or_raises_unchanged() -> None:
     assert within(5.0, lambda: 3) == 3
     with pytest.raises(FileNotFoundError):
         within(5.0, lambda: os.scandir("/nowhere/at/all"))
 
 
-def test_work_that_takes_too_long_is_given_up(never: Event) -> None:
+def test_work_that_takes_too_long_times_out(never: Event) -> None:
     with pytest.raises(TimeoutError, match="no answer"):
         within(0.05, never.wait)

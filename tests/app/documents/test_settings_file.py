@@ -9,7 +9,7 @@ from app.documents.settings import MAX_RECENT_FILES, Settings, SettingsFile, loa
 from core.units import Unit
 
 
-def test_settings_come_back_as_they_were_written(tmp_path):
+def test_settings_are_read_as_they_were_written(tmp_path):
     settings = Settings(
         (str(tmp_path / 'a "b".toml'),), "block", "light", Unit.MM, str(tmp_path), mouse=True, control="fanuc:b"
     )
@@ -18,7 +18,7 @@ def test_settings_come_back_as_they_were_written(tmp_path):
     assert settings.tools_of(tmp_path / 'a "b".nc') == "1=0.5in"
 
 
-def test_the_last_used_file_comes_first_and_old_ones_are_forgotten(tmp_path):
+def test_the_last_used_file_comes_first_and_the_oldest_are_dropped(tmp_path):
     settings = Settings()
     for number in range(MAX_RECENT_FILES + 3):
         settings = settings.using(tmp_path / f"{number}.toml")
@@ -44,11 +44,11 @@ def test_a_file_of_an_earlier_version_is_read():
         "[tools]\nx = 3\n",
     ],
 )
-def test_what_is_of_no_use_is_passed_over(text):
+def test_unusable_settings_are_ignored(text):
     assert parsed(text) == Settings()
 
 
-def test_settings_that_cannot_be_read_are_the_usual_ones_and_say_so(tmp_path):
+def test_unreadable_settings_are_replaced_by_defaults_and_reported(tmp_path):
     (tmp_path / "settings.toml").write_bytes(b"\xff\xfe = [")
     settings, sentence = load_settings(tmp_path / "settings.toml")
     assert settings == Settings()
@@ -56,7 +56,7 @@ def test_settings_that_cannot_be_read_are_the_usual_ones_and_say_so(tmp_path):
     assert load_settings(tmp_path / "none.toml") == (Settings(), "")
 
 
-def test_brackets_without_end_are_no_settings_file(tmp_path):
+def test_endless_brackets_are_refused_as_settings(tmp_path):
     path = tmp_path / "settings.toml"
     path.write_text("a = " + "[" * 50_000)
     assert load_settings(path) == (
@@ -65,7 +65,7 @@ def test_brackets_without_end_are_no_settings_file(tmp_path):
     )
 
 
-def test_only_changes_are_written_and_a_failure_is_told_once(tmp_path):
+def test_only_changes_are_written_and_a_failure_is_reported_once(tmp_path):
     keeper = SettingsFile(tmp_path / "folder" / "settings.toml", Settings())
     assert keeper.keep(Settings()) == ""
     assert not (tmp_path / "folder").exists()

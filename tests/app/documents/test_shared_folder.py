@@ -57,7 +57,7 @@ def shop(tmp_path: Path) -> Path:
     return folder
 
 
-def made(path: Path, user: int, group: int, mode: int) -> os.stat_result:
+def make_file(path: Path, user: int, group: int, mode: int) -> os.stat_result:
     path.write_bytes(b"old")
     os.chown(path, user, group)
     path.chmod(mode)
@@ -72,7 +72,7 @@ def who(path: Path) -> tuple[int, int, int]:
 @root_only
 def test_a_save_by_a_colleague_keeps_owner_group_and_mode(shop: Path) -> None:
     path = shop / "part.toml"
-    made(path, ANN, SHOP, 0o660)
+    make_file(path, ANN, SHOP, 0o660)
 
     def save() -> None:
         assert write_data(path, b"new and longer") == "it stays its owner's"
@@ -86,7 +86,7 @@ def test_a_save_by_a_colleague_keeps_owner_group_and_mode(shop: Path) -> None:
 @root_only
 def test_a_file_of_a_group_the_owner_is_in_is_replaced_and_keeps_the_group(shop: Path) -> None:
     path = shop / "part.toml"
-    before = made(path, BOB, SHOP, 0o640)
+    before = make_file(path, BOB, SHOP, 0o640)
 
     def save() -> None:
         assert write_data(path, b"new") == ""
@@ -99,7 +99,7 @@ def test_a_file_of_a_group_the_owner_is_in_is_replaced_and_keeps_the_group(shop:
 @root_only
 def test_a_file_of_a_group_the_owner_is_not_in_is_written_in_place(shop: Path) -> None:
     path = shop / "part.toml"
-    made(path, BOB, SHOP, 0o660)
+    make_file(path, BOB, SHOP, 0o660)
     shop.chmod(0o777)
 
     def save() -> None:
@@ -113,7 +113,7 @@ def test_a_file_of_a_group_the_owner_is_not_in_is_written_in_place(shop: Path) -
 def test_a_file_of_another_user_in_a_sticky_folder_is_written_in_place(shop: Path) -> None:
     """In a sticky folder, only the owner of a file may replace it."""
     path = shop / "part.toml"
-    made(path, ANN, SHOP, 0o666)
+    make_file(path, ANN, SHOP, 0o666)
     shop.chmod(0o1777)
 
     def save() -> None:
@@ -127,7 +127,7 @@ def test_a_file_of_another_user_in_a_sticky_folder_is_written_in_place(shop: Pat
 @root_only
 def test_a_file_saved_by_root_keeps_its_owner(shop: Path) -> None:
     path = shop / "part.toml"
-    made(path, ANN, SHOP, 0o640)
+    make_file(path, ANN, SHOP, 0o640)
     assert write_data(path, b"new") == ""
     assert who(path) == (ANN, SHOP, 0o640)
 
@@ -135,7 +135,7 @@ def test_a_file_saved_by_root_keeps_its_owner(shop: Path) -> None:
 @root_only
 def test_a_file_the_colleague_may_only_read_is_not_written(shop: Path) -> None:
     path = shop / "part.toml"
-    made(path, ANN, SHOP, 0o640)
+    make_file(path, ANN, SHOP, 0o640)
 
     def save() -> None:
         with pytest.raises(StoreError, match="it is protected"):

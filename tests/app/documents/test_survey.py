@@ -118,8 +118,8 @@ def test_drawings_and_nc_programs_are_listed_after_the_programs(part: Path) -> N
     assert listed == [(part.stem, ""), *others]
 
 
-def test_in_the_folder_of_the_examples_each_is_listed_once() -> None:
-    listed = [each for each in programs_of(examples()) if each.program]
+def test_each_example_is_listed_once_in_the_examples_folder() -> None:
+    listed = [program for program in programs_of(examples()) if program.program]
     assert listed
-    assert all(each.example for each in listed)
-    assert len({each.path for each in listed}) == len(listed)
+    assert all(program.example for program in listed)
+    assert len({program.path for program in listed}) == len(listed)

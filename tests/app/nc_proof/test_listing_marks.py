@@ -13,7 +13,7 @@ class Shown(App[None]):
         yield Listing()
 
 
-async def test_a_line_that_was_painted_before_its_finding_came_is_marked():
+async def test_a_line_painted_before_its_finding_arrives_is_marked():
     async with Shown().run_test() as pilot:
         listing = pilot.app.query_one(Listing)
         listing.load_text("G1\nX1\nX2")

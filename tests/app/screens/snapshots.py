@@ -1,7 +1,7 @@
-"""Pictures of screens: an app walks from one to the next, and each is compared with the one that was looked at.
+"""Pictures of screens: an app goes from one to the next, and each is compared with its approved picture.
 
-After a change that is wanted: `pytest tests/app/screens/test_*snapshots.py --snapshot-update`, then look at each
-picture that has changed.
+After an intended change, run `pytest tests/app/screens/test_*snapshots.py --snapshot-update`, then look at each
+changed picture.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ CALCULATING: Final = frozenset(
 )
 """The groups of workers that calculate; others wait for an answer."""
 FONT: Final = re.compile(r"@font-face \{.*?\}", re.DOTALL)
-"""Where a browser may load the font from, which no picture needs."""
+"""The source of the font for a browser, which no picture needs."""
 
 
 def session_on(start: str | Program) -> Session:
@@ -49,16 +49,16 @@ def app_on(start: str | Program, look: str = "") -> CutcompApp:
 
 
 async def settled(pilot: Pilot[int]) -> None:
-    """Wait for everything that follows in threads."""
-    still = 0
-    while still < 2:
+    """Wait for all calculations in threads."""
+    idle_rounds = 0
+    while idle_rounds < 2:
         await pilot.pause()
         busy = any(worker.group in CALCULATING and not worker.is_finished for worker in pilot.app.workers)
-        still = 0 if busy else still + 1
+        idle_rounds = 0 if busy else idle_rounds + 1
 
 
 async def pressed(pilot: Pilot[int], keys: str) -> None:
-    """Press keys; SEGMENT:FIELD goes there, a quote begins a word that is typed."""
+    """Press keys; SEGMENT:FIELD moves the cursor there, and a quote begins typed text."""
     for key in keys.split():
         segment, colon, field = key.partition(":")
         if colon:
@@ -71,13 +71,13 @@ async def pressed(pilot: Pilot[int], keys: str) -> None:
 
 
 Opened = Callable[[CutcompApp], None]
-"""Brings something before the operator."""
+"""Opens something for the operator."""
 Part = tuple[Opened | None, Mapping[str, str]]
-"""What is opened, and then pictures with the keys that lead to each from the one before."""
+"""What is opened, then the pictures, with the keys that lead to each from the previous one."""
 
 
 def on(start: str | Program, stages: Mapping[str, str]) -> Part:
-    """A walk on the form of another program."""
+    """A sequence of pictures on the form of another program."""
 
     def begin(app: CutcompApp) -> None:
         app._uncover(0)
@@ -87,7 +87,7 @@ def on(start: str | Program, stages: Mapping[str, str]) -> Part:
 
 
 async def differing(app: CutcompApp, size: str, parts: Sequence[Part], snapshot: SnapshotAssertion) -> list[str]:
-    """Walk from picture to picture; the names of those that differ."""
+    """Go from picture to picture; the names of those that differ."""
     wrong = []
     async with app.run_test(size=SIZES[size]) as pilot:
         await settled(pilot)

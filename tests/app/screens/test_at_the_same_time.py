@@ -1,4 +1,4 @@
-"""What comes while something else is going on: a result while the program ends, rows that the cursor has left."""
+"""Events that overlap: a result while the program ends, and rows that the cursor has left."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.session.derivation import derived
 from tests.app.widget_pilot import operator
 
 
-async def test_a_result_that_comes_while_the_program_ends_is_passed_over(monkeypatch):
+async def test_a_result_that_arrives_while_the_program_ends_is_ignored(monkeypatch):
     async with operator("notch") as user:
 
         def late(*arguments: Any) -> Any:
@@ -22,7 +22,7 @@ async def test_a_result_that_comes_while_the_program_ends_is_passed_over(monkeyp
         await user.pilot.press("tab", "tab", "tab", "tab", "5")
 
 
-async def test_the_list_of_segments_opens_on_the_segment_of_the_form_and_stays_there():
+async def test_the_segment_list_opens_on_the_segment_of_the_form_and_stays_there():
     async with operator("pocket") as user:
         await user.press(*["pagedown"] * 4)
         places = []
@@ -33,7 +33,7 @@ async def test_the_list_of_segments_opens_on_the_segment_of_the_form_and_stays_t
         assert user.session.place.segment == 5
 
 
-async def test_a_segment_deleted_in_the_list_leaves_the_cursor_there():
+async def test_deleting_a_segment_in_the_list_keeps_the_cursor_there():
     async with operator("pocket") as user:
         await user.press("f9", *["down"] * 4)
         await user.press("delete")

@@ -1,4 +1,4 @@
-"""The calculator over a form: a case is typed, its answer goes into the field, what was typed stays as it was typed."""
+"""The calculator over a form: a case is typed, its answer goes into the field, and the typed values are kept."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ async def test_a_point_on_a_bolt_circle_goes_into_x_end_and_y_end():
         await user.press("enter")
         assert user.session.block.segments[0].x_end == Number(22.5)
         await user.press("equals_sign", *["down"] * 3, "enter")
-        typed = [each.value for each in user.app.screen.query(Input)]
+        typed = [field.value for field in user.app.screen.query(Input)]
         assert typed == ["10", "20", "2*25", "6", "0", "2"]
         await user.press(*["down"] * 6, "enter", "enter")
         assert user.session.block.segments[0].y_end == Number(41.65063509)
@@ -54,7 +54,7 @@ async def test_the_answer_that_fits_the_field_is_offered_first():
         assert user.app.shown is not user.session
 
 
-async def test_an_angle_takes_the_angle_of_a_triangle_from_two_sides():
+async def test_an_angle_field_takes_the_angle_of_a_triangle_from_two_sides():
     async with operator(part()) as user:
         await at_x_end(user)
         while user.at != "angle":
@@ -65,7 +65,7 @@ async def test_an_angle_takes_the_angle_of_a_triangle_from_two_sides():
         assert user.value("angle") == "45"
 
 
-async def test_what_is_wrong_is_said_below_and_escape_leaves_the_field_as_it_was():
+async def test_the_calculator_explains_errors_and_escape_keeps_the_field_unchanged():
     async with operator(part()) as user:
         await at_x_end(user)
         await user.press("'1 1/", "equals_sign", *["down"] * 2, "enter")
@@ -76,7 +76,7 @@ async def test_what_is_wrong_is_said_below_and_escape_leaves_the_field_as_it_was
         assert (user.at, user.value("x_end")) == ("x_end", "1 1/")
 
 
-async def test_fields_that_take_no_length_have_no_calculator_and_a_text_takes_the_sign():
+async def test_the_equals_sign_opens_no_calculator_on_other_fields():
     async with operator(part()) as user:
         await user.press("equals_sign")
         assert user.prompt == "The calculator works on fields that take a length or an angle."
@@ -85,7 +85,7 @@ async def test_fields_that_take_no_length_have_no_calculator_and_a_text_takes_th
         assert user.session.program.setup.name == "A=B"
 
 
-async def test_the_palette_opens_it_too():
+async def test_the_palette_opens_the_calculator():
     async with operator(part()) as user:
         await at_x_end(user)
         await user.press("ctrl+k")

@@ -1,4 +1,4 @@
-"""The set of characters that a terminal has, or that was chosen, holds for the drawing of every screen."""
+"""The drawings of all screens use the character set of the terminal or the chosen one."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
 
 @pytest.mark.parametrize("action", ["draw", "lookahead", "program", "home"])
-async def test_a_terminal_of_ascii_gets_ascii_on_every_screen(action):
+async def test_an_ascii_terminal_gets_ascii_on_every_screen(action):
     app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, character_sets=("ascii",))
     async with app.run_test(size=(80, 24)) as pilot:
-        one = Operator(app, pilot)
-        await one.settle()
+        user = Operator(app, pilot)
+        await user.settle()
         await app.run_action(f"app.{action}")
-        await one.settle()
+        await user.settle()
         assert {drawing.characters for drawing in app.screen.query(Drawing)} == {"ascii"}
 
 
-async def test_another_set_is_taken_up_at_once_where_it_is_chosen():
+async def test_a_chosen_character_set_applies_at_once():
     async with operator() as user:
         await user.press("f7", "m")
         assert user.screen.query_one("#full-drawing", Drawing).characters == "block"
@@ -46,7 +46,7 @@ async def test_signs_change_with_the_characters_on_the_screen_in_front(action):
 
 
 def _signs(user: Operator) -> set[str]:
-    """The signs on the screen that only the first set of characters has."""
+    """The signs on the screen that belong only to the first character set."""
     shown = [widget for widget in user.screen.walk_children(Widget) if widget.display and not widget.children]
     rows = [row for widget in shown for row in widget.render_lines(Region(0, 0, *widget.size))]
     return {sign for row in rows for sign in row.text} & set("✖▲×✓")

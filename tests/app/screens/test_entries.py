@@ -1,4 +1,4 @@
-"""What is typed wrong stays to be mended, what is missing is asked for, and nothing is taken unasked."""
+"""Wrong input stays to be corrected, missing input is asked for, and nothing is accepted unasked."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from core.program.model import Number
 from tests.app.widget_pilot import operator
 
 
-async def test_a_number_out_of_range_stays_marked_and_forbids_posting():
+async def test_a_number_out_of_range_stays_marked_as_an_error():
     async with operator() as user:
         await user.press(*["down"] * 9, "'-5", "enter")
         assert (user.at, user.value("speed"), user.tag("speed")) == ("speed", "-5", "ERR")
@@ -25,7 +25,7 @@ async def test_a_number_out_of_range_stays_marked_and_forbids_posting():
         assert user.tag("speed") == ""
 
 
-async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setup():
+async def test_an_impossible_speed_stays_marked_on_tool_setup():
     async with operator() as user:
         await user.press("f6", "tab", "tab", "tab")
         assert user.at == "speed@0"
@@ -34,7 +34,7 @@ async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setu
             assert (user.at, user.app.focused.value) == ("speed@0", text)
             assert text in user.prompt
             await user.press("tab")
-            speed = next(each for each in user.screen.query(NumberField) if each.name == "speed@0")
+            speed = next(field for field in user.screen.query(NumberField) if field.name == "speed@0")
             assert speed.styles.color.hex == user.app.theme_variables["c-err"].upper()
             use = str(user.screen.query_one("#tool-use", Static).content)
             assert f"ERR SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
@@ -43,7 +43,7 @@ async def test_a_speed_and_a_feed_that_no_tool_can_have_stay_marked_on_tool_setu
         assert user.session.program.tools[0].speed == Number(3000.0)
 
 
-async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_segments_it_is_about():
+async def test_missing_values_are_asked_for_and_the_verdict_names_the_judged_segments():
     async with operator() as user:
         await user.press("'7", "enter", "tab", "delete", "down", "delete", "enter")
         assert user.session.block.segments[6].y_end is None
@@ -58,14 +58,14 @@ async def test_what_is_still_to_be_typed_is_asked_for_and_the_verdict_names_the_
         ]
 
 
-async def test_the_only_block_stays():
+async def test_the_only_block_cannot_be_deleted():
     async with operator() as user:
         await user.press("f8", "f1")
         assert len(user.session.program.blocks) == 1
         assert user.session.history.undo_count == 0
 
 
-async def test_pasted_text_takes_no_field_and_presses_no_key():
+async def test_pasted_text_fills_no_field_and_presses_no_key():
     async with operator() as user:
         await user.press("tab", "tab", "tab", "tab")
         user.app.post_message(events.Paste("3.5\nf1\n7"))
@@ -76,7 +76,7 @@ async def test_pasted_text_takes_no_field_and_presses_no_key():
 
 
 @pytest.mark.parametrize("text", [" b ", "b\u2028", "\tb"])
-async def test_the_cursor_leaves_fields_whose_text_a_file_has_with_blanks_around_it(text: str):
+async def test_the_cursor_can_leave_fields_whose_text_has_surrounding_blanks(text: str):
     unread = f"[block.unread]\nfinish_tool = {json.dumps(text)}\nx_start = {json.dumps(text)}\n"
     start = loads(f'format = 1\nunits = "IN"\n[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "ON"\n{unread}', "part")
     async with operator(start) as user:

@@ -1,4 +1,4 @@
-"""Few keys: a plate typed from its drawing, counted, posted and run by LinuxCNC's interpreter."""
+"""Few keys: a plate is typed from its drawing, the keys are counted, and LinuxCNC's interpreter runs the result."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ PLATE = (
     "b", "'.5", "enter",
     "'0", "enter",
 )  # fmt: skip
-"""6 x 4 outside, clockwise from (0, 0): two radii, a chamfer, a notch about (3, 4)."""
+"""A 6 x 4 plate cut outside, clockwise from (0, 0): two radii, a chamfer, a notch about (3, 4)."""
 
 
 def new_program() -> Program:
@@ -42,7 +42,7 @@ def new_program() -> Program:
 
 
 def key_presses(keys: tuple[str, ...]) -> list[str]:
-    """A key for every letter of what is typed."""
+    """One key press for each typed letter."""
     presses: list[str] = []
     for key in keys:
         presses += [NAMES.get(letter, letter) for letter in key[1:]] if key.startswith("'") else [key]
@@ -78,12 +78,12 @@ async def test_the_plate_takes_at_most_seventy_keys_and_runs_on_linuxcnc(tmp_pat
     assert ran.accepted, ran.said
     corners = [(x, y) for name, x, y, *_ in ran.moves if name != "STRAIGHT_TRAVERSE"]
     xs, ys = zip(*corners, strict=True)
-    # at X 0 and Y 0 the leads reach farther
+    # at X 0 and Y 0, the leads reach farther
     assert (max(xs), max(ys)) == pytest.approx((6.25, 4.25))
     assert {round(z, 4) for _, _, _, z, *_ in ran.moves if z < 0} >= {-0.1, -0.2, -0.25}
 
 
-async def test_enter_leads_from_field_to_field_that_needs_an_answer():
+async def test_enter_moves_to_the_next_field_that_needs_a_value():
     async with operator(new_program()) as user:
         path = [user.at]
         for keys in (("enter",), ("l", "enter"), ("'0", "enter"), ("'0", "enter"), ("'-.2", "enter")):
@@ -93,13 +93,13 @@ async def test_enter_leads_from_field_to_field_that_needs_an_answer():
         assert user.session.place.segment == 1
 
 
-async def test_enter_on_start_goes_back_to_what_is_missing():
+async def test_enter_on_start_returns_to_the_missing_value():
     async with operator(new_program()) as user:
         await type_keys(user, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
         assert (user.at, user.session.place.segment) == ("x_start", 0)
 
 
-async def test_a_new_line_becomes_another_kind_by_its_letter():
+async def test_a_letter_changes_the_kind_of_a_new_line():
     async with operator(new_program()) as user:
         await type_keys(user, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
         assert "A ARC, B BLEND ARC, C CHAMFER" in user.prompt
@@ -108,13 +108,13 @@ async def test_a_new_line_becomes_another_kind_by_its_letter():
         assert len(user.session.block.segments) == 1
 
 
-async def test_b_and_c_on_segment_put_a_corner_after_it():
+async def test_c_on_segment_inserts_a_chamfer_after_it():
     async with operator() as user:
         await user.press("'5", "enter", "c", "'1", "enter")
         assert isinstance(user.session.block.segments[5], ChamferSegment)
 
 
-async def test_the_tags_say_where_a_number_comes_from():
+async def test_the_tags_show_the_origin_of_a_value():
     async with operator(new_program()) as user:
         assert (user.tag("speed"), user.tag("plunge_feed"), user.tag("coolant")) == ("TOOL", "TOOL", "TOOL")
         await type_keys(user, (*PLATE[:15], "down"))
@@ -122,7 +122,7 @@ async def test_the_tags_say_where_a_number_comes_from():
         assert user.session.derived_block.solved.segments[0].values["x_end"] == Solved(0.0, Origin.SAME)
 
 
-async def test_right_arrow_past_an_empty_segment_adds_no_other():
+async def test_right_arrow_past_an_empty_segment_adds_no_second_one():
     async with operator() as user:
         await user.press("ctrl+end", "right", "pagedown", "pagedown")
         assert len(user.session.block.segments) == 12
@@ -130,7 +130,7 @@ async def test_right_arrow_past_an_empty_segment_adds_no_other():
         assert user.prompt.startswith("Nothing is typed yet in segment 12")
 
 
-async def test_a_new_block_takes_what_the_block_before_has():
+async def test_a_new_block_takes_the_values_of_the_previous_block():
     async with operator() as user:
         await user.press("f8", "f2")
         before, block = user.session.program.blocks
@@ -145,7 +145,7 @@ async def test_a_comma_is_a_decimal_point(typed, value):
         assert user.session.block.segments[0].x_end == Number(value)
 
 
-async def test_a_new_line_that_is_left_empty_is_gone_and_undo_goes_on_before_it():
+async def test_a_new_line_left_empty_is_removed():
     async with operator() as user:
         await user.press("tab", "'1", "enter", "ctrl+end", "right")
         assert user.session.place.segment == 12
@@ -164,7 +164,7 @@ async def test_the_first_segment_of_a_new_block_repeats_the_last_feed():
         assert user.session.block.segments[0].feed == Number(12.0)
 
 
-async def test_del_blanks_coolant_again():
+async def test_del_blanks_coolant():
     async with operator() as user:
         await user.press(*["up"] * 1)
         while user.at != "coolant":

@@ -1,4 +1,4 @@
-"""How the screens of files look: HOME, IMPORT DRAWING, NC PROOF."""
+"""The looks of the file screens: HOME, IMPORT DRAWING, NC PROOF."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ WALKS = {
 
 @pytest.fixture(autouse=True)
 def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Noon of one day; drawings are read in this process."""
+    """Set the time to noon of one day and read drawings in this process."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
     monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
     monkeypatch.setattr("app.screens.import_drawing.Worker", InlineWorker)

@@ -1,4 +1,4 @@
-"""How MILL CONTOUR and the screens around it look, at the sizes and with the colors and signs that terminals have."""
+"""The looks of MILL CONTOUR and the screens around it, with the sizes, colors and signs of terminals."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ WALKS: dict[str, tuple[str, list[Part]]] = {
 
 @pytest.fixture(autouse=True)
 def same_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Noon of one day; nobody looks for what would help, which takes its time."""
+    """Set the time to noon of one day and turn off the search for advice, which takes time."""
     monkeypatch.setattr(CutcompApp, "now", lambda _: NOON)
     monkeypatch.setattr("app.derivation_actions.QUIET", 1000.0)
 

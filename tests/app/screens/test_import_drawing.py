@@ -101,7 +101,7 @@ class Importer(Operator):
         return [[cell.plain.strip() for cell in table.get_row_at(row)] for row in range(table.row_count)]
 
     @property
-    def said(self) -> str:
+    def message(self) -> str:
         prompt = self.importing.query_one(Prompt)
         return f"{prompt.sentence.tone}: {prompt.sentence.text}"
 
@@ -228,8 +228,8 @@ async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
 )
 async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(source, words, tmp_path):
     async with importer(source, tmp_path) as user:
-        await user.until(lambda: words in user.said)
-        assert user.said.startswith(Tone.ERROR)
+        await user.until(lambda: words in user.message)
+        assert user.message.startswith(Tone.ERROR)
         await user.press("f1", "down")
         assert user.importing.listed is None
         await user.press("escape")
@@ -239,7 +239,7 @@ async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(source, wo
 async def test_layers_leaves_out_a_layer_that_is_not_flat(tmp_path):
     slope = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
     async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as user:
-        assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in user.said
+        assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in user.message
         await user.press("f2")
         assert isinstance(user.app.screen, ChooseSeveral)
         await user.press("down", "space", "enter")
@@ -250,8 +250,8 @@ async def test_layers_leaves_out_a_layer_that_is_not_flat(tmp_path):
 async def test_too_many_entities_are_reported_with_count_and_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("core.importing.dxf.MAX_ENTITIES", 3)
     async with importer(dxf(*square(0, 0, 10)), tmp_path) as user:
-        assert "4" in user.said
-        assert "3" in user.said
+        assert "4" in user.message
+        assert "3" in user.message
 
 
 async def test_a_larger_tolerance_joins_an_open_chain(tmp_path):
@@ -293,7 +293,7 @@ async def test_the_branch_question_joins_a_chain_with_the_chosen_way(tmp_path):
         await user.until(lambda: len(user.rows) == 2)
         assert sorted(row[3] for row in user.rows) == ["1", "2"]
         await user.press("down", "b")
-        await user.until(lambda: "does not end at a branch" in user.said or isinstance(user.app.screen, Question))
+        await user.until(lambda: "does not end at a branch" in user.message or isinstance(user.app.screen, Question))
 
 
 async def test_start_and_reverse_change_the_block(tmp_path):
@@ -465,7 +465,7 @@ async def test_escape_leaves_the_screen_while_a_drawing_is_read(tmp_path, monkey
     path.write_bytes(dxf(*square(0, 0, 10)))
     async with opening(path) as user:
         await user.pilot.pause()
-        await user.until(lambda: "Esc stops." in user.said)
+        await user.until(lambda: "Esc stops." in user.message)
         await user.press("escape")
         await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
 

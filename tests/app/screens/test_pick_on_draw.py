@@ -1,4 +1,4 @@
-"""The pick on DRAW: a cross, or typed X and Y, for a run that cannot be calculated from its data alone."""
+"""The pick on DRAW: a cross, or typed X and Y, for a run that its data alone do not determine."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ async def drawn(user: Operator) -> None:
     await user.pilot.pause()
 
 
-async def test_the_form_names_the_key_and_draw_begins_with_the_cross():
+async def test_the_form_names_f7_and_draw_opens_with_the_cross():
     async with operator(program_of(TANGENT_ARC)) as user:
         await user.press("pagedown")
         assert user.prompt.endswith("enter one end, or a center. Or F7: point to the end of segment 1.")
@@ -34,12 +34,12 @@ async def test_the_form_names_the_key_and_draw_begins_with_the_cross():
         assert user.prompt.startswith("Point near the end of segment 1: X 30.000 Y 10.000.")
         await drawn(user)
         assert isinstance(user.screen, DrawScreen)
-        shown = user.screen.drawing.drawn
-        assert shown is not None
-        assert any("+" in row for row in shown.picture.rows)
+        picture = user.screen.drawing.drawn
+        assert picture is not None
+        assert any("+" in row for row in picture.picture.rows)
 
 
-async def test_the_cross_moved_by_arrows_and_taken_calculates_the_run():
+async def test_taking_the_cross_moved_by_arrows_calculates_the_run():
     async with operator(program_of(TANGENT_ARC)) as user:
         await user.press("pagedown", "f7")
         await drawn(user)
@@ -58,7 +58,7 @@ async def test_the_cross_moved_by_arrows_and_taken_calculates_the_run():
         assert user.prompt.startswith("Undone: PICK JOINT of segments 1 to 2.")
 
 
-async def test_a_pick_too_far_away_is_said_and_typed_numbers_mend_it():
+async def test_a_pick_too_far_away_is_refused_until_nearer_numbers_are_typed():
     async with operator(program_of(TANGENT_ARC)) as user:
         await user.press("pagedown", "f7", "x", "'-500", "enter", "'300", "enter")
         assert "pick" in user.prompt
@@ -69,7 +69,7 @@ async def test_a_pick_too_far_away_is_said_and_typed_numbers_mend_it():
         assert (user.session.block.segments[0].pick_x, user.session.block.segments[0].pick_y) == (Number(38), Number(2))
 
 
-async def test_a_pick_between_two_answers_asks_for_a_nearer_one_or_solution():
+async def test_a_pick_between_two_solutions_asks_for_a_nearer_pick_or_solution():
     async with operator(program_of(TWO_ANSWERS)) as user:
         await user.press("pagedown", "f7", "x", "'21", "enter", "'13.5", "enter")
         assert user.prompt == ("2 solutions fit: set the pick nearer to the end of segment 1, or pick one on SOLUTION.")
@@ -84,7 +84,7 @@ async def test_a_pick_between_two_answers_asks_for_a_nearer_one_or_solution():
         assert user.session.derived_block.solved.whole
 
 
-async def test_escape_takes_the_cross_away_first_and_f7_brings_it_back():
+async def test_escape_first_removes_the_cross_and_f7_restores_it():
     async with operator(program_of(TANGENT_ARC)) as user:
         await user.press("pagedown", "f7", "escape")
         assert isinstance(user.screen, DrawScreen)
@@ -95,7 +95,7 @@ async def test_escape_takes_the_cross_away_first_and_f7_brings_it_back():
         assert type(user.screen).__name__ == "ContourScreen"
 
 
-async def test_a_run_that_needs_no_pick_takes_none():
+async def test_a_run_that_needs_no_pick_offers_none():
     async with operator(program_of(case_of(line(angle=30), line(x_end=100, y_end=0, angle=300)))) as user:
         await user.press("pagedown", "f7", "f7")
         assert user.prompt == "This segment needs no pick."

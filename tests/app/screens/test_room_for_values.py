@@ -1,4 +1,4 @@
-"""Every choice, and the START of a segment, can be read whole in its field at 80x24."""
+"""Every choice and the START of a segment are fully readable in their fields at 80x24."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tests.core.program.run_files import program_of
 from tests.core.program.test_calculated_runs import case_of, line
 
 ARROW = 2
-"""Columns that a choice leaves to its arrow."""
+"""Columns reserved for the arrow of a choice."""
 
 
 @pytest.mark.parametrize("keys", [[], ["'1", "enter"], ["'2", "enter"], ["f4"], ["f6"]])
@@ -36,10 +36,10 @@ async def test_the_start_of_a_segment_fits_beside_its_label(x: float, y: float):
 
 
 @pytest.mark.parametrize(("typed", "shown"), [("2500", "2500.000"), ("25000", "25000.0>"), ("16", "16.000")])
-async def test_a_number_without_room_is_never_shown_as_another_one(typed: str, shown: str):
+async def test_a_number_that_does_not_fit_is_never_shown_as_another(typed: str, shown: str):
     async with operator("plate-mm") as user:
         await user.press("f6", "tab", "tab", f"'{typed}", "enter")
-        [field] = [each for each in user.screen.query(NumberField) if each.name == "diameter@0"]
+        [field] = [candidate for candidate in user.screen.query(NumberField) if candidate.name == "diameter@0"]
         assert field.render_line(0).text.strip() == shown
 
 
@@ -47,5 +47,9 @@ async def test_a_metric_feed_fits_into_its_column():
     async with operator("plate-mm") as user:
         await user.press("f6")
         for name, text in (("speed", "20000"), ("feed", "12000.0"), ("plunge_feed", "12000.0")):
-            [field, *_] = [each for each in user.screen.query(NumberField) if (each.name or "").startswith(f"{name}@")]
+            [field, *_] = [
+                candidate
+                for candidate in user.screen.query(NumberField)
+                if (candidate.name or "").startswith(f"{name}@")
+            ]
             assert len(text) <= field.content_size.width, name

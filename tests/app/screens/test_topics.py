@@ -1,4 +1,4 @@
-"""Help is there for every field, fits, and every softkey has twins without a function key."""
+"""Every field has a help topic that fits, with a picture where words are not enough."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from app.screens.topics import TOPICS, topic_of
 from core.program.fields import TABLES, Form, field_of
 
 
-@pytest.mark.parametrize(("form", "name"), [(form, one.name) for form, table in TABLES.items() for one in table])
-def test_every_field_has_a_topic_of_plain_signs_in_56_columns(form: Form, name: str) -> None:
+@pytest.mark.parametrize(("form", "name"), [(form, field.name) for form, table in TABLES.items() for field in table])
+def test_every_field_has_an_ascii_topic_with_a_picture_of_at_most_56_columns(form: Form, name: str) -> None:
     topic = TOPICS[form, name]
     assert topic.words.isascii()
     assert topic.words.endswith(".")
@@ -27,7 +27,7 @@ def test_every_field_has_a_topic_of_plain_signs_in_56_columns(form: Form, name: 
         (Form.PARAMETERS, "blend_offset"),
     ],
 )
-def test_pictures_where_words_are_not_enough(form: Form, name: str) -> None:
+def test_topics_that_need_a_picture_have_one(form: Form, name: str) -> None:
     topic = topic_of(field_of(form, name))
     assert topic is not None
     assert len(topic.picture) >= 3
@@ -37,6 +37,6 @@ def test_the_same_name_on_two_forms_has_two_topics() -> None:
     assert topic_of(field_of(Form.ARC, "radius")) is not topic_of(field_of(Form.BLEND, "radius"))
 
 
-def test_the_help_of_speed_promises_nothing_that_the_field_refuses() -> None:
+def test_the_help_of_speed_does_not_offer_0() -> None:
     assert field_of(Form.START, "speed").low == 1
     assert "0" not in TOPICS[Form.START, "speed"].words

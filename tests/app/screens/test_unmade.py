@@ -1,4 +1,4 @@
-"""A screen that is still being made: what is said, and how far work is, ends nothing."""
+"""Messages and progress for a screen that is still being composed do not end the program."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from app.session.work import Work
 from tests.app.widget_pilot import operator
 
 
-async def test_what_is_said_to_it_ends_nothing() -> None:
-    async with operator("pocket") as at:
-        form = at.app.screen
+async def test_a_message_to_a_screen_being_composed_does_not_end_the_program() -> None:
+    async with operator("pocket") as user:
+        form = user.app.screen
         for action in ("home", "tools", "draw", "post", "program", "save_as", "lookahead"):
-            await at.app.run_action(f"app.{action}")
-            screen = at.app.screen
+            await user.app.run_action(f"app.{action}")
+            screen = user.app.screen
             assert isinstance(screen, BaseScreen)
             assert screen is not form, action
             screen.show_work(Work(lambda: None))
             screen.say("Something.")
-            await at.settle()
-            assert at.app.is_running, action
-            await at.app.run_action("app.contour")
-            await at.settle()
+            await user.settle()
+            assert user.app.is_running, action
+            await user.app.run_action("app.contour")
+            await user.settle()

@@ -1,4 +1,4 @@
-"""What a key must not cost: neither a description of the whole program nor another layout of the screen."""
+"""Costs a key must avoid: a description of the whole program, and another layout of the screen."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from core.program.model import Program
 from tests.app.widget_pilot import operator
 
 
-async def test_no_worker_writes_the_program_down(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A worker without a description gets one of all its arguments: a second for 2,000 segments."""
-    written: list[str] = []
+async def test_no_worker_describes_the_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Textual describes a worker by all its arguments unless told otherwise: one second for 2,000 segments."""
+    described: list[str] = []
 
-    def written_down(self: object) -> str:
-        written.append(type(self).__name__)
+    def describe(self: object) -> str:
+        described.append(type(self).__name__)
         return ""
 
     for kind in (Program, DerivedBlock):
-        monkeypatch.setattr(kind, "__repr__", written_down)
+        monkeypatch.setattr(kind, "__repr__", describe)
     async with operator() as user:
         await user.press("pagedown", "tab", "'1.5", "enter", "f4", "f8", "f8", "f8")
-    assert written == []
+    assert described == []
 
 
-async def test_a_digit_lays_out_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[bool] = []
+async def test_typing_a_digit_causes_no_layout(monkeypatch: pytest.MonkeyPatch) -> None:
+    layouts: list[bool] = []
     refresh = NumberField.refresh
 
     def counted(self: NumberField, *regions: Region, layout: bool = False, **options: bool) -> NumberField:
-        asked.append(layout)
+        layouts.append(layout)
         return refresh(self, *regions, layout=layout, **options)
 
     async with operator() as user:
         await user.press("pagedown", "tab", "1")
         monkeypatch.setattr(NumberField, "refresh", counted)
         await user.press("2", "3")
-    assert asked
-    assert not any(asked)
+    assert layouts
+    assert not any(layouts)

@@ -18,7 +18,7 @@ def pocket() -> DerivedBlock:
     return derive(load(example("pocket"))).block(1)
 
 
-def test_gouges_come_first_then_uncut_stock_by_its_area_then_notes(pocket):
+def test_gouges_come_first_and_uncut_stock_is_sorted_by_area(pocket):
     gouge = Finding("GOUGE", Severity.ERROR, "GOUGE {value} deep.", 3.0, None, (1.0, 2.0), 12.7)
     block = replace(pocket, findings=(*pocket.findings, gouge))
     entries = block_findings(block, None, Unit.IN)
@@ -31,13 +31,13 @@ def test_gouges_come_first_then_uncut_stock_by_its_area_then_notes(pocket):
     assert areas == sorted(areas, reverse=True)
 
 
-def test_the_pocket_leaves_most_beside_the_slot_that_is_too_narrow(pocket):
+def test_the_first_finding_of_the_pocket_is_its_largest_uncut_area(pocket):
     first = block_findings(pocket, None, Unit.IN)[0]
     assert first.title == "UNCUT 0.3624 thick"
     assert first.at is not None
 
 
-def test_what_is_still_to_be_typed_is_no_error():
+def test_values_still_to_be_typed_have_their_own_kind():
     entries = block_findings(derive(empty_program()).block(1), None, Unit.IN)
     assert {entry.kind for entry in entries} <= {Kind.TO_TYPE, Kind.ERROR}
     assert Kind.TO_TYPE in {entry.kind for entry in entries}

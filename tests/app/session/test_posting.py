@@ -1,4 +1,4 @@
-"""What POST says of a program before it is written."""
+"""The notes of POST on a program before it is written."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from tests.core.program.parts import line, program
 
 
 @pytest.mark.parametrize("choice", [CENTER_PATH, "fanuc:a"])
-def test_a_warning_of_a_block_is_told_where_it_is_posted(choice: str) -> None:
-    made = nc_text(program(line(x_end=30.0, y_end=0.0)), "part", choice)
-    assert made.text, made.against
-    assert any(note.startswith("Block 1, segment 1: FEED is blank") for note in made.notes), made.notes
+def test_a_warning_of_a_block_is_among_the_notes_of_post(choice: str) -> None:
+    posted = nc_text(program(line(x_end=30.0, y_end=0.0)), "part", choice)
+    assert posted.text, posted.against
+    assert any(note.startswith("Block 1, segment 1: FEED is blank") for note in posted.notes), posted.notes
     fed = nc_text(program(line(x_end=30.0, y_end=0.0, feed=9.0)), "part", choice)
     assert fed.text
     assert not any("FEED is blank" in note for note in fed.notes)

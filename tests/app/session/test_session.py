@@ -1,4 +1,4 @@
-"""The session's pure methods."""
+"""The pure methods of the session."""
 
 from __future__ import annotations
 
@@ -21,50 +21,50 @@ def with_start(program: Program, x: float) -> Program:
     return replace(program, blocks=(replace(program.blocks[0], x_start=Number(x)),))
 
 
-def test_an_edit_makes_it_unsaved_and_saving_or_undoing_it_ends_that():
-    begun = session()
-    edited = begun.with_program(with_start(begun.program, 1.0), "X START")
-    assert (begun.unsaved, edited.unsaved) == (False, True)
+def test_an_edit_is_unsaved_until_it_is_saved_or_undone():
+    before = session()
+    edited = before.with_program(with_start(before.program, 1.0), "X START")
+    assert (before.unsaved, edited.unsaved) == (False, True)
     assert not replace(edited, saved=edited.program).unsaved
     assert not edited.undone().unsaved
     assert edited.undone().redone().program == edited.program
 
 
 def test_the_cursor_stays_within_the_program():
-    begun = session(LineSegment(), LineSegment())
-    assert begun.at(FormPlace(7, 9)).place == FormPlace(1, 2)
-    assert begun.at(FormPlace(0, -1)).place == FormPlace(1, 0)
+    before = session(LineSegment(), LineSegment())
+    assert before.at(FormPlace(7, 9)).place == FormPlace(1, 2)
+    assert before.at(FormPlace(0, -1)).place == FormPlace(1, 0)
 
 
-def test_undo_and_redo_lead_the_cursor_to_the_field_that_they_change():
-    begun = session(LineSegment(), LineSegment(y_end=Number(1.0)))
-    block = begun.program.blocks[0]
+def test_undo_and_redo_move_the_cursor_to_the_field_they_change():
+    before = session(LineSegment(), LineSegment(y_end=Number(1.0)))
+    block = before.program.blocks[0]
     typed = replace(block, segments=(block.segments[0], LineSegment(y_end=Number(2.0))))
-    edited = begun.with_program(replace(begun.program, blocks=(typed,)), "Y END").at(FormPlace(1, 0))
+    edited = before.with_program(replace(before.program, blocks=(typed,)), "Y END").at(FormPlace(1, 0))
     undone = edited.undone()
     assert (undone.place, undone.cursor.field) == (FormPlace(1, 2), "y_end")
     redone = undone.at(FormPlace(1, 0)).redone()
     assert (redone.place, redone.cursor.field) == (FormPlace(1, 2), "y_end")
 
 
-def test_undoing_a_new_segment_takes_the_cursor_off_it():
-    begun = session(LineSegment())
-    longer = replace(begun.program.blocks[0], segments=(LineSegment(), LineSegment()))
-    edited = begun.with_program(replace(begun.program, blocks=(longer,)), "LINE").at(FormPlace(1, 2), "x_end")
+def test_undoing_a_new_segment_moves_the_cursor_off_it():
+    before = session(LineSegment())
+    longer = replace(before.program.blocks[0], segments=(LineSegment(), LineSegment()))
+    edited = before.with_program(replace(before.program, blocks=(longer,)), "LINE").at(FormPlace(1, 2), "x_end")
     assert (edited.undone().place, edited.undone().cursor.field) == (FormPlace(1, 1), SEGMENT)
 
 
-def test_what_is_no_blocks_matter_leaves_the_cursor_and_equal_programs_differ_nowhere():
-    begun = session(LineSegment())
-    named = replace(begun.program, setup=replace(begun.program.setup, name="PLATE"))
-    edited = begun.with_program(named, "PART NAME").at(FormPlace(1, 1), "x_end")
+def test_a_change_outside_the_blocks_keeps_the_cursor_and_equal_programs_have_no_change():
+    before = session(LineSegment())
+    named = replace(before.program, setup=replace(before.program.setup, name="PLATE"))
+    edited = before.with_program(named, "PART NAME").at(FormPlace(1, 1), "x_end")
     assert edited.undone().place == FormPlace(1, 1)
-    assert changed(begun.program, begun.program) is None
+    assert changed(before.program, before.program) is None
 
 
-def test_what_was_worked_out_for_another_program_is_dropped():
-    begun = session()
-    late = solve_fields(begun.program)
-    edited = begun.with_program(with_start(begun.program, 1.0), "X START")
+def test_results_for_another_program_are_dropped():
+    before = session()
+    late = solve_fields(before.program)
+    edited = before.with_program(with_start(before.program, 1.0), "X START")
     assert edited.knowing(late).derived is edited.derived
     assert edited.knowing(known := solve_fields(edited.program)).derived is known

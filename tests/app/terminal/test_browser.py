@@ -1,4 +1,4 @@
-"""The driver of a page in a browser."""
+"""The driver for a page in a browser."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from textual.app import App
 from app.terminal.browser import LARGEST_QUEUE, BrowserDriver
 
 
-async def test_keys_wait_in_the_page_while_the_program_takes_none(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_keys_wait_in_the_page_while_the_program_is_busy(monkeypatch: pytest.MonkeyPatch) -> None:
     reading, writing = os.pipe()
     with os.fdopen(reading) as keys, os.fdopen(writing, "w"):
         monkeypatch.setattr(sys, "__stdin__", keys)
@@ -29,7 +29,7 @@ async def test_keys_wait_in_the_page_while_the_program_takes_none(monkeypatch: p
 
         typist = Thread(target=type_ahead)
         typist.start()
-        # not awaited: the event loop takes nothing meanwhile
+        # sleep, not await: the event loop must take nothing meanwhile
         for _ in range(100):
             sleep(0.01)
             if len(sent) >= LARGEST_QUEUE:
@@ -41,7 +41,7 @@ async def test_keys_wait_in_the_page_while_the_program_takes_none(monkeypatch: p
     assert held == LARGEST_QUEUE
 
 
-async def test_what_is_painted_for_a_page_that_has_gone_is_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_output_for_a_closed_page_is_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
     reading, writing = os.pipe()
     os.close(reading)
     with os.fdopen(writing, "w") as page, os.fdopen(os.pipe()[0]) as keys:

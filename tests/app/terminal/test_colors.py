@@ -1,4 +1,4 @@
-"""Which terminals have sixteen colors."""
+"""Terminals with sixteen colors, and colors on terminals with 256."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def test_which_terminals_have_sixteen_colors(term: str, colorterm: str, few: boo
 
 
 @pytest.mark.parametrize("theme", [theme for theme in themes() if not theme.ansi], ids=lambda theme: theme.name)
-def test_fields_are_gray_on_their_page_where_a_terminal_has_256_colors(theme: Theme) -> None:
+def test_fields_stay_gray_and_differ_from_the_page_with_256_colors(theme: Theme) -> None:
     page, well, bar = (Color.parse(theme.variables[f"c-{role}"]) for role in ("bg", "well", "bar"))
-    shown = [color.downgrade(ColorSystem.EIGHT_BIT).get_truecolor() for color in (page, well, bar)]
-    assert all(color.red == color.green == color.blue for color in shown)
-    assert shown[0] not in shown[1:]
+    downgraded = [color.downgrade(ColorSystem.EIGHT_BIT).get_truecolor() for color in (page, well, bar)]
+    assert all(color.red == color.green == color.blue for color in downgraded)
+    assert downgraded[0] not in downgraded[1:]

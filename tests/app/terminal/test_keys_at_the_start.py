@@ -1,4 +1,4 @@
-"""A hundred keys at once, sent while the program is still starting: all of them arrive, in their order and place."""
+"""A hundred keys sent at once while the program is still starting all arrive in order and in their fields."""
 
 import sys
 from pathlib import Path
@@ -13,11 +13,11 @@ from tests.terminal import running
 PAGE_DOWN, F4, F6, F7, F8 = "\x1b[6~", "\x1bOS", "\x1b[17~", "\x1b[18~", "\x1b[19~"
 SAVE = "\x13"
 LINES = (1, 3, 5, 6, 7, 9)
-"""Segments of the pocket that are typed anew."""
+"""Segments of the pocket that are retyped."""
 
 
 def keys() -> str:
-    """Open the first program of HOME, type six segments anew, and the last once more after three screens."""
+    """Open the first program of HOME, retype six segments, and retype the last after visiting three screens."""
     typed, at = "\r", 0
     for number in LINES:
         typed += PAGE_DOWN * (number - at) + f"\t{number}.125\r{number}.5\r" + "\x1b[5~"
@@ -33,7 +33,7 @@ def test_a_hundred_keys_sent_before_the_first_paint_all_arrive(tmp_path: Path, m
     with running([sys.executable, "-m", "app"], cwd=str(tmp_path)) as terminal:
         terminal.send(keys().encode())
         terminal.until("MILL CONTOUR", longest=60)
-        # not sooner: a terminal that nobody has taken over yet stops its output at Ctrl+S
+        # not earlier: before the program takes over the terminal, Ctrl+S would stop its output
         terminal.send(SAVE.encode())
         terminal.until("Saved: part.toml", longest=100)
     segments = load(part).blocks[0].segments

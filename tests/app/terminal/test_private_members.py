@@ -1,4 +1,4 @@
-"""Only `app/terminal` uses what is private to Textual: a new version of it can break nothing else."""
+"""Only `app/terminal` uses private members of Textual, so a new version of Textual can break nothing else."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 APP = Path(__file__).parents[3] / "app"
-ELSEWHERE = ("terminal", "cli")
-"""The room that may, and the command line, which needs none of Textual."""
+UNCHECKED = ("terminal", "cli")
+"""Rooms that are not checked: the one that may use them, and the command line, which does not use Textual."""
 
 
 def trees() -> Iterator[tuple[Path, ast.Module]]:
@@ -21,31 +21,31 @@ def private(name: str) -> bool:
 
 
 def own_names() -> set[str]:
-    """Private names that the app defines itself."""
-    found: set[str] = set()
+    """The private names that the app itself defines."""
+    names: set[str] = set()
     for _, tree in trees():
         for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-                found.add(node.name)
+                names.add(node.name)
             elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and _is_self(node.value):
-                found.add(node.attr)
+                names.add(node.attr)
             elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-                found.add(node.target.id)
-    return found
+                names.add(node.target.id)
+    return names
 
 
 def _is_self(node: ast.expr) -> bool:
     return isinstance(node, ast.Name) and node.id == "self"
 
 
-def test_nothing_private_of_textual_is_used_outside_the_terminal() -> None:
-    own, used = own_names(), []
-    # os._exit is public, whatever it is called
+def test_private_members_of_textual_are_used_only_in_the_terminal_room() -> None:
+    app_names, used = own_names(), []
+    # os._exit is public despite its name
     for path, tree in trees():
-        if path.relative_to(APP).parts[0] in ELSEWHERE:
+        if path.relative_to(APP).parts[0] in UNCHECKED:
             continue
         for node in ast.walk(tree):
-            if isinstance(node, ast.Attribute) and private(node.attr) and node.attr not in {*own, "_exit"}:
+            if isinstance(node, ast.Attribute) and private(node.attr) and node.attr not in {*app_names, "_exit"}:
                 used.append(f"{path.name}:{node.lineno} {node.attr}")
             elif isinstance(node, ast.ImportFrom) and any(map(private, (node.module or "").split("."))):
                 used.append(f"{path.name}:{node.lineno} {node.module}")

@@ -1,4 +1,4 @@
-"""The list of findings: a title with its segments, then the rest of the sentence."""
+"""The list of findings: each title names its segments; the rest of the sentence follows."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from app.widgets.findings_list import FindingsList
 from tests.app.widget_pilot import operator
 
 
-async def test_the_second_line_of_a_finding_goes_on_behind_its_title():
+async def test_the_second_line_of_a_finding_continues_its_title():
     async with operator(size=(132, 43)) as user:
         findings = user.screen.query_one(FindingsList)
         first = str(findings.get_option_at_index(0).prompt).split("\n")

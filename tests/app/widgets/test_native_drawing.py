@@ -49,7 +49,7 @@ def test_every_style_has_a_look():
     assert list(LOOKS) == [names.get(style.name, style.name.lower().replace("_", "-")) for style in Style]
 
 
-async def test_a_subject_is_drawn_with_its_scale_bar_in_the_frame(pocket):
+async def test_a_subject_is_drawn_with_a_scale_bar_in_the_frame(pocket):
     app = Shown()
     async with app.run_test() as pilot:
         drawing = app.query_one(Drawing)
@@ -62,7 +62,7 @@ async def test_a_subject_is_drawn_with_its_scale_bar_in_the_frame(pocket):
         assert all(len(row) == 58 for row in rows)
 
 
-async def test_nothing_is_drawn_without_a_subject_and_after_it_is_gone(pocket):
+async def test_nothing_is_drawn_without_a_subject(pocket):
     app = Shown()
     async with app.run_test():
         assert not "".join(await settled(app)).strip()
@@ -72,7 +72,7 @@ async def test_nothing_is_drawn_without_a_subject_and_after_it_is_gone(pocket):
         assert not "".join(await settled(app)).strip()
 
 
-async def test_a_hidden_drawing_is_made_when_it_is_shown(pocket):
+async def test_a_hidden_drawing_is_drawn_only_once_shown(pocket):
     app = Shown()
     async with app.run_test() as pilot:
         drawing = app.query_one(Drawing)
@@ -87,7 +87,7 @@ async def test_a_hidden_drawing_is_made_when_it_is_shown(pocket):
 
 
 class SlowWhenNarrow:
-    """A subject whose picture in few columns takes until `go`."""
+    """A subject whose picture in few columns waits for `go`."""
 
     def __init__(self, subject: Subject, columns: int) -> None:
         self.subject, self.columns, self.go, self.over = subject, columns, Event(), Event()
@@ -99,7 +99,7 @@ class SlowWhenNarrow:
         return self.subject.drawn(columns, rows, mode)
 
 
-async def test_a_picture_in_another_size_that_comes_late_is_not_shown(pocket):
+async def test_a_late_picture_of_another_size_is_dropped(pocket):
     app = Shown()
     async with app.run_test() as pilot:
         drawing = app.query_one(Drawing)
@@ -111,16 +111,16 @@ async def test_a_picture_in_another_size_that_comes_late_is_not_shown(pocket):
         drawing.styles.width = 60
         while drawing.drawn is None:
             await pilot.pause()
-        shown = drawing.drawn
+        current = drawing.drawn
         slow.go.set()
         while not slow.over.is_set():
             await pilot.pause()
         for _ in range(20):
             await pilot.pause(0.01)
-        assert drawing.drawn is shown
+        assert drawing.drawn is current
 
 
-async def test_other_characters_draw_the_same_subject(pocket):
+async def test_changing_the_characters_redraws_the_subject(pocket):
     app = Shown()
     async with app.run_test():
         drawing = app.query_one(Drawing)
@@ -130,7 +130,7 @@ async def test_other_characters_draw_the_same_subject(pocket):
         assert "".join(await settled(app)).isascii()
 
 
-async def test_a_click_tells_the_point_in_millimeters(pocket):
+async def test_a_click_reports_the_point_in_millimeters(pocket):
     picked = []
 
     class Clicked(Shown):
@@ -148,7 +148,7 @@ async def test_a_click_tells_the_point_in_millimeters(pocket):
         assert (x, y) == pytest.approx((2.0 * 25.4, 0.25 * 25.4), abs=2.0 * drawing.drawn.view.scale)
 
 
-async def test_a_loupe_shows_4_6_radii_near_a_place_and_little_beyond_the_part(pocket):
+async def test_a_loupe_shows_4_6_radii_around_a_place_shifted_toward_the_part(pocket):
     app = Shown()
     async with app.run_test():
         drawing = app.query_one(Drawing)

@@ -33,7 +33,7 @@ def notch() -> Case:
     return case_of("notch")
 
 
-def test_the_lines_of_the_pocket_are_those_of_the_design(pocket):
+def test_the_pocket_has_the_designed_title_strip_and_chips(pocket):
     marks = MARKS["braille"]
     assert title(pocket) == "LOOK-AHEAD CAL 8 deletes segment 9"
     assert strip(pocket, marks).plain == " 1 ✖•••••• 8 •••••••••••• 20   best 2: deletes 9"
@@ -45,7 +45,7 @@ def test_a_gouge_comes_first_in_title_and_chips(notch):
     assert chips(notch, MARKS["braille"]).plain.startswith("✖ GOUGE 0.2500")
 
 
-def test_every_set_of_characters_has_a_cell_for_each_value(pocket):
+def test_every_character_set_has_a_cell_for_each_value(pocket):
     for characters, marks in MARKS.items():
         line = strip(pocket, marks).plain
         assert line.startswith(f" 1 {marks.gouge}"), characters
@@ -53,7 +53,7 @@ def test_every_set_of_characters_has_a_cell_for_each_value(pocket):
     assert chips(pocket, MARKS["ascii"]).plain.isascii()
 
 
-def test_while_it_is_calculated_the_title_says_how_far_it_is(pocket):
+def test_the_title_shows_the_progress_of_the_calculation(pocket):
     assert title(replace(pocket, working=0.4)) == "LOOK-AHEAD CAL 8  working 40 %"
 
 
@@ -61,28 +61,28 @@ def test_without_a_table_no_value_is_called_best(pocket):
     assert strip(replace(pocket, table=None), MARKS["braille"]).plain.rstrip().endswith(" 20")
 
 
-def test_an_error_behind_a_clean_beginning_is_told_in_place_of_three_times_none():
+def test_the_chips_show_an_error_after_a_clean_beginning():
     program = load(example("pocket"))
     block = program.blocks[0]
     third = changed(block.segments[2], {"x_end": Unread("4.7.5", "not a number")})
     spoiled = replace(program, blocks=(replace(block, segments=(*block.segments[:2], third, *block.segments[3:])),))
-    found = derive(spoiled).block(1)
-    case = Case(found, look_ahead_table(found, spoiled), program.unit)
+    block_with_error = derive(spoiled).block(1)
+    case = Case(block_with_error, look_ahead_table(block_with_error, spoiled), program.unit)
     assert title(case).endswith("segments 1-2 only")
     assert chips(case, MARKS["braille"]).plain.startswith("✖ ")
     assert "none" not in chips(case, MARKS["braille"]).plain
-    # a segment that is only not typed to its end is no error
+    # a segment that is only incomplete is no error
     blank = changed(block.segments[2], {"x_end": None})
     waiting = replace(program, blocks=(replace(block, segments=(*block.segments[:2], blank, *block.segments[3:])),))
     assert "GOUGE none" in chips(Case(derive(waiting).block(1), None, program.unit), MARKS["braille"]).plain
 
 
-def test_a_clean_path_with_a_warning_points_to_the_findings(pocket):
+def test_the_chips_of_a_clean_path_with_a_warning_point_to_f10(pocket):
     program = load(example("pocket"))
     changed_block = replace(program.blocks[0], lookahead=Number(3.0))
     typed = replace(program, blocks=(changed_block,))
     block = derive(typed).block(1)
-    assert any(one.severity is Severity.WARNING for one in block.findings)
+    assert any(finding.severity is Severity.WARNING for finding in block.findings)
     assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("▲ see F10")
     assert "F10" not in chips(pocket, MARKS["braille"]).plain
 
@@ -97,7 +97,7 @@ def test_runs_of_segment_numbers_are_joined():
     assert segment_numbers((4.0, 2.0, 3.0, 3.5, 7.0)) == "2-4 7"
 
 
-async def test_the_widget_shows_another_case_as_soon_as_it_is_set(pocket, notch):
+async def test_the_widget_shows_a_new_case_at_once(pocket, notch):
     class Shown(App[None]):
         def get_css_variables(self) -> dict[str, str]:
             roles = dict.fromkeys(("c-label", "c-gouge", "c-uncut", "c-deleted", "c-good"), "red")
@@ -116,7 +116,7 @@ async def test_the_widget_shows_another_case_as_soon_as_it_is_set(pocket, notch)
             assert str(app.query_one("#chips", Static).content) == str(chips(case, MARKS["braille"]))
 
 
-def test_without_a_path_the_chips_say_what_is_in_its_way():
+def test_the_chips_say_why_there_is_no_path():
     program = load(example("pocket"))
     program = replace(program, blocks=(replace(program.blocks[0], tool=Number(9.0)),))
     case = Case(derive(program).block(1), None, program.unit)

@@ -1,4 +1,4 @@
-"""Lists on a terminal that has no room for them."""
+"""Lists on a terminal too small for them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tests.app.widget_pilot import operator
 
 
 @pytest.mark.parametrize(("key", "size"), [("f10", (20, 5)), ("ctrl+k", (1, 1))])
-async def test_a_page_in_a_list_without_room_is_no_step(key: str, size: tuple[int, int]) -> None:
+async def test_page_keys_in_a_list_without_room_do_not_end_the_program(key: str, size: tuple[int, int]) -> None:
     async with operator() as user:
         await user.press(key)
         await user.pilot.resize_terminal(*size)

@@ -1,4 +1,4 @@
-"""No text of the program is read as Textual's markup: a file may have brackets anywhere."""
+"""No text is read as Textual markup, because a file may contain brackets anywhere."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tests.app.widget_pilot import SURROUNDINGS
 OWN = Path(app.__file__).parent / "widgets/plain.py"
 
 
-def test_every_text_is_a_plain_one() -> None:
+def test_only_plain_py_uses_textual_static_and_label() -> None:
     sources = [path for path in OWN.parents[1].rglob("*.py") if path != OWN]
     assert len(sources) > 50
-    made = re.compile(r"(?<![\w.])(Static|Label)\(|class \w+\((Static|Label)\)")
-    assert [path.name for path in sources if made.search(path.read_text(encoding="utf-8"))] == []
+    uses = re.compile(r"(?<![\w.])(Static|Label)\(|class \w+\((Static|Label)\)")
+    assert [path.name for path in sources if uses.search(path.read_text(encoding="utf-8"))] == []
 
 
-async def test_brackets_in_what_was_done_stay() -> None:
+async def test_brackets_in_a_message_stay() -> None:
     program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
     async with program.run_test(notifications=True) as pilot:
         program.notify("Saved: c[/d]a.toml")

@@ -7,10 +7,10 @@ from textual.widgets import DataTable
 from tests.app.widget_pilot import operator
 
 
-async def test_a_corner_shows_its_size_in_place_of_an_end() -> None:
-    async with operator("pocket", size=(132, 43)) as at:
-        table = at.screen.query_one("#segments", DataTable)
+async def test_a_corner_shows_its_size_instead_of_an_end() -> None:
+    async with operator("pocket", size=(132, 43)) as user:
+        table = user.screen.query_one("#segments", DataTable)
         assert [str(cell) for cell in table.get_row("4")][1:4] == [" BLEND", "r 0.5000", ""]
         assert [str(cell) for cell in table.get_row("5")][1:4] == [" LINE", "3.0000", "3.5000"]
-        await at.press("7", "enter", "f2", "c", "'.125", "enter")
+        await user.press("7", "enter", "f2", "c", "'.125", "enter")
         assert [str(cell) for cell in table.get_row("7")][1:4] == [" CHAMFER", "c 0.1250", ""]
