@@ -129,6 +129,7 @@ def test_every_tool_change_for_a_control_is_at_safe_z(
 def test_a_control_that_posts_another_example_changes_tools_at_safe_z(
     control: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for file in EXAMPLES:
-        if text := posted(file, capsys, "--control", control):
-            assert_changes_at(safe_z_of(file), text, *TOOLS[file.stem])
+    texts = {file: text for file in EXAMPLES if (text := posted(file, capsys, "--control", control))}
+    for file, text in texts.items():
+        assert_changes_at(safe_z_of(file), text, *TOOLS[file.stem])
+    assert texts

@@ -243,7 +243,6 @@ def test_a_lost_journal_is_rewritten_in_full_and_reported(
     operator.undo().killed()
     places = [journal, *state.glob("*.cutcomp-journal")]
     [place] = [path for path in places if path.exists()]
-    assert str(place) in operator.said or place.exists()
     kept = read(place)
     assert kept is not None
     assert kept.edits == 3

@@ -33,7 +33,7 @@ async def test_a_too_small_terminal_is_reported_and_takes_numbers() -> None:
         assert user.session.block.tool == Number(7.0)
         await user.pilot.resize_terminal(60, 20)
         await user.press("tab")
-        assert "make it" not in user.prompt
+        assert "Window is" not in user.prompt
 
 
 async def test_the_key_for_characters_explains_why_there_is_only_ascii() -> None:
