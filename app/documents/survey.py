@@ -40,8 +40,8 @@ class Outcome(StrEnum):
     GOUGE = "gouge"
     NOT_READY = "not ready"
     UNREADABLE = "unreadable"
-    WARNING = "warning"
     UNCUT = "uncut"
+    WARNING = "warning"
     CLEAN = "clean"
     EMPTY = "empty"
 
@@ -130,10 +130,11 @@ def outcome_of(block: DerivedBlock) -> Outcome:
     if block.errors:
         gouges = any(finding.code.endswith(("GOUGE", "GOUGES", "WRONG_SIDE")) for finding in block.errors)
         return Outcome.GOUGE if gouges else Outcome.NOT_READY
-    if any(finding.severity is Severity.WARNING for finding in block.findings):
-        return Outcome.WARNING
     verdict = None if block.paths is None else block.paths.verdict
-    return Outcome.UNCUT if verdict is not None and verdict.uncut else Outcome.CLEAN
+    if verdict is not None and verdict.uncut:
+        return Outcome.UNCUT
+    warned = any(finding.severity is Severity.WARNING for finding in block.findings)
+    return Outcome.WARNING if warned else Outcome.CLEAN
 
 
 def _tools(program: Program) -> str:

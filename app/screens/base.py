@@ -19,6 +19,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from datetime import datetime
 from pathlib import Path
+from time import monotonic
 from typing import Any, ClassVar, Final, Protocol, cast
 
 from textual import on
@@ -53,6 +54,8 @@ from core.units import Kind
 SMALLEST = (60, 20)
 """Columns and rows of the smallest supported terminal."""
 
+TWO_PRESSES: Final = 0.5
+"""Seconds within which a key may have been pressed twice for one."""
 WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
 HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
@@ -112,6 +115,9 @@ class Host(Protocol):
     @property
     def stopped(self) -> object:
         """The program or block whose calculation Esc has stopped."""
+
+    closed_at: float
+    """When a screen was last closed, in seconds of the monotonic clock."""
 
     posted_for: str
     """The control of the last posted NC file, or the center path."""
@@ -257,6 +263,13 @@ class BaseScreen(Screen[None]):
         self.show_work(self.host.longest_work)
         if self.stands:
             self.query_one(Status).read_machine()
+
+    def refuse_delete(self) -> bool:
+        """Refuse to delete, and say so, if the key may be the second press of one for a screen that has closed."""
+        refused = monotonic() - self.host.closed_at < TWO_PRESSES
+        if refused:
+            self.say("Nothing is deleted: another screen has just closed. Press the key again.", Tone.WARNING)
+        return refused
 
     @property
     def in_view(self) -> bool:

@@ -103,6 +103,7 @@ class ToolsScreen(FormScreen):
         yield PlainText(id="tool-use")
 
     def _rows(self, session: Session) -> list[ToolRow]:
+        self._numbers = [tool.number for tool in session.program.tools]
         return [ToolRow(_cells(tool, row, session)) for row, tool in enumerate(session.program.tools)]
 
     def on_mount(self) -> None:
@@ -167,12 +168,14 @@ class ToolsScreen(FormScreen):
         self._show_use()
 
     async def _rebuild(self) -> None:
-        """Rebuild the rows after tools were added or deleted; the cursor keeps its row."""
-        row = self.row
+        """Rebuild the rows after tools were added or deleted; the cursor keeps its row, or goes to a new tool."""
+        numbers = [tool.number for tool in self.current_session.program.tools]
+        new = [row for row, number in enumerate(numbers) if number not in self._numbers]
+        row = new[0] if len(new) == 1 else self.row
         table = self.query_one("#tool-rows")
         await self.query(ToolRow).remove()
         await table.mount_all(self._rows(self.current_session), before=0)
-        self._focus_row(min(row, len(self.current_session.program.tools) - 1))
+        self._focus_row(min(row, len(numbers) - 1))
 
     # ---- the cursor
 
@@ -235,11 +238,13 @@ class ToolsScreen(FormScreen):
 
     def action_delete_tool(self) -> None:
         """Delete the tool with the cursor."""
-        tool = self.tool
-        if tool is not None and self.host.apply(
-            delete_tool(self.current_session.program, tool.number), f"DELETE TOOL {tool.number}"
-        ):
-            self.notify(f"Deleted tool {tool.number}. Ctrl+Z brings it back.", timeout=3)
+        tool, program = self.tool, self.current_session.program
+        if tool is None or self.refuse_delete():
+            return
+        if self.host.apply(delete_tool(program, tool.number), f"DELETE TOOL {tool.number}"):
+            uses = ", ".join(_uses(program, tool.number))
+            said = f" It was {uses}." if uses else ""
+            self.notify(f"Deleted tool {tool.number}.{said} Ctrl+Z brings it back.", timeout=5)
 
     def prompt_text(self) -> Sentence:
         """Return what the field takes, or for an empty table how to begin."""
@@ -301,14 +306,16 @@ def _faults(tool: Tool, unit: Unit) -> list[str]:
 
 def _use_text(program: Program, number: int) -> str:
     """Return which blocks call a tool, as lines of text."""
+    return "\n".join((f"TOOL {number}", *(_uses(program, number) or ["Not used by any block."])))
+
+
+def _uses(program: Program, number: int) -> list[str]:
+    """Return the calls of a tool as the tool and as the finish tool, each with its blocks."""
 
     def called(value: object) -> bool:
         return isinstance(value, Number) and value.value == number
 
     roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
     finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
-    lines = [f"TOOL {number}"]
-    lines.append(f"TOOL of block {', '.join(roughing)}" if roughing else "Not used by any block.")
-    if finishing:
-        lines.append(f"FINISH TOOL of block {', '.join(finishing)}")
-    return "\n".join(lines)
+    calls = (("TOOL", roughing), ("FINISH TOOL", finishing))
+    return [f"{what} of block {', '.join(blocks)}" for what, blocks in calls if blocks]

@@ -60,4 +60,6 @@ def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
     ready = {block.number for block in derived.blocks if block.postable}
     posted = [job for job in jobs(derived) if job.block in ready]
     total = f"{minutes_text(program_times(posted, posted[0].rapid_rate).total)} total" if posted else ""
+    if posted and len(posted) < len(derived.blocks):
+        total += f" of {', '.join(str(job.block) for job in posted)} only"
     return total, {job.block: times_text(block_times(job, job.rapid_rate)) for job in posted}

@@ -105,7 +105,11 @@ def test_a_truncated_file_is_taken_only_with_the_damaged_option(
 
 @pytest.mark.parametrize(
     ("name", "words"),
-    [("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."), ("d17-empty.dxf", "1 TEXT was skipped"), ("gone.dxf", "gone.dxf")],
+    [
+        ("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
+        ("d17-empty.dxf", "1 TEXT was skipped"),
+        ("gone.dxf", "gone.dxf"),
+    ],
 )
 def test_an_unreadable_drawing_is_refused_in_a_sentence(
     name: str, words: str, capsys: pytest.CaptureFixture[str]

@@ -434,3 +434,34 @@ async def test_a_tool_setup_row_shows_its_values_in_full():
             field = user.screen.query_one(f"NumberField.tool-{name}")
             shown[name] = "".join(segment.text for segment in field.render_line(0)).strip()
         assert shown == {"number": "2000", "type": "BALL MILL"}
+
+
+async def test_a_softkey_that_closed_a_screen_deletes_nothing_when_it_is_pressed_twice(monkeypatch, tmp_path):
+    monkeypatch.setattr("app.screens.base.TWO_PRESSES", 60.0)
+    monkeypatch.chdir(tmp_path)
+    async with operator("pocket") as user:
+        await user.press("f8")
+        user.app.action_post()
+        await user.settle()
+        await user.press("f1", "f1")
+        await user.settle()
+        await user.press("f1")
+        assert len(user.session.program.blocks) == 1
+        assert user.prompt.startswith("Nothing is deleted: another screen has just closed.")
+        monkeypatch.setattr("app.screens.base.TWO_PRESSES", 0.0)
+        await user.press("f1")
+        assert user.prompt.startswith("The only block cannot be deleted")
+
+
+async def test_undo_puts_the_cursor_on_the_tool_that_comes_back():
+    async with operator("plate-mm") as user:
+        user.app.action_tools()
+        await user.settle()
+        await user.press("down")
+        number = user.screen.tool.number
+        await user.press("f1")
+        await user.settle()
+        assert number not in [tool.number for tool in user.session.program.tools]
+        await user.press("ctrl+z")
+        await user.settle()
+        assert user.screen.tool.number == number
