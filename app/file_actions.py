@@ -296,6 +296,9 @@ class FileActions(DerivationActions):
 
     async def _open_drawing(self, path: Path) -> None:
         """Open IMPORT on a drawing; unless the open program is new, ask whether to import into it or a new one."""
+        if not await self.on_disk(path.is_file):
+            self.say(f"{short_path(path)}: there is no such drawing.", Tone.ERROR)
+            return
         program, fresh = self.document.program, self.document.is_new
         if not fresh:
             word = await self.ask(into_which(path, self.document))

@@ -505,10 +505,18 @@ class ProofScreen(BaseScreen):
         self.query_one("#proof-findings", OptionList).highlighted = at
         if finding.line is not None:
             self.query_one(Listing).go_to_row(finding.line - 1)
+            self._center_on_line(finding.line)
             # before the listing's own cursor event, which would clear the message below
             if not self._follow_cursor():
                 return
         self.say(sentence(finding, self.unit))
+
+    def _center_on_line(self, line: int) -> None:
+        """If the drawing is enlarged, center it on the cutter at a line."""
+        from core.pipeline.nc_proof import cutter_at_line
+
+        if self.view_of is not None and self.result is not None:
+            self.view_of = replace(self.view_of, center=cutter_at_line(self.result.proof, line)[0])
 
     @on(OptionList.OptionHighlighted, "#proof-findings")
     def _finding_highlighted(self, event: OptionList.OptionHighlighted) -> None:

@@ -26,7 +26,7 @@ from app.screens.import_drawing import ImportScreen
 from core.program.model import Number
 from core.units import Unit
 from tests.app.documents.typist import ELSEWHERE
-from tests.app.widget_pilot import SURROUNDINGS, Operator
+from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
 
 DATA = Path(__file__).parents[1] / "data" / "dxf"
 
@@ -279,3 +279,11 @@ async def test_a_number_typed_into_a_look_only_program_is_not_kept(folder):
         await user.press("enter")
         assert "SAVE AS" in user.prompt
         assert user.app.shown is user.session
+
+
+async def test_a_drawing_that_is_not_there_raises_no_question(part: Path) -> None:
+    async with operator("pocket") as user:
+        user.app.open_file(part.with_name("gone.dxf"))
+        await user.settle()
+        assert user.prompt.endswith("gone.dxf: there is no such drawing.")
+        assert len(user.app.screen_stack) == 1

@@ -34,6 +34,7 @@ from core.finding import Severity
 from core.output.nc import Posted
 from core.pipeline.checking import Asked
 from core.pipeline.derive import derive
+from core.pipeline.nc_proof import cutter_at_line
 from core.pipeline.post import post_control_program
 from core.progress import Progress
 from core.units import Unit
@@ -598,3 +599,17 @@ async def test_the_tool_dialog_quotes_the_diameter_from_a_comment(tmp_path):
         lines = user.app.screen.query_one("#loss", Static)
         assert "The comment in line 2 says diameter 0.5000." in str(lines.content)
         await user.press("escape")
+
+
+async def test_next_finding_brings_its_place_into_an_enlarged_drawing(tmp_path):
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await user.press("f7", "+", "+", "n")
+        await user.settle()
+        assert user.proof.view_of is not None
+        assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
+        before = user.line
+        await user.press("n")
+        await user.settle()
+        assert user.line != before
+        assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
