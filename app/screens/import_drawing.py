@@ -216,8 +216,9 @@ class ImportScreen(BaseScreen):
         self.drawing, unit = drawing, drawing.unit
         if unit is None:
             question = [f"{unit_question(drawing)}.", "In which unit is it drawn?"]
-            safe = "INCH" if self.current_session.program.unit is Unit.IN else "MM"
-            word = await self.app.push_screen_wait(Question("UNITS?", question, [Answer("INCH"), Answer("MM")], safe))
+            answers = [Answer("INCH"), Answer("MM")]
+            # a unit taken by Enter alone would scale the part by 25.4 unseen
+            word = await self.app.push_screen_wait(Question("UNITS?", question, answers, GO_BACK))
             if word == GO_BACK:
                 self.action_close()
                 return

@@ -98,9 +98,12 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         if not isinstance(typed, Number) or typed.value <= 0.0:
             continue
         label = field_of(Form.PARAMETERS, name).label
+        more = "" if len(program.blocks) == 1 else ", which counts for all blocks"
         text = f"{label} {{value}} has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
-        yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
+        yield Finding(
+            "NOT_LEFT", Severity.WARNING, text + f"on PROGRAM PARAMETERS{more}.", 0, "finish_tool", value=value
+        )
 
 
 def _finish_tool_without_allowance(block: Block, program: Program) -> Iterator[Finding]:

@@ -146,6 +146,8 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
         yield "FIRST PLUNGE AT", _place(plunges[0], unit)
     if reach := _reach(job, unit):
         yield "CUTTER REACHES", reach
+        if job.comp != "ON":
+            yield "", "on the center path; a G41/G42 program plunges farther off"
     yield "Z START, Z BOTTOM", f"{length_text(job.z_start, unit)}  {length_text(job.z_bottom, unit)}"
     yield "PECK DEPTH", length_text(job.peck_depth, unit) if job.peck_depth else "none: full depth in one pass"
 

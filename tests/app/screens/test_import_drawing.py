@@ -191,7 +191,7 @@ async def test_a_drawing_without_a_unit_asks_for_it_and_shows_both_sizes(tmp_pat
     async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
         assert isinstance(user.app.screen, Question)
         assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in user.question.lines[0]
-        assert user.question.safe == "MM"
+        assert user.question.safe == "GO BACK"
         await user.press("i")
         await user.until(lambda: user.importing.listed)
         assert user.rows[0][4] == "3556.000"

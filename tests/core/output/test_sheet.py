@@ -194,6 +194,7 @@ def test_a_whole_sheet_is_written_as_text():
         "CONTOUR START      X 0.0000  Y 0.0000",
         "FIRST PLUNGE AT    X 0.0000  Y 0.0000",
         "CUTTER REACHES     X -0.2500 to 2.2500  Y -0.2500 to 1.2500",
+        "                   on the center path; a G41/G42 program plunges farther off",
         "Z START, Z BOTTOM  0.0000  -0.2500",
         "PECK DEPTH         0.1000",
         "SPEED              300 RPM",
@@ -238,7 +239,7 @@ def test_a_whole_sheet_is_written_as_text():
 def test_a_whole_sheet_is_written_as_a_page():
     lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
-    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:50] == [
+    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:51] == [
         "<h1>Setup sheet: slot</h1>",
         "<table>",
         "<tr><th>PROGRAM</th><td>slot</td></tr>",
@@ -268,6 +269,7 @@ def test_a_whole_sheet_is_written_as_a_page():
         "<tr><th>CONTOUR START</th><td>X 0.0000  Y 0.0000</td></tr>",
         "<tr><th>FIRST PLUNGE AT</th><td>X 0.0000  Y 0.0000</td></tr>",
         "<tr><th>CUTTER REACHES</th><td>X -0.2500 to 2.2500  Y -0.2500 to 1.2500</td></tr>",
+        "<tr><th></th><td>on the center path; a G41/G42 program plunges farther off</td></tr>",
         "<tr><th>Z START, Z BOTTOM</th><td>0.0000  -0.2500</td></tr>",
         "<tr><th>PECK DEPTH</th><td>0.1000</td></tr>",
         "<tr><th>SPEED</th><td>300 RPM</td></tr>",
