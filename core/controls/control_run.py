@@ -110,9 +110,14 @@ def more_alike(code: str, lines: Sequence[int | None]) -> Finding:
     return Finding(code, Severity.INFO, more, line=lines[0])
 
 
+GRAVEST_FIRST: Final = (Severity.ERROR, Severity.WARNING, Severity.INFO)
+
+
 @dataclass(slots=True)
 class Log:
-    """The findings of a run: at most one per rule and line, MAX_FINDINGS_OF_A_RULE per rule, MAX_ALIKE of one text.
+    """The findings of a run: one per rule and line, MAX_FINDINGS_OF_A_RULE per rule, MAX_ALIKE of one text.
+
+    A line that is run again, in a loop or a subprogram, may get a graver one too.
 
     `kept` counts kept findings by rule, INFO apart from the rest; `alike` counts INFO findings by rule and text;
     `left_out` has the lines of the findings not kept, by rule.  `rule_names` are a control's own alarm numbers, by the
@@ -123,15 +128,15 @@ class Log:
     kept: Counter[tuple[str, bool]] = field(default_factory=Counter)
     alike: Counter[tuple[str, str]] = field(default_factory=Counter)
     left_out: dict[str, list[int | None]] = field(default_factory=dict)
-    seen: set[tuple[str, int | None]] = field(default_factory=set)
+    seen: set[tuple[str, int | None, Severity]] = field(default_factory=set)
     rule_names: Mapping[str, str] = field(default_factory=dict)
 
     def add(self, finding: Finding) -> None:
-        """Keep a finding unless its line already has one of its rule, or the limits are reached."""
-        key = (finding.code, finding.line)
-        if key in self.seen:
+        """Keep a finding unless its line already has one of its rule as grave as it, or the limits are reached."""
+        as_grave = GRAVEST_FIRST[: GRAVEST_FIRST.index(finding.severity) + 1]
+        if any((finding.code, finding.line, severity) in self.seen for severity in as_grave):
             return
-        self.seen.add(key)
+        self.seen.add((finding.code, finding.line, finding.severity))
         informs = finding.severity is Severity.INFO
         rule, text = (finding.code, informs), (finding.code, finding.text if informs else "")
         if self.kept[rule] >= MAX_FINDINGS_OF_A_RULE or (informs and self.alike[text] >= MAX_ALIKE):

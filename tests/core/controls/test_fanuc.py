@@ -1063,3 +1063,18 @@ def test_repeated_i_and_j_arguments_of_a_macro_are_no_mistake() -> None:
     run = ran("G65 P9 I1. J2. I3. J4.\nM30\nO9\nG0 X#4 Y#7\nM99\n")
     assert "TWICE" not in {finding.code for finding in run.findings}
     assert flat(run)[-1].end[:2] == (1.0, 3.0)
+
+
+REPEATED = (
+    "O1003\nG21 G17 G40 G80 G90\nT1 M6\nG54 G0 X-20. Y-20.\nG43 H1 Z5.\nG10 L12 P1 R{first}\nM98 P2003\n"
+    "G10 L12 P1 R{second}\nM98 P2003\nG0 Z100.\nM30\nO2003\nG0 X-20. Y-20. Z2.\nG1 Z-5. F200.\n"
+    "G41 D1 X0 Y-10.\nY50.\nX60.\nY0\nX-10.\nG40 X-20. Y-20.\nG0 Z5.\nM99\n"
+)
+"""A subprogram that is run with two offsets."""
+
+
+@pytest.mark.parametrize(("first", "second"), [("6.", "4."), ("4.", "6."), ("3.", "4.")])
+def test_a_warning_on_a_line_is_kept_after_information_on_its_first_run(first: str, second: str) -> None:
+    done = ran(REPEATED.format(first=first, second=second))
+    assert done.stopped_at is None
+    assert [finding.code for finding in done.findings if finding.severity is Severity.WARNING] == ["OFFSET"]
