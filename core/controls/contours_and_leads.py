@@ -137,12 +137,20 @@ def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
     steps, along, radial = point - path.starts, path.start_directions, point - path.centers
     size, arcs = np.hypot(radial[:, 0], radial[:, 1]), path.turns != 0
     reach = np.where(arcs, _arc_lengths_to(path, point), (steps * along).sum(axis=1))
-    off = np.where(arcs, size - path.radii, steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
+    off = np.where(arcs, size - _radii_after(path, reach), steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
     tangent = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * (path.turns / np.where(size == 0.0, 1.0, size))[:, None]
     straight_on = np.where(arcs[:, None], tangent, along) @ way > cos(BLEND)
     inside = (reach > CLOSED) & (reach < path.lengths - CLOSED) & (path.starts != path.ends).any(axis=1)
     over: Flags = inside & (np.abs(off) <= CLOSED) & straight_on
     return over
+
+
+def _radii_after(path: Path, reach: Floats) -> Floats:
+    """Return the (n,) radii of arcs after lengths: the ends of a rounded arc have two radii."""
+    arms = path.ends - path.centers
+    share = reach / np.where(path.lengths == 0.0, 1.0, path.lengths)
+    radii: Floats = path.radii + share * (np.hypot(arms[:, 0], arms[:, 1]) - path.radii)
+    return radii
 
 
 def _arc_lengths_to(path: Path, point: Floats) -> Floats:
@@ -158,7 +166,8 @@ def _feet(path: Path, rows: list[int], point: Floats) -> Floats:
     on_lines = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
     radial = point - centers
     size = np.hypot(radial[:, 0], radial[:, 1])
-    on_arcs = centers + radial * (path.radii[rows] / np.where(size == 0.0, 1.0, size))[:, None]
+    radii = _radii_after(path, _arc_lengths_to(path, point))[rows]
+    on_arcs = centers + radial * (radii / np.where(size == 0.0, 1.0, size))[:, None]
     return np.where(path.turns[rows, None] == 0, on_lines, on_arcs)
 
 

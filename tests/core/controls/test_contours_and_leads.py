@@ -391,3 +391,29 @@ def test_a_gouge_of_a_line_out_and_back_at_a_corner_is_a_warning() -> None:
     cut = "G41 D1 G1 X-30. Y0. F100.\nX0.\nY50.\nX50.\nY0.\nX0.\nX-30.\nG40 X-45. Y-15."
     findings = judged_findings(judge_run(ran(FRAME.format(start="-45. Y-15.", cut=cut), "fanuc:a", t1=10.0)))
     assert {finding.severity for finding in findings if finding.code == "LEAD-GOUGE"} == {Severity.WARNING}
+
+
+ROUNDED_BORES = {
+    "0.01 mm": (
+        "G21 G17 G90 G40\nT1 M6\nG0 X12.67 Y4.19 Z5.\nG1 Z-1. F100.\nG41 D1 G1 X17.67 Y9.19 F200.\n"
+        "G3 X17.67 Y17.67 I-4.24 J4.24\nG3 X-15. Y-20. I-17.67 J-17.67\nG3 X14.33 Y20.47 I15. J20.\n"
+        "G3 X5.97 Y19. I-3.44 J-4.91\nG40 G1 X9.6 Y14.8\nG0 Z50.\nM30\n",
+        6.0,
+    ),
+    "0.0001 in": (
+        "G20 G17 G90 G40\nT1 M6\nG0 X-.5557 Y.8448\nZ.1\nG1 Z-.1 F10.\nG42 D1 X-.4933 Y1.0881 F20.\n"
+        "G2 X-.2178 Y1.3869 I.2871 J.0116\nG2 X.8062 Y.4034 I.0398 J-.9835\nG2 X-.0252 Y1.3758 I-.9842 J0.\n"
+        "G2 X.2784 Y.959 I-.0566 J-.3602\nG40 G1 X.3163 Y.681\nG0 Z2.\nM30\n",
+        0.375,
+    ),
+}
+"""Bores that run a few degrees past their start, on arcs whose rounded ends have two radii."""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "fanuc:b", "haas:a"])
+@pytest.mark.parametrize("digit", ROUNDED_BORES)
+def test_an_over_run_on_rounded_arcs_is_no_gouge(digit: str, control: str) -> None:
+    text, diameter = ROUNDED_BORES[digit]
+    done = ran(text, control, t1=diameter)
+    assert done.stopped_at is None
+    assert not any(finding.code == "GOUGE" for finding in judged_findings(judge_run(done)))
