@@ -142,13 +142,12 @@ class DrawScreen(BaseScreen):
         self.drawing.heading = "DRAWING" if self.at is None else heading(self.entries, self.at, marks)
 
     def action_finding(self, by: int) -> None:
-        """Center the window on the next or previous finding that has a position."""
-        placed = [number for number, entry in enumerate(self.entries) if entry.at is not None]
-        if not placed:
-            self.say("No finding has a place in the drawing.")
+        """Say the next or previous finding, and center the window on it if it has a place in the drawing."""
+        if not self.entries:
+            self.say("No findings.")
             return
-        here = placed.index(self.at) if self.at in placed else -1 if by > 0 else 0
-        self._take(placed[(here + by) % len(placed)])
+        here = self.at if self.at is not None else -1 if by > 0 else 0
+        self._take((here + by) % len(self.entries))
 
     def _take(self, number: int) -> None:
         self.at = number

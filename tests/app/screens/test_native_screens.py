@@ -465,3 +465,16 @@ async def test_undo_puts_the_cursor_on_the_tool_that_comes_back():
         await user.press("ctrl+z")
         await user.settle()
         assert user.screen.tool.number == number
+
+
+async def test_next_finding_on_draw_goes_through_those_without_a_place_too():
+    async with operator("notch") as user:
+        user.app.action_draw()
+        await user.settle()
+        entries = user.screen.entries
+        assert any(entry.at is None for entry in entries)
+        seen = []
+        for _ in entries:
+            await user.press("n")
+            seen.append(user.screen.at)
+        assert seen == list(range(len(entries)))
