@@ -194,6 +194,8 @@ class HomeScreen(BaseScreen):
             self.quiet()
         if each is not None and each.program:
             self._preview(each.path, each.name)
+        elif each is not None:
+            self._show_preview(each.path, each.name, None)
         self.refresh_frame()
 
     @work(thread=True, exclusive=True, group="preview")
@@ -210,7 +212,8 @@ class HomeScreen(BaseScreen):
             return
         block, unit = derived.block(1), derived.program.unit
         tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
-        heading = f"{name}  {len(block.block.segments)} segments{tool}"
+        of = "" if len(derived.blocks) == 1 else f"block 1 of {len(derived.blocks)}: "
+        heading = f"{name}  {of}{len(block.block.segments)} segments{tool}"
         self.app.call_from_thread(self._show_preview, path, heading, Subject(block, unit))
 
     def _show_preview(self, path: Path, heading: str, subject: Drawable | None) -> None:

@@ -29,14 +29,19 @@ COMMENT_WIDTH: Final = 72
 """Characters inside the parentheses; longer text continues in another comment."""
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
 """A comment that begins like this is a command to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
+AXIS_AND_NUMBER: Final = re.compile(r"\b([XYZ]) (?=[-.\d])")
 READABLE: Final = str.maketrans({"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"})
 
 
 def comments(text: str) -> Iterator[str]:
-    """Yield the comment lines for `text`: one, or several if it is long; none for blank text."""
+    """Yield the comment lines for `text`: one, or several if it is long; none for blank text.
+
+    A line never ends between an axis and its number.
+    """
     plain = text.translate(READABLE).encode("ascii", "replace").decode("ascii")
     spaced = "".join(character if character.isprintable() else " " for character in plain)
-    for line in wrap(spaced, COMMENT_WIDTH):
+    unbroken = AXIS_AND_NUMBER.sub(r"\1\0", spaced)
+    for line in (part.replace("\0", " ") for part in wrap(unbroken, COMMENT_WIDTH)):
         yield f"(* {line})" if ACTIVE.match(line) else f"({line})"
 
 

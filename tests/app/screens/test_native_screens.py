@@ -458,13 +458,16 @@ async def test_undo_puts_the_cursor_on_the_tool_that_comes_back():
         user.app.action_tools()
         await user.settle()
         await user.press("down")
-        number = user.screen.tool.number
+        tools = user.screen
+        assert isinstance(tools, ToolsScreen)
+        assert tools.tool is not None
+        number = tools.tool.number
         await user.press("f1")
         await user.settle()
         assert number not in [tool.number for tool in user.session.program.tools]
         await user.press("ctrl+z")
         await user.settle()
-        assert user.screen.tool.number == number
+        assert tools.tool.number == number
 
 
 async def test_next_finding_on_draw_goes_through_those_without_a_place_too():
@@ -473,10 +476,12 @@ async def test_next_finding_on_draw_goes_through_those_without_a_place_too():
     async with operator(replace(part, parameters=replace(part.parameters, finish_xy=Number(0.02)))) as user:
         user.app.action_draw()
         await user.settle()
-        entries = user.screen.entries
+        draw = user.screen
+        assert isinstance(draw, DrawScreen)
+        entries = draw.entries
         assert any(entry.at is None for entry in entries)
         seen = []
         for _ in entries:
             await user.press("n")
-            seen.append(user.screen.at)
+            seen.append(draw.at)
         assert seen == list(range(len(entries)))

@@ -5,7 +5,7 @@ import pytest
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.nc import Posted, Refusal, center_path_program
+from core.output.nc import Posted, Refusal, center_path_program, comments
 from core.output.objections import OVERRIDE
 from core.output.passes import CenterPath, Cutter, Floor, Job, passes
 from core.units import Unit, located_sentence
@@ -374,3 +374,10 @@ def test_every_line_is_short_plain_text():
     assert program.isascii()
     assert all(0 < len(line) < 256 for line in program.splitlines())
     assert all(first != second for first, second in pairwise(program.splitlines()) if first.startswith("G"))
+
+
+def test_a_long_comment_does_not_end_between_an_axis_and_its_number():
+    for lead in range(50, 75):
+        lines = list(comments(f"{'A' * lead} X 10.000 Y 32.000 Z -1.5 AND MORE WORDS"))
+        assert not any(line.rstrip(")").endswith((" X", " Y", " Z")) for line in lines)
+        assert max(map(len, lines)) <= 78
