@@ -27,7 +27,7 @@ RUN_SHARE: Final = 0.5
 MAX_GUESS_LINES: Final = 200
 """Most lines that are read to guess a program's control and its first tool."""
 _KLARTEXT: Final = re.compile(r"\s*(\d+\s+)?BEGIN\s+PGM\b", re.IGNORECASE)
-_WRITTEN_FOR: Final = re.compile(r"^[^\w\n]*(?:\d+ ; )?WRITTEN BY CUTCOMP FOR (\S+):", re.MULTILINE)
+_WRITTEN_FOR: Final = re.compile(r"^\(WRITTEN BY CUTCOMP FOR (\S+):", re.MULTILINE)
 _HEADER_UNIT: Final = re.compile(r"^\(UNITS (INCH|MM)\)", re.MULTILINE)
 _HEADER_TOOL: Final = re.compile(r"^\(TOOL (\d{1,4}) DIAMETER (\d*\.?\d+):", re.MULTILINE)
 _HEADER_OFFSET: Final = re.compile(r"^\(OFFSET D(\d{1,4}) RADIUS (\d*\.?\d+)", re.MULTILINE)

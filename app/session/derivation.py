@@ -56,10 +56,11 @@ def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
     """Return the total time, and the cut, rapid and total times of each postable block, as texts."""
     from core.output.times import block_times, minutes_text, program_times, times_text
     from core.pipeline.jobs import jobs
+    from core.verify.report import enumerated
 
     ready = {block.number for block in derived.blocks if block.postable}
     posted = [job for job in jobs(derived) if job.block in ready]
     total = f"{minutes_text(program_times(posted, posted[0].rapid_rate).total)} total" if posted else ""
     if posted and len(posted) < len(derived.blocks):
-        total += f" of {', '.join(str(job.block) for job in posted)} only"
+        total += f" of {enumerated('block', [job.block for job in posted])} only"
     return total, {job.block: times_text(block_times(job, job.rapid_rate)) for job in posted}

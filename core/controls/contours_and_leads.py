@@ -107,9 +107,8 @@ def _split_at_start(path: Path) -> tuple[Path, Path] | None:
         over = _runs_over(path, point, directions[lead])
         rows = [row for row in over.nonzero()[0].tolist() if row > lead]
         if rows:
-            return _split(path, rows, _feet(path, rows, point)), _split(
-                path, rows, np.repeat(point[None], len(rows), axis=0)
-            )
+            at_point = np.repeat(point[None], len(rows), axis=0)
+            return _split(path, rows, _feet(path, rows, point)), _split(path, rows, at_point)
     return None
 
 

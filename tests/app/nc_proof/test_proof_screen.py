@@ -21,7 +21,7 @@ from app.file_actions import session_of
 from app.nc_proof.dialogs import CompareControls
 from app.nc_proof.listing import Listing
 from app.nc_proof.runs import Question as Asking
-from app.nc_proof.runs import RanDotted, Result, first_tool, likely_control, read_tools, run
+from app.nc_proof.runs import RanDotted, Result, first_tool, header_tools, likely_control, read_tools, run
 from app.nc_proof.screen import ProofScreen, read_tool
 from app.screens.dialogs import Question
 from app.screens.home import HomeScreen
@@ -253,6 +253,13 @@ async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_head
         assert user.app.settings.tools_of(tmp_path / "p.nc") == ""
         if control != "klartext":
             assert user.prompt.endswith("Its tools are those that its header names.")
+
+
+def test_tools_in_the_comments_of_another_program_are_not_taken_for_a_header():
+    comments = b"(UNITS INCH)\n(TOOL 1 DIAMETER 0.5000: THE SAME)\n"
+    assert not header_tools(NcText.read(b"O1\n" + comments)).tools
+    ours = b"(WRITTEN BY CUTCOMP FOR fanuc:b: THE CONTOUR)\n" + comments
+    assert header_tools(NcText.read(ours)).tools == {1: CutterTool(1, 0.5, unit=Unit.IN)}
 
 
 async def test_tools_that_were_typed_come_before_those_of_the_header(tmp_path):
