@@ -55,7 +55,6 @@ class Operator:
     async def press(self, *keys: str) -> None:
         """Press keys in order, as the driver passes them on; "'1.25" is typed letter by letter."""
         order = KeyOrder(self.app)
-        await self.pilot.pause(0)
         for key in keys:
             for name in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(name))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import random
 from itertools import product
-from math import cos, dist, radians, sin
+from math import cos, dist, radians, sin, tan
 from pathlib import Path
 from typing import Any
 
@@ -335,6 +335,17 @@ def test_a_line_at_a_distance_from_a_point_has_both_answers() -> None:
     for answer in solved(case).runs[0].answers:
         assert walk(case, plain(answer)) < 1e-7
     assert len(solved(case).runs[0].answers) == 2
+
+
+def test_a_tangent_line_along_an_axis_follows_from_the_height_of_both_its_ends() -> None:
+    # both tangent lines are 20 long to the corner at 0,0, and the arc turns by 225 degrees between them
+    case = case_of(line(length=20, angle=225), cw(tangent=True, y_end=0), line(x_end=0, y_end=0, tangent=True))
+    _, arc, last = document(case)["segments"]
+    center = -20.0 * tan(radians(22.5))
+    assert [arc[name]["value"] for name in ("x_end", "y_end", "y_center")] == pytest.approx(
+        [-20.0, 0.0, center], abs=1e-7
+    )
+    assert (last["angle"]["value"], last["length"]["value"]) == pytest.approx((0.0, 20.0), abs=1e-7)
 
 
 @pytest.mark.parametrize(("make", "side"), [(ccw, 1.0), (cw, -1.0)])

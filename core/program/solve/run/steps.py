@@ -1,7 +1,7 @@
 """Each step of this module chooses: it returns the one or two branches that continue a branch, in a fixed order.
 
 The first step that applies is taken, in this order: PARALLEL, a circle without a choice, a LINE's heading, a joint, a
-circle, the side of a POINT at DISTANCE, the side of an OFFSET.
+circle, the side of a POINT at DISTANCE, the side of an OFFSET, a LINE along an axis.
 """
 
 from __future__ import annotations
@@ -201,6 +201,18 @@ def _offset_ways(branch: Branch, index: int, target: OrientedLine, offset: float
     return ways
 
 
+def _along_axis(branch: Branch) -> Ways | None:
+    """Choose the heading of a LINE whose ends have the same known X or the same known Y: to +X or +Y first."""
+    for index, element in enumerate(branch.run.elements):
+        if element.turn or branch.heading_in[index] is not None:
+            continue
+        for coordinates, heading in ((branch.y, 0.0), (branch.x, pi / 2.0)):
+            start, end = coordinates[index], coordinates[index + 1]
+            if start is not None and end is not None and abs(end - start) <= JOINED:
+                return [_headed(branch, root, index, heading + root * pi) for root in (0, 1)]
+    return None
+
+
 STEPS: Final[tuple[Step, ...]] = (
     _parallel,
     _single_circle,
@@ -210,4 +222,5 @@ STEPS: Final[tuple[Step, ...]] = (
     _circle,
     _point_side,
     _offset_side,
+    _along_axis,
 )
