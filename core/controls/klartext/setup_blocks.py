@@ -181,6 +181,9 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
         radius = inf if defined is None else defined
     state.radius = None if radius == inf else radius + delta
     if state.radius is not None:
+        if delta and state.radius > 0.0:
+            text = "The tool radius is {0} with DR. It is judged as this wide."
+            state.tell(Severity.INFO, "TOOL", text, block, "DR", state.radius)
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
 
 

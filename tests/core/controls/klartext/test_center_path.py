@@ -148,7 +148,7 @@ def test_m109_to_m111_set_the_feed_on_arcs(function: str, inside: float, outside
 
 
 def test_the_radius_includes_all_deltas() -> None:
-    run = clean("TOOL DEF 2 L+0 R+4 DR+0.5", "TOOL CALL 2 Z S1000 DR+0.25", START, "L X+0 RL F9", "L X+9", "L X+30 R0")
+    run = runs("TOOL DEF 2 L+0 R+4 DR+0.5", "TOOL CALL 2 Z S1000 DR+0.25", START, "L X+0 RL F9", "L X+9", "L X+30 R0")
     assert flat(run)[0] == NEAR((0, 4.75))
 
 

@@ -25,7 +25,7 @@ def test_inch_programs_are_read_in_inches() -> None:
     moves = "L X+1 Y+0 F10\nCC X+0 Y+0\nCP PA+90 DR+\n"
     run = run_klartext(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), NONE)
     assert run.unit is Unit.IN
-    assert codes(run) == [("UNIT", 1)]
+    assert codes(run) == [("UNIT", 1), ("TOOL", 3)]
     assert run.moves[1].point == (25.4, 0, 0)
     assert run.moves[1].feed == 254
     assert flat(run)[0] == NEAR((0, 25.4, 0, 0, 1))
@@ -47,6 +47,12 @@ def test_the_tool_table_takes_precedence_over_tool_def_and_is_reported() -> None
     assert [(finding.code, finding.severity) for finding in run.findings] == [("TOOL", Severity.INFO)] * 2
     assert entry("TOOL CALL 1 Z", tools=tools) == 4.5
     assert entry("TOOL CALL 4 Z", tools=tools) == NEAR(3.175)
+
+
+def test_a_radius_that_dr_changes_is_reported() -> None:
+    run = runs("TOOL CALL 1 Z S1 DL+1 DR-0.5", *CONTOUR)
+    (told,) = run.findings
+    assert (told.code, told.severity, told.line, told.lengths) == ("TOOL", Severity.INFO, 4, (4.5,))
 
 
 def test_a_feed_in_the_tool_call_takes_effect() -> None:
