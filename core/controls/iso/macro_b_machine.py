@@ -655,7 +655,9 @@ class MacroMachine(Machine):
     def _origin_variable(self, key: int) -> float | None:
         place = (EXTERNAL, key - 5201) if 5201 <= key <= 5203 else _work_offset_place(key)
         if place is not None:
-            return from_mm(self.origin.systems.get(place[0], ZERO)[place[1]], self.unit)
+            # a Haas keeps what G52 shifts in #5201 to #5203
+            local = self.origin.local[place[1]] if self.dialect.diameters_apart and 5201 <= key <= 5203 else 0.0
+            return from_mm(self.origin.systems.get(place[0], ZERO)[place[1]] + local, self.unit)
         return 0.0 if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999 else None
 
     def set_variable(self, key: int, value: float) -> bool:

@@ -851,6 +851,12 @@ def test_work_offsets_have_twenty_variables_each() -> None:
     assert [variables[key] for key in range(100, 106)] == [20.0, 2.0, 30.0, 48.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize(("control", "value"), [("haas", 7.0), ("fanuc", 4.0)])
+def test_the_first_origin_variable_of_a_haas_has_the_shift_of_g52(control: str, value: float) -> None:
+    run = ran("G21\nG10 L2 P0 X4.\nG52 X3.\n#100=#5201\nM30", control)
+    assert dict(run.variables)[100] == value
+
+
 def test_each_axis_that_is_not_followed_is_reported_once() -> None:
     assert len(findings_of(ran("G21 G0 X1. A0.\nX2. A5.\nX3. B1.\nM30"), "AXIS")) == 2
 
