@@ -190,7 +190,8 @@ class PostScreen(EntryScreen):
     def prompt_text(self) -> Sentence:
         """Return what Enter does."""
         if self.focused is not None and self.focused.id == "post-controls":
-            return Sentence("Up and down or letters choose the control. Enter goes back to the name.")
+            chosen = next(each for each in choices() if each.control == self.choice)
+            return Sentence(f"{chosen.name}, {chosen.about}. Up, down or letters choose, Enter goes back to the name.")
         if self.made is None or not self.made.against:
             return Sentence("NC file name, Enter posts. F2 or Tab: which control compensates.")
         what = f"{counted(len(self.made.against), 'finding')} must be corrected."

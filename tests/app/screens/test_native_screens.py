@@ -171,7 +171,9 @@ async def test_post_preselects_the_control_of_the_last_post(tmp_path, monkeypatc
         assert isinstance(screen, PostScreen)
         assert screen.choice == "center path"
         await user.press("f2", "down")
-        assert user.prompt == "Up and down or letters choose the control. Enter goes back to the name."
+        assert user.prompt.startswith(
+            "fanuc:a, type A, corners by lines; 0i, 16-21, 30i-32i. Up, down or letters choose"
+        )
         chosen = screen.choice
         await user.press("enter")
         await everything(user)
