@@ -53,6 +53,20 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
+def inner_laps(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
+    """Return the closed runs of a contour that passes its first point again, else the contour.
+
+    Leads at the beginning and the end of a run are left out.
+    """
+    first, last = contour
+    point_ids, sums = _point_ids(path), _sums(path)
+    passes = [row for row in range(first, last + 1) if point_ids[row] == point_ids[first]]
+    runs = [run for run in pairwise(passes) if _encloses(sums, run)]
+    if len(runs) < 2 or passes[-1] != last:
+        return (contour,)
+    return tuple(_between_leads(path, sums, point_ids, run) for run in runs)
+
+
 def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, frozenset[float]]:
     """Return the open contours among closed ones, with their lines: they may only lead to the closed ones."""
     if len(contours) == 1:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, compress, pairwise
+from itertools import accumulate, pairwise
 from typing import Final
 
 import numpy as np
@@ -26,6 +26,7 @@ from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
 from core.controls.registry import arc_tolerance
 from core.controls.repeated_passes import path_key, without_repeats
+from core.controls.roughing_laps import RoughingLap, without_roughing_laps
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows, joined
@@ -89,7 +90,7 @@ class Judged:
     first part.  `unseen_gouges` counts gouges too shallow for a digit of the program's unit; the verdict leaves them
     out.  `above`: moves above the contour, which are not judged.  On a run's first result, `uncompensated` has the cuts
     of moves without compensation into all contours, and `of_others` the cuts of compensated moves into contours of
-    other stretches.  `loops` go around outside corners and are not surface.
+    other stretches.  `loops` go around outside corners and are not surface; later laps cut `roughing` laps away.
     """
 
     stretch: Stretch
@@ -110,6 +111,7 @@ class Judged:
     uncompensated: tuple[UncompensatedCut, ...] = ()
     of_others: tuple[ContourCut, ...] = ()
     loops: tuple[CornerLoop, ...] = ()
+    roughing: tuple[RoughingLap, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -268,11 +270,12 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     ends = list(accumulate(map(len, surfaces), initial=0))
     results, unjudged = list[Judged](), list[Judged]()
     for index, (part, rows) in enumerate(zip(parts, pairwise(ends), strict=True)):
-        inner = [(first - rows[0], last - rows[0]) for first, last in _clipped(contours, rows)]
-        inside = [max(first, rows[0]) < min(last, rows[1]) for first, last in contours]
-        judgments = _judge_part(run, part, surfaces[index], inner or [(0, len(surfaces[index]))])
-        for at, contour in enumerate(compress(contours, inside)):
-            judgments[at] = replace(judgments[at], open_lines=open_lines.pop(contour, frozenset()))
+        inner = {
+            (first - rows[0], last - rows[0]): open_lines.pop(contour, frozenset())
+            for contour in contours
+            for first, last in _clipped([contour], rows)
+        }
+        judgments = _judge_part(run, part, surfaces[index], inner or {(0, len(surfaces[index])): frozenset()})
         same_side = _same_side(parts, index)
         if len(same_side) > 1:
             reach = (ends[same_side[0]], ends[same_side[-1] + 1])
@@ -338,11 +341,26 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
     return replace(verdict, uneven_arc=replace(arc, number=float(surface.numbers[int(arc.number)])))
 
 
-def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[RowRange]) -> list[Judged]:
-    """Return the verdict on each contour of a part with one side and radius; the first one has the leads."""
+def _judge_part(
+    run: ControlRun, stretch: Stretch, whole: Path, contours: Mapping[RowRange, frozenset[float]]
+) -> list[Judged]:
+    """Return the verdict on each contour of a part with one side and radius; the first one has the leads.
+
+    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing laps are left out.
+    """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
-    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
+    kept, roughing = tuple(contours), tuple[RoughingLap, ...]()
+    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in kept]
+    if any(result.verdict.gouges for result in results):
+        kept, roughing = without_roughing_laps(whole, kept, stretch.side, stretch.radius)
+    if roughing:
+        count = len(kept) + len(roughing)
+        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in kept]
+    opened = [
+        replace(result, open_lines=contours.get(rows, frozenset())) for result, rows in zip(results, kept, strict=True)
+    ]
+    results = [replace(opened[0], roughing=roughing), *opened[1:]]
     slack = max(result.verdict.radius_slack for result in results)
     results[0] = replace(results[0], uneven=_most_uneven(slack, whole, center))
     inside = np.zeros(len(whole), np.bool_)
@@ -428,6 +446,7 @@ def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
                 *_uneven_arc(uneven.get(result)),
                 *_cuts(result),
                 *_open_contour(result, gouged),
+                *_roughing(result),
                 *_leads(result),
                 *_corner_loops(result),
                 *_contact(result),
@@ -602,6 +621,19 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
         f"only connect contours, cancel compensation before them or use at most {MAX_LEAD_MOVES} moves."
     )
     return [Finding("WAY", Severity.WARNING, text, line=first)]
+
+
+def _roughing(result: Judged) -> Iterator[Finding]:
+    """Warn of laps that are not judged because a later lap cuts them away."""
+    for lap in result.roughing:
+        lines, later = (_lines_of(numbers) for numbers in (lap.numbers, lap.later_numbers))
+        text = f"The lap of {lines} is taken for roughing: that of {later} cuts it away. If it is a wall, it is gouged."
+        yield Finding("ROUGHING", Severity.WARNING, text, line=_line(lap.numbers[0]))
+
+
+def _lines_of(numbers: tuple[float, float]) -> str:
+    first, last = map(int, numbers)
+    return f"line {first}" if first == last else f"lines {first}-{last}"
 
 
 def _leads(result: Judged) -> Iterator[Finding]:

@@ -1,0 +1,75 @@
+"""Roughing laps are closed contours that a later lap of the same stretch cuts away, one step of the cutter deeper.
+
+A bore is opened circle by circle, a boss is cut down to size: what the earlier laps leave is no wall of the part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from shapely.geometry import Polygon
+
+from core.controls.contours_and_leads import RowRange, inner_laps
+from core.geometry.chords import chords_of
+from core.geometry.path import Path
+from core.geometry.piece import Side
+from core.tolerance import CLOSED
+
+SAG: Final = 1e-3
+"""Millimeters by which chords may be off the laps; laps that come nearer than two of them share a wall."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoughingLap:
+    """A lap and the later one that cuts it away, by the numbers of their first and last moves."""
+
+    numbers: tuple[float, float]
+    later_numbers: tuple[float, float]
+
+
+def without_roughing_laps(
+    path: Path, contours: Sequence[RowRange], side: Side, radius: float
+) -> tuple[tuple[RowRange, ...], tuple[RoughingLap, ...]]:
+    """Return the contours that later laps leave, ascending, and the laps that they cut away.
+
+    The later lap runs the same way around, shares no wall with the earlier one, and lies at most a cutter's diameter
+    deeper, so that nothing stays between them.  A lap that misses this is a wall.
+    """
+    laps = [lap for contour in contours for lap in inner_laps(path, contour)]
+    regions = [_region(path, lap) for lap in laps]
+    kept, roughing = list[RowRange](), list[RoughingLap]()
+    for index, lap in enumerate(laps):
+        rest = zip(laps[index + 1 :], regions[index + 1 :], strict=True)
+        later = next((other for other, region in rest if _cuts_away(regions[index], region, side, radius)), None)
+        if later is None:
+            kept.append(lap)
+        else:
+            roughing.append(RoughingLap(_ends(path, lap), _ends(path, later)))
+    return (tuple(kept), tuple(roughing)) if roughing else (tuple(contours), ())
+
+
+def _ends(path: Path, rows: RowRange) -> tuple[float, float]:
+    return float(path.numbers[rows[0]]), float(path.numbers[rows[1] - 1])
+
+
+def _region(path: Path, rows: RowRange) -> Polygon | None:
+    """Return what a closed run of pieces encloses; None if it is open or crosses itself."""
+    if np.abs(path.points[rows[0]] - path.points[rows[1]]).max() > CLOSED:
+        return None
+    region = Polygon(chords_of(path.part(*rows), SAG))
+    return region if region.is_valid and region.area > 0.0 else None
+
+
+def _cuts_away(earlier: Polygon | None, later: Polygon | None, side: Side, radius: float) -> bool:
+    """True if the second lap lies within the material of the first one, at most a cutter's diameter deeper."""
+    if earlier is None or later is None or earlier.exterior.distance(later.exterior) <= 2.0 * SAG:
+        return False
+    counterclockwise = bool(earlier.exterior.is_ccw)
+    if counterclockwise != later.exterior.is_ccw:
+        return False
+    if counterclockwise is (side is Side.LEFT):  # the cutter runs inside
+        return bool(later.contains(earlier) and earlier.contains(later.buffer(-2.0 * radius)))
+    return bool(earlier.contains(later) and later.buffer(2.0 * radius).contains(earlier))
