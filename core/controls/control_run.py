@@ -59,6 +59,10 @@ class Stretch:
     led_out: bool = False
     changes: tuple[Change, ...] = ()
 
+    def has_part(self, part: Stretch) -> bool:
+        """True if `part` is this stretch or a part of it; the next stretch may begin where this one ends."""
+        return self.first <= part.first < self.last - 1
+
     def parts(self) -> tuple[Stretch, ...]:
         """Return the stretch in parts of one side and radius each; moves across belong to the smaller radius.
 

@@ -154,7 +154,7 @@ def _passes(run: ControlRun, contours: Sequence[CutContour]) -> list[_Pass]:
     """Return the compensated moves of a run in XY, by stretch and radius; of equal ones the lowest."""
     passes, setups = dict[tuple[PathKey, float, int], _Pass](), _setups(run)
     for stretch in run.stretches:
-        shapes = frozenset(path_key(cut.path) for cut in contours if stretch.first <= cut.stretch.first < stretch.last)
+        shapes = frozenset(path_key(cut.path) for cut in contours if stretch.has_part(cut.stretch))
         setup = bisect(setups, _line(stretch))
         for part in stretch.parts() if stretch.plane is Plane.XY else ():
             moves = run.moves.part(part.first, part.last)

@@ -84,7 +84,7 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
         cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
     for stretch, last in _feeds_after(run):
-        own_contours = [contour for contour in contours if stretch.first <= contour.stretch.first < stretch.last]
+        own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
         cuts += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own_contours, rapid=False)
     # a wall that is already cut takes precedence over one that is yet to be cut
     ranked = sorted(cuts, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))

@@ -55,6 +55,13 @@ def test_a_contour_at_a_wrong_place_is_told_whichever_is_cut_first() -> None:
     assert not told(box(0, 0, 40, -5), box(70, 0, 40, -5))
 
 
+def test_a_pass_into_the_wall_of_the_stretch_that_follows_at_once_is_told() -> None:
+    """The first pass has X78 for X80: it cuts 2 into the wall that the second pass leaves."""
+    lap = "G41 D1 X-12 Y13\nG3 X0 Y25 R12\nG1 Y50\nX{}\nY0\nX0\nY25\nG3 X-12 Y37 R12\nG1 G40 X-30 Y25\n"
+    assert told(f"G0 X-30 Y25\nG1 Z-6\n{lap.format(78)}{lap.format(80)}G0 Z50\n") == [(9, "2.000")]
+    assert not told(f"G0 X-30 Y25\nG1 Z-6\n{lap.format(80)}{lap.format(80)}G0 Z50\n")
+
+
 def test_passes_that_widen_a_pocket_cut_away_only_what_they_leave() -> None:
     assert not told(*(circle(radius) for radius in (8.0, 14.0, 20.0, 26.0)))
 
