@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.path import Flags, Floats, Path, lengths, pieces_of
+from core.geometry.piece import Side
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -65,6 +66,27 @@ def inner_laps(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     if len(runs) < 2 or passes[-1] != last:
         return (contour,)
     return tuple(_between_leads(path, sums, point_ids, run) for run in runs)
+
+
+def between_lead_arcs(path: Path, contour: RowRange, side: Side) -> RowRange:
+    """Return the rows of an open contour without an arc that leads in or out; those of a closed one stay.
+
+    Such an arc is at most a quarter turn, runs on tangent from the wall, and has its center on the cutter's side.
+    """
+    first, last = contour
+    if np.abs(path.points[first] - path.points[last]).max() <= CLOSED:
+        return contour
+
+    def leads(arc: int, wall: int) -> bool:
+        before, after = min(arc, wall), max(arc, wall)
+        tangent = float(path.end_directions[before] @ path.start_directions[after]) >= cos(BLEND)
+        return bool(path.turns[arc] == side.sign and abs(path.sweeps[arc]) <= pi / 2 + BLEND and tangent)
+
+    if last - first > 1 and leads(first, first + 1):
+        first += 1
+    if last - first > 1 and leads(last - 1, last - 2):
+        last -= 1
+    return first, last
 
 
 def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, frozenset[float]]:

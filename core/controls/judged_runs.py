@@ -13,6 +13,7 @@ from core.controls.contours_and_leads import (
     MAX_LEAD_MOVES,
     RowRange,
     SplitContours,
+    between_lead_arcs,
     blend_leads,
     has_long_leads,
     leads_at_corner,
@@ -83,10 +84,11 @@ class Judged:
 
     Repeated passes are removed from surface and center path separately; `lines` covers the whole surface, because of
     two equal passes the surface may keep one and the path the other.  `leads` are programmed moves treated as leads
-    because a closed contour begins after or ends before them, which is doubtful if they are `long_leads` or
-    `corner_leads` (out and back at a corner); `lead_gouges` are the cuts into them, measured with `lead_slack` of extra
-    tolerance, because they may be surface after all.  `by_itself`: the side changes within the stretch, and cuts into
-    its other parts are not judged.  `open_lines`: all lines of an open contour among closed ones, if this result is its
+    because a contour begins after or ends before them, which is doubtful if they are `long_leads` or `doubtful_leads`
+    (out and back at a corner, or arcs of an open contour); `lead_gouges` are the cuts into them, measured with
+    `lead_slack` of extra tolerance, because they may be surface after all.  `by_itself`: the side changes within the
+    stretch, and cuts into its other parts are not judged.  `cut_short`: the control stops within the stretch, so that
+    what stays uncut says nothing.  `open_lines`: all lines of an open contour among closed ones, if this result is its
     first part.  `unseen_gouges` counts gouges too shallow for a digit of the program's unit; the verdict leaves them
     out.  `above`: moves above the contour, which are not judged.  On a run's first result, `uncompensated` has the cuts
     of moves without compensation into all contours, and `of_others` the cuts of compensated moves into contours of
@@ -100,10 +102,11 @@ class Judged:
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
     long_leads: bool = False
-    corner_leads: bool = False
+    doubtful_leads: bool = False
     lead_gouges: tuple[Gouge, ...] = ()
     lead_slack: float = 0.0
     by_itself: bool = False
+    cut_short: bool = False
     open_lines: frozenset[float] = frozenset()
     uneven: ToleratedArc | None = None
     unseen_gouges: int = 0
@@ -151,8 +154,9 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)
     for done, stretch in enumerate(run.stretches):
         judging(done / len(run.stretches))
+        cut_short = run.stopped_at is not None and stretch.last == len(run.moves) and not stretch.exit
         results += [
-            _without_shallow(result, least)
+            replace(_without_shallow(result, least), cut_short=cut_short)
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
         ]
     if results:
@@ -346,46 +350,54 @@ def _judge_part(
 ) -> list[Judged]:
     """Return the verdict on each contour of a part with one side and radius; the first one has the leads.
 
-    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing laps are left out.
+    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing laps are left out, and
+    of an open contour the arcs that lead in and out.
     """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
-    kept, roughing = tuple(contours), tuple[RoughingLap, ...]()
-    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in kept]
+    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
+    kept, roughing, walls = tuple(contours), tuple[RoughingLap, ...](), dict(contours)
     if any(result.verdict.gouges for result in results):
         kept, roughing = without_roughing_laps(whole, kept, stretch.side, stretch.radius)
-    if roughing:
-        count = len(kept) + len(roughing)
-        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in kept]
-    opened = [
-        replace(result, open_lines=contours.get(rows, frozenset())) for result, rows in zip(results, kept, strict=True)
-    ]
-    results = [replace(opened[0], roughing=roughing), *opened[1:]]
+        opened = {rows: contours.get(rows, frozenset()) for rows in kept}
+        walls = {between_lead_arcs(whole, rows, stretch.side): lines for rows, lines in opened.items()}
+    if walls != contours:
+        count = len(walls) + len(roughing)
+        results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in walls]
+    results = [replace(result, open_lines=lines) for result, lines in zip(results, walls.values(), strict=True)]
     slack = max(result.verdict.radius_slack for result in results)
-    results[0] = replace(results[0], uneven=_most_uneven(slack, whole, center))
+    results[0] = replace(results[0], roughing=roughing, uneven=_most_uneven(slack, whole, center))
+    return _with_leads(results, whole, tuple(contours if roughing else walls), accepted, arcs=walls.keys() != set(kept))
+
+
+def _with_leads(
+    results: list[Judged], whole: Path, contours: tuple[RowRange, ...], accepted: float, *, arcs: bool
+) -> list[Judged]:
+    """Return the results with the leads outside the contours in the first one; with `arcs` all of them are doubtful."""
     inside = np.zeros(len(whole), np.bool_)
     for first, last in contours:
         inside[first:last] = True
     leads = whole.numbers[~inside].tolist()
-    if leads:
-        surface = without_repeats(whole)
-        long = has_long_leads(whole, tuple(contours))
-        ends = Leads.NONE if long else Leads.SEGMENTS
-        verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=ends)
-        gouges = verdict.gouges if verdict.judged else ()
-        doubtful = set(leads) - {float(whole.numbers[row]) for row in blend_leads(whole, tuple(contours))}
-        lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in doubtful)
-        results[0] = replace(
-            results[0],
-            leads=tuple(dict.fromkeys(map(int, leads))),
-            long_leads=long,
-            corner_leads=leads_at_corner(whole, tuple(contours)),
-            lead_gouges=lead_gouges,
-            lead_slack=verdict.radius_slack,
-        )
-        if not verdict.judged:
-            results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
-    return results
+    if not leads:
+        return results
+    stretch, center, surface = results[0].stretch, results[0].center, without_repeats(whole)
+    long = has_long_leads(whole, contours)
+    ends = Leads.NONE if long else Leads.SEGMENTS
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=ends)
+    gouges = verdict.gouges if verdict.judged else ()
+    certain = set[float]() if arcs else {float(whole.numbers[row]) for row in blend_leads(whole, contours)}
+    doubtful = set(leads) - certain
+    results[0] = replace(
+        results[0],
+        leads=tuple(dict.fromkeys(map(int, leads))),
+        long_leads=long,
+        doubtful_leads=arcs or leads_at_corner(whole, contours),
+        lead_gouges=tuple(gouge for gouge in gouges if gouge.surface_number in doubtful),
+        lead_slack=verdict.radius_slack,
+    )
+    if verdict.judged:
+        return results
+    return _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
 
 
 def _center_path(run: ControlRun, stretch: Stretch) -> Path:
@@ -640,10 +652,10 @@ def _leads(result: Judged) -> Iterator[Finding]:
     """Report moves that are treated as leads, and the cuts into them."""
     if not result.leads:
         return
-    text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
+    text = f"{len(result.leads)} moves before or after a contour are treated as lead moves, not part."
     check = "They are long. Check that none of them is a wall."
     if len(result.leads) == 1:
-        text = "A move before or after a closed contour is treated as a lead move, not part."
+        text = "A move before or after a contour is treated as a lead move, not part."
         check = "It is long. Check that it is no wall."
     severity = Severity.INFO
     if result.long_leads:
@@ -655,7 +667,7 @@ def _leads(result: Judged) -> Iterator[Finding]:
         slack = (result.lead_slack,) if result.lead_slack > 0.0 else ()
         text += " It is judged with {0} extra tolerance." if slack else ""
         line, at = _line(gouge.path_number), gouge.surface_at
-        severity = Severity.WARNING if result.corner_leads else severity
+        severity = Severity.WARNING if result.doubtful_leads else severity
         yield Finding("LEAD-GOUGE", severity, text, at=at, value=gouge.depth, lengths=slack, line=line)
 
 
@@ -704,7 +716,7 @@ def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
 
 def _uncut(result: Judged) -> list[Finding]:
     verdict = result.verdict
-    if not verdict.judged or not verdict.uncut:
+    if not verdict.judged or not verdict.uncut or result.cut_short:
         return []
     worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
     too_small = worst.thickness < SHOWN

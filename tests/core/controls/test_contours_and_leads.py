@@ -190,6 +190,33 @@ def test_a_circle_that_runs_five_degrees_past_its_start_does_not_gouge(kind: str
     assert (result.verdict.clean, result.verdict.uncut_length, len(result.leads)) == (True, 0.0, 3)
 
 
+OPEN = "G41 D1 G1 X-8. Y-6.\nG3 X0. Y2. J8.\nG1 Y30.\nG3 X-6. Y36. I-6.\nG1 X-40.\nG3 X-48. Y28. J-8.\nG1 G40 Y18."
+"""An open wall with a rounded corner between two arcs that lead in and out."""
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal"])
+def test_a_cut_into_a_lead_arc_of_an_open_contour_is_a_warning(control: str) -> None:
+    cut = OPEN.replace(" D1", "") if control in ("linuxcnc", "rosettacnc:normal") else OPEN
+    run = ran(FRAME.format(start="-18. Y-6.", cut=cut), control, t1=10.0)
+    assert run.stopped_at is None
+    told = [finding for finding in judged_findings(judge_run(run)) if "GOUGE" in finding.code]
+    assert [(finding.code, finding.severity) for finding in told] == [("LEAD-GOUGE", Severity.WARNING)] * 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        # the arc turns toward the part, so it is a wall
+        ("X-8. Y-6.\nG3 X0. Y2. J8.", "X8. Y-6.\nG2 X0. Y2. J8."),
+        # not on tangent
+        ("X-8. Y-6.\nG3 X0. Y2. J8.", "X-8. Y2.\nG3 X0. Y2. I4."),
+    ],
+)
+def test_a_cut_into_a_wall_of_an_open_contour_is_a_gouge(old: str, new: str) -> None:
+    findings = errors(FRAME.format(start="-18. Y-6.", cut=OPEN.replace(old, new)), "fanuc:a", t1=10.0)
+    assert "GOUGE" in {finding.code for finding in findings}
+
+
 def test_an_arc_that_runs_past_the_start_is_split_there() -> None:
     half = Arc((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CW)
     over = Arc((1.0, 0.0), (-0.8, 0.6), (0.0, 0.0), Turn.CW)

@@ -34,6 +34,15 @@ def test_a_clean_path_has_no_finding() -> None:
     assert not judged_findings(judge_run(run))
 
 
+def test_what_an_alarm_leaves_uncut_is_not_told() -> None:
+    text = "G21 G17 G90 F200\nT1 M6\nG0 X-20 Y-20\nG41 X0 Y-10\nG1 Z-3\nY50\nX80\n{}X-10\nG40 X-20\nM2\n"
+    for wall, told in (("Y0\n", set()), ("Y45\nX84\nY0\n", {"N-CONCAVE"})):
+        run = ran(text.format(wall), "linuxcnc", t1=10.0)
+        assert {finding.code for finding in run.findings if finding.severity is Severity.ERROR} == told
+        uncut = [finding for finding in judged_findings(judge_run(run)) if finding.code == "UNCUT"]
+        assert not uncut
+
+
 BORE = "G21 G17 G90 F200\nT1 M6\nG0 X0 Y0\nG1 Z-3\nG41 D1 X6\nG3 I-6\nG40 G1 X0\nM30\n"
 
 
