@@ -35,7 +35,7 @@ _CALL: Final = re.compile(rf"\s*LBL\s*{_NAME}\s*(?:REP\s*(\d{{1,5}})(?:/\d+)?)?\
 _SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$", re.ASCII)
 _FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$", re.ASCII)
 _ASSIGNMENT: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$", re.ASCII)
-_WITH_VALUES: Final = re.compile(r"\s*DEF\s*[2-9]\d\d(?!\d)", re.ASCII)
+_WITH_VALUES: Final = re.compile(r"\s*DEF\s*(?:2[0-57-9]|39|[2-9]\d\d)(?!\d)", re.ASCII)
 """The cycles whose definition goes on in further lines, one Q parameter a line."""
 _COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT", re.ASCII)
 _GOAL: Final = re.compile(rf"\s*LBL\s*{_NAME}\s*$", re.ASCII)
@@ -83,7 +83,7 @@ def _run_blocks(state: State, progress: Progress) -> None:
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
         if block.more and not (block.head == "CYCL" and _WITH_VALUES.match(block.body)):
-            text = "cutcomp reads a ~, which continues a block, from CYCL DEF 200 on only. Write the block on one line."
+            text = "cutcomp reads a ~, which continues a block, only in CYCL DEF with Q parameters. Write one line."
             state.stop("BEYOND", text, block)
         HEADS.get(block.head, setup_blocks.unknown)(state, block)
         if state.cycle_due:

@@ -20,7 +20,7 @@ from core.units import to_mm
 
 _CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
 _POSITION: Final = re.compile(r"\s*CALL\s*(POS|PAT)?", re.ASCII)
-_VALUE: Final = re.compile(r"Q(\d{3})\s*=\s*(\S+)", re.ASCII)
+_VALUE: Final = re.compile(r"Q(\d{1,3})\s*=\s*(\S+)", re.ASCII)
 _HEIGHTS: Final = frozenset(("Q200", "Q203", "Q204"))
 """Set-up clearance, surface and 2nd set-up clearance."""
 

@@ -107,3 +107,11 @@ def test_what_a_milling_cycle_cuts_is_not_judged_and_that_is_a_warning_once() ->
     assert told == [Severity.WARNING, Severity.INFO, Severity.INFO]
     drilled = runs("L Z+9 R0 FMAX", *DRILLING, "L X+3 Y+4 FMAX M99")
     assert [finding.severity for finding in drilled.findings if finding.code == "CYCLE"] == [Severity.INFO]
+
+
+def test_contour_cycles_give_their_values_in_further_lines() -> None:
+    data = ("CYCL DEF 20 CONTOUR DATA ~", "  Q1=-20 ;MILLING DEPTH ~", "  Q7=+100 ;CLEARANCE HEIGHT")
+    run = runs(*data, "CYCL DEF 22 ROUGH-OUT ~", "  Q10=+5 ;PLUNGING DEPTH", "L Z+Q7 R0 FMAX")
+    assert run.stopped_at is None
+    assert run.moves.points[-1, 2] == 100.0
+    assert runs(*data, "CYCL DEF 22 ROUGH-OUT ~", "  Q10=+5 ;PLUNGING DEPTH", "CYCL CALL").stopped_at == 9
