@@ -70,8 +70,8 @@ class UncompensatedCut:
 def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[UncompensatedCut, ...]:
     """Return the cuts of moves outside the compensated stretches into contours in XY, the deepest of each line.
 
-    The moves are rapids, and feed moves that follow a stretch at its height and cut its own contours.  The tool is that
-    of the stretch before, or of the first stretch if there is none before.
+    The moves are rapids, and feed moves at the height of a stretch that lead to it or follow it and cut its own
+    contours.  The tool is that of the stretch before, or of the first stretch if there is none before.
     """
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
@@ -83,31 +83,39 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
         cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
-    for stretch, last in _feeds_after(run):
+    for stretch, first, last in _feeds_beside(run):
         own_contours = [contour for contour in contours if stretch.has_part(contour.stretch)]
-        cuts += _cuts(run.moves.part(stretch.last - 1, last), stretch.radius, own_contours, rapid=False)
+        cuts += _cuts(run.moves.part(first, last), stretch.radius, own_contours, rapid=False)
     # a wall that is already cut takes precedence over one that is yet to be cut
     ranked = sorted(cuts, key=lambda cut: (cut.gouge.surface_number < cut.gouge.path_number, cut.gouge.depth))
     deepest = {int(cut.gouge.path_number): cut for cut in ranked}
     return tuple(deepest[line] for line in sorted(deepest))
 
 
-def _feeds_after(run: ControlRun) -> Iterator[tuple[Stretch, int]]:
-    """Yield stretches that feed moves follow at the height where they end, and one past the last such row."""
-    moves = run.moves
-    heights = moves.points[:, 2]
-    begins = [stretch.first + 1 for stretch in run.stretches[1:]]
-    for stretch, begin in zip(run.stretches, [*begins, len(moves)], strict=True):
-        last = stretch.last
-        while (
-            last < begin
-            and last not in run.unplaced
-            and not moves.rapid[last]
-            and abs(heights[last] - heights[stretch.last - 1]) <= ON_PATH
-        ):
+def _feeds_beside(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:
+    """Yield stretches with the rows of feed moves that lead to them or follow them, at the height of the stretch's end.
+
+    The first row is where the moves start; the second is one past the last.
+    """
+    heights, rapid = run.moves.points[:, 2], run.moves.rapid
+    ends = [1, *(stretch.last for stretch in run.stretches), len(run.moves)]
+    for index, stretch in enumerate(run.stretches):
+        first, last = stretch.first, stretch.last - 1
+
+        def cuts(row: int, beside: int) -> bool:
+            """True if the move to a row is a feed move at the height of the row beside it."""
+            level = max(abs(heights[end] - heights[beside]) for end in (row - 1, row)) <= ON_PATH
+            return bool(row not in run.unplaced and not rapid[row] and level)
+
+        while first >= ends[index] and cuts(first, stretch.first):
+            first -= 1
+        begin = run.stretches[index + 1].first if index + 1 < len(run.stretches) else len(run.moves) - 1
+        while last < begin and cuts(last + 1, stretch.last - 1):
             last += 1
-        if last > stretch.last:
-            yield stretch, last
+        if first < stretch.first:
+            yield stretch, first, stretch.first + 1
+        if last >= stretch.last:
+            yield stretch, stretch.last - 1, last + 1
 
 
 def _low_rapids(run: ControlRun, top: float) -> Rows:

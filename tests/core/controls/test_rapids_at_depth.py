@@ -85,6 +85,23 @@ def test_a_feed_move_from_the_contour_through_its_wall_is_reported(after: str, l
     assert all(finding.severity is Severity.WARNING for finding in findings)
 
 
+@pytest.mark.parametrize(
+    ("before", "lines"),
+    [
+        # from X100 across the boss to the place where compensation begins
+        ("G1 Z-5. F200.\nX-20. F500.\nY-20.\n", [6]),
+        ("G1 Z-4. F200.\nX-20.\nZ-5.\nY-20.\n", []),
+        ("G1 X-20. F500.\nZ-5.\nY-20.\n", []),
+        ("G0 X-20.\nG1 Z-5. F200.\nY-20.\n", []),
+    ],
+)
+def test_a_feed_move_through_the_wall_to_the_contour_is_reported(before: str, lines: list[int]) -> None:
+    boss = "G41 D1 X0. Y-10. F400.\nY50.\nX80.\nY0.\nX-10.\nG40 X-20. Y-20.\nG0 Z50.\nM30\n"
+    run = ran(f"G21 G17 G90 G40\nT1 M6\nG0 X100. Y25.\nZ10.\n{before}{boss}", "fanuc:a", t1=10.0)
+    findings = [finding for finding in judged_findings(judge_run(run)) if finding.code == "FEED"]
+    assert [finding.line for finding in findings] == lines
+
+
 def test_rapids_are_compared_with_the_highest_pass() -> None:
     deeper = "G1 Z-10.\nG41 D1 X30.\nG3 I-10.\nG40 G1 X20.\n"
     assert [finding.line for finding in rapids(f"{BORE}{deeper}G0 Z-7.\nX70.\nZ5.\nM30\n")] == [14]
