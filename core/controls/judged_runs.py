@@ -724,7 +724,8 @@ def _uncut(result: Judged) -> list[Finding]:
     text = f"{{0}} of {{1}} of the surface stays uncut, {thick} thick at X {{x}} Y {{y}}."
     lengths = (verdict.uncut_length, verdict.surface_length, *((DIGIT,) if too_small else ()))
     line, at = int(worst.first_number), worst.thickest
-    return [Finding("UNCUT", Severity.WARNING, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
+    severity = Severity.INFO if too_small else Severity.WARNING
+    return [Finding("UNCUT", severity, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
 
 
 def _crossing(result: Judged) -> list[Finding]:

@@ -43,6 +43,16 @@ def test_what_an_alarm_leaves_uncut_is_not_told() -> None:
         assert not uncut
 
 
+@pytest.mark.parametrize(("rise", "severity"), [(1, Severity.INFO), (20, Severity.WARNING)])
+def test_material_thinner_than_a_digit_in_a_corner_is_no_warning(rise: int, severity: Severity) -> None:
+    """A cutter of radius 5 leaves 5 (1 / cos(a / 2) - 1) in an inside corner of angle a: 0.0002 or 0.097."""
+    text = f"G21 G17 G90 F200\nT1 M6\nG0 X-20 Y0\nG1 Z-3\nG41 D1 X0\nX50\nX100 Y{rise}\nG40 Y40\nM30\n"
+    (told,) = [
+        finding for finding in judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0))) if finding.code == "UNCUT"
+    ]
+    assert told.severity is severity
+
+
 BORE = "G21 G17 G90 F200\nT1 M6\nG0 X0 Y0\nG1 Z-3\nG41 D1 X6\nG3 I-6\nG40 G1 X0\nM30\n"
 
 
