@@ -144,7 +144,9 @@ def _header(
         yield from job.notes
     for note in (*_for_the_operator(jobs, cuts, unit, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
-        yield f"NOTE {note.code} {where}{sentence(note, unit)}"
+        text = sentence(note, unit)
+        code = "" if text.startswith(note.code) else f"{note.code} "
+        yield f"NOTE {code}{where}{text}"
 
 
 def _offsets(cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[str]:

@@ -154,6 +154,7 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
 
 def _cut(job: Job, all_passes: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
     yield "SPEED", f"{job.speed:g} RPM"
+    yield "COOLANT", str(job.coolant)
     yield "PLUNGE FEED", _feed(job.plunge_feed, unit)
     yield "FEEDS", _feeds(job, unit)
     if all_passes:

@@ -14,6 +14,7 @@ from core.geometry.piece import Side
 from core.output.control_program import control_program, control_program_errors
 from core.output.nc import Posted, Refusal
 from core.output.passes import CenterPath, Floor, Job
+from core.program.model import Coolant
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline
 
@@ -185,6 +186,11 @@ def test_a_work_offset_is_reported_for_a_control_without_work_offsets() -> None:
     assert "WORK_OFFSET" not in [finding.code for finding in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]
     assert "G56" in posted("linuxcnc", jobs=(square(work_offset=56),)).text
     assert "; NOTE WORK_OFFSET Work offset G56" in posted("klartext", jobs=(square(work_offset=56),)).text
+
+
+def test_a_note_does_not_repeat_its_code():
+    text = posted("fanuc:a", jobs=(square(coolant=Coolant.FLOOD),)).text
+    assert "(NOTE COOLANT FLOOD is not written for fanuc:a" in text
 
 
 def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:

@@ -9,6 +9,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import CenterPath, Cutter, Job
 from core.output.sheet import NOT_READY, PAGE_COLUMNS, READY, Sheet, as_page, as_text, sheet
+from core.program.model import Coolant
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -77,6 +78,10 @@ def test_a_finish_tool_has_its_own_line_and_passes():
     rows = setup_sheet.blocks[0].table[1:]
     assert [row[1] for row in rows if row[2] == "FINISH"] == ["2"] * 3
     assert {row[5] for row in rows if row[2] == "PASS"} == {"0.0100"}
+
+
+def test_the_sheet_says_which_coolant_is_on():
+    assert pairs(sheet_of(replace(SLOT, coolant=Coolant.MIST)))["COOLANT"] == "MIST"
 
 
 def test_a_metric_sheet_is_in_millimeters():
@@ -198,6 +203,7 @@ def test_a_whole_sheet_is_written_as_text():
         "Z START, Z BOTTOM  0.0000  -0.2500",
         "PECK DEPTH         0.1000",
         "SPEED              300 RPM",
+        "COOLANT            OFF",
         "PLUNGE FEED        20.0",
         "FEEDS              10.0 (segment 1), 8.0 (segment 2)",
         "TIME               cut 2:00, rapid 0:05, total 2:05",
@@ -227,6 +233,7 @@ def test_a_whole_sheet_is_written_as_text():
         "Z START, Z BOTTOM  0.0000  -0.2500",
         "PECK DEPTH         none: full depth in one pass",
         "SPEED              300 RPM",
+        "COOLANT            OFF",
         "PLUNGE FEED        20.0",
         "FEEDS              10.0 (segment 1)",
         "TIME               cut 0:07, rapid 0:01, total 0:08",
@@ -239,7 +246,7 @@ def test_a_whole_sheet_is_written_as_text():
 def test_a_whole_sheet_is_written_as_a_page():
     lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
-    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:51] == [
+    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:52] == [
         "<h1>Setup sheet: slot</h1>",
         "<table>",
         "<tr><th>PROGRAM</th><td>slot</td></tr>",
@@ -273,6 +280,7 @@ def test_a_whole_sheet_is_written_as_a_page():
         "<tr><th>Z START, Z BOTTOM</th><td>0.0000  -0.2500</td></tr>",
         "<tr><th>PECK DEPTH</th><td>0.1000</td></tr>",
         "<tr><th>SPEED</th><td>300 RPM</td></tr>",
+        "<tr><th>COOLANT</th><td>OFF</td></tr>",
         "<tr><th>PLUNGE FEED</th><td>20.0</td></tr>",
         "<tr><th>FEEDS</th><td>10.0 (segment 1), 8.0 (segment 2)</td></tr>",
         "<tr><th>TIME</th><td>cut 2:00, rapid 0:05, total 2:05</td></tr>",
