@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
+from core.advice.lookahead_table import CuttingSetup, Row, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import CLOSED
@@ -53,11 +53,15 @@ class ToolFits:
 
 @dataclass(frozen=True, slots=True)
 class StartMoved:
-    """A new START: from `at`, the middle of `segment` or its new start, the contour is clean at look-ahead `value`."""
+    """A new START: from `at`, the middle of `segment` or its new start, the contour is clean at look-ahead `value`.
+
+    `effect`: what this look-ahead does, as in `Row.effect`.
+    """
 
     segment: float
     at: Point
     value: int
+    effect: tuple[str, tuple[float, ...]]
 
 
 class SearchCanceled(Exception):
@@ -69,11 +73,12 @@ def never_canceled() -> bool:
     return True
 
 
-def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> int | None:
-    """Return the look-ahead that the table recommends; first check that the answer is still wanted."""
+def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> Row | None:
+    """Return the row of the look-ahead that the table recommends; first check that the answer is still wanted."""
     if not wanted():
         raise SearchCanceled
-    return judge_lookaheads(setup).recommended
+    table = judge_lookaheads(setup)
+    return None if table.recommended is None else table.row(table.recommended)
 
 
 def without_blends(setup: CuttingSetup) -> CuttingSetup:
@@ -83,7 +88,8 @@ def without_blends(setup: CuttingSetup) -> CuttingSetup:
 
 def lookahead_without_blends(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> int | None:
     """Return the recommended look-ahead without blend moves; None if none is clean or there is no blend."""
-    return _recommended(without_blends(setup), wanted) if setup.blend > 0.0 else None
+    row = _recommended(without_blends(setup), wanted) if setup.blend > 0.0 else None
+    return None if row is None else row.value
 
 
 def larger_tool_without_blends(
@@ -121,12 +127,12 @@ def largest_tool(
             clean = size
         else:
             fails = size
-    value = _recommended(_with_tool(setup, clean), wanted) if clean else None
-    if value is None:
+    row = _recommended(_with_tool(setup, clean), wanted) if clean else None
+    if row is None:
         return None
     fits = 0 if limit is None else _steps(setup, 2.0 * limit)
     left = (limit, fits * setup.diameter_step) if limit is not None and 0 < fits < clean else ()
-    return ToolFits(clean * setup.diameter_step, value, left)
+    return ToolFits(clean * setup.diameter_step, row.value, left)
 
 
 def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
@@ -161,10 +167,11 @@ def start_mid_side(
     """Find the longest side of a closed contour whose middle is a clean start, among the `max_starts` longest."""
     if not setup.closed:
         return None
-    for row in longest_segments(setup.surface)[:max_starts]:
-        value = _recommended(replace(setup, surface=restarted(setup.surface, row)), wanted)
-        if value is not None:
-            return StartMoved(float(setup.surface.numbers[row]), setup.surface[row].point_at(0.5), value)
+    for side in longest_segments(setup.surface)[:max_starts]:
+        row = _recommended(replace(setup, surface=restarted(setup.surface, side)), wanted)
+        if row is not None:
+            middle = setup.surface[side].point_at(0.5)
+            return StartMoved(float(setup.surface.numbers[side]), middle, row.value, row.effect)
     return None
 
 
@@ -189,9 +196,9 @@ def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_cancele
     points = np.concatenate((surface.points[-1:], surface.points[1:]))
     centers = np.concatenate((points[:1], surface.centers[1:]))
     closed = replace(setup, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
-    value = _recommended(closed, wanted)
+    row = _recommended(closed, wanted)
     x, y = points[0].tolist()
-    return None if value is None else StartMoved(float(surface.numbers[0]), (x, y), value)
+    return None if row is None else StartMoved(float(surface.numbers[0]), (x, y), row.value, row.effect)
 
 
 def longest_segments(contour: Path) -> list[int]:

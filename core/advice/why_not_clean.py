@@ -22,6 +22,7 @@ from core.advice.remedies import (
     start_mid_side_without_blends,
 )
 from core.finding import Finding, Severity
+from core.geometry.piece import Point
 
 MAX_NAMED_PLACES: Final = 4
 """How many of the places that are too small are named in sentences."""
@@ -37,7 +38,8 @@ class Advice:
     `too_small` names inside radii and corners that the tool does not enter; the others are remedies that have been cut
     and judged clean, None if none was found.  If neither another start nor leaving out the blend moves helps alone,
     `start_without_blends` is both at once.  If that does not help, a tool is searched for, from the middle of a side
-    if the start is an inside corner; if no tool is found either, `start_at_end` is tried for an open contour.
+    if the start is an inside corner; if no tool is found either, `start_at_end` is tried for an open contour.  Of a
+    contour that crosses itself nothing but `start_at_end` is tried.
     """
 
     why: tuple[Finding, ...]
@@ -71,6 +73,10 @@ def advice_for(
 
 def _with_remedies(why: tuple[Finding, ...], setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> Advice:
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
+    if nearest.verdict.crosses_itself:
+        at_end = start_at_end(setup, wanted)
+        mend = _crossing_first(nearest.verdict.crossing_at) if at_end is None else _start_at_end_sentence(at_end)
+        return Advice(why, start_at_end=at_end, sentences=(*why, mend))
     too_small = _too_small(nearest, setup.radius)
     value, start = lookahead_without_blends(setup, wanted), start_mid_side(setup, wanted)
     both = start_mid_side_without_blends(setup, wanted) if start is None and value is None else None
@@ -165,8 +171,9 @@ def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -
         return ()
     code, blends = ("START_BLENDLESS", f", {_NO_BLENDS}") if without_blends else ("START_MID_SIDE", "")
     text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{blends}: "
-    remedy = _remedy(code, f"{text}look-ahead {start.value} is then clean.")
-    return (replace(remedy, segment=start.segment, at=start.at),)
+    effect, lengths = start.effect
+    remedy = _remedy(code, f"{text}look-ahead {start.value} then {effect}.")
+    return (replace(remedy, segment=start.segment, at=start.at, lengths=lengths),)
 
 
 def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
@@ -185,6 +192,13 @@ def _start_at_end_sentence(start: StartMoved) -> Finding:
         f"and look-ahead {start.value} would be clean."
     )
     return replace(_remedy("START_AT_END", text), segment=0.0, at=start.at)
+
+
+def _crossing_first(at: Point | None) -> Finding:
+    """Return the advice on a contour that crosses itself: another start or tool would only delete what is wrong."""
+    place = " at X {x} Y {y}" if at is not None else ""
+    text = f"The contour crosses itself{place}. First look there for a wrong DIRECTION, sign or number."
+    return Finding("CROSSING_FIRST", Severity.WARNING, text, at=at)
 
 
 def _nothing_helps(*, closed: bool) -> Finding:

@@ -184,17 +184,26 @@ def test_a_slightly_larger_tool_without_blend_moves_is_not_named(blend):
 
 
 def test_advice_without_a_remedy_says_so():
-    """A loop of thirty segments crosses the first line: no look-ahead reaches so far and no tool is small enough."""
-    angles = [pi * (-0.5 + 11 / 180 * step) for step in range(31)]
-    loop = [(cos(angle), 1 + sin(angle)) for angle in angles]
-    (x, y), heading = loop[-1], angles[-1] + pi / 2
-    advice = advice_of(
-        setup(lines((-3, 0), *loop, (x + cos(heading), y + sin(heading))), Side.LEFT, 0.02, closed=False)
-    )
+    """Thirty segments lie behind a slit of 2e-5: no look-ahead reaches so far and no tool is small enough."""
+    slit = 1e-5
+    angles = [-pi / 2 - slit - step * (pi - slit) / 15 for step in range(31)]
+    cavity = [(cos(angle), 1 + sin(angle)) for angle in angles]
+    advice = advice_of(setup(lines((-3, 0), *cavity, (3, 0)), Side.RIGHT, 0.02, closed=False))
     assert codes(advice)[0] == "CAL_NOT_CLEAN"
     assert "No look-ahead is clean." in text_of(advice)
     assert codes(advice)[-1] == "NOTHING_HELPS"
     assert "No look-ahead or tool was found that works. Check the contour's numbers." in text_of(advice)
+
+
+def test_of_a_contour_that_crosses_itself_only_the_place_is_named():
+    """A loop of thirty segments crosses the first line: a start or a tool could only delete it."""
+    angles = [pi * (-0.5 + 11 / 180 * step) for step in range(31)]
+    loop = [(cos(angle), 1 + sin(angle)) for angle in angles]
+    (x, y), heading = loop[-1], angles[-1] + pi / 2
+    crossing = lines((-3, 0), *loop, (x + cos(heading), y + sin(heading)))
+    advice = advice_of(setup(crossing, Side.LEFT, 0.02, closed=False))
+    assert codes(advice) == ["CAL_NOT_CLEAN", "CROSSING_FIRST"]
+    assert "First look there for a wrong DIRECTION, sign or number." in text_of(advice)
 
 
 def test_a_mistyped_start_of_a_closed_contour_is_reported():
@@ -291,8 +300,11 @@ def test_every_remedy_makes_the_path_clean(cutting: CuttingSetup) -> None:
     ):
         if start is not None:
             exercised(name)
-            row = cutting.surface.numbers.tolist().index(start.segment)
-            assert judge_lookaheads(replace(tried, surface=restarted(cutting.surface, row))).row(start.value).clean
+            side = cutting.surface.numbers.tolist().index(start.segment)
+            row = judge_lookaheads(replace(tried, surface=restarted(cutting.surface, side))).row(start.value)
+            assert row.clean
+            (told,) = [finding for finding in advice.sentences if finding.code.startswith("START_")]
+            assert told.text.endswith(f"look-ahead {row.value} then {row.effect[0]}.")
     for name, tool, tried in (
         ("tool", advice.tool, cutting),
         ("tool without blends", advice.tool_without_blends, plain),
