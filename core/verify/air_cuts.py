@@ -23,6 +23,9 @@ from core.verify.uncut import POINT, gaps_of
 PARALLEL: Final = 1e-6
 """Sine of the largest angle at which a move and the wall it touches count as parallel."""
 
+SHORT: Final = 1e-5
+"""Millimeters up to which a piece has no direction: rounding leaves it where two walls nearly run on tangent."""
+
 
 @dataclass(frozen=True, slots=True)
 class AirCut:
@@ -80,11 +83,12 @@ def _point(place: complex) -> Point:
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Return the rows of pieces that touch walls along more than a point, always against the walls' direction.
+    """Return the rows of pieces longer than SHORT that touch walls, always against the walls' direction.
 
     Only the walls nearest to a piece count: a piece that gouges may run along others behind them either way.
     """
-    return tuple(pairs.pieces.rows[_ways(pairs, radius) < 0].tolist())
+    against = (_ways(pairs, radius) < 0) & (pairs.pieces.length > SHORT)
+    return tuple(pairs.pieces.rows[against].tolist())
 
 
 def _ways(pairs: Pairs, radius: float) -> Rows:

@@ -142,8 +142,10 @@ def programmed_elements(compensated: Compensated) -> ProgrammedElements | Findin
     """Return the surviving elements, then the overlap's again, cut to what is run; or why there are none."""
     if not len(compensated.path):
         return not_written("There is no path to write.")
-    if bool(compensated.bridged.any()):
-        number = float(compensated.path.numbers[compensated.bridged][0])
+    # rounding leaves shorter bridges where two segments nearly run on tangent
+    bridged = compensated.bridged & (compensated.path.lengths > MAX_GAP)
+    if bool(bridged.any()):
+        number = float(compensated.path.numbers[bridged][0])
         return not_written("The tool cannot run a bridged part of the path: the control would stop there.", number)
     rows = _rows(compensated)
     offset = compensated.side.sign * compensated.radius

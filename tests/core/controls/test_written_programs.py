@@ -22,6 +22,7 @@ from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece import Line as Straight
+from core.verify.judge import judge
 from tests.core.controls.written_programs import (
     EVERY,
     INCH,
@@ -158,6 +159,18 @@ def test_a_contour_with_a_bridged_corner_is_refused() -> None:
     assert path.bridged.any()
     assert isinstance(programmed_elements(path), Finding)
     assert refused("linuxcnc", cut(path)).code == "NOTWRITTEN"
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "klartext", "linuxcnc", "threeblock"])
+def test_a_bridge_that_rounding_leaves_at_a_tangent_joint_is_not_run(control: str) -> None:
+    """The two arcs of an ellipse miss tangency by six decimals, so that a bridge of 2.6e-7 stays."""
+    joint = (-24.828244, -32.775334)
+    first = Arc((-16.68568, -34.579932), joint, (-1.2012652110939392, 54.56003138190792), Turn.CW)
+    second = Arc(joint, (-32.746046, -30.165721), (-4.722930847834169, 41.54247593861214), Turn.CW)
+    path = compensate(Path.from_pieces([first, second]), Side.LEFT, 4.0, 8, closed=False, blend=3.0)
+    assert path.bridged.any()
+    assert judge(path.contour, Side.LEFT, 4.0, path.path).backwards == ()
+    assert text_of(control, cut(path))
 
 
 def test_the_ends_of_a_path_with_blends_are_those_of_the_blends() -> None:
