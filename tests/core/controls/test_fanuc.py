@@ -602,6 +602,13 @@ def test_rotation_mirror_scale_and_polar_points_are_as_calculated() -> None:
     assert ends(ran(f"{HEAD}G16\nX10. Y90.\nG15\nM30")) == [(0.0, 10.0)]
 
 
+@pytest.mark.parametrize("size", ["R10.", "I10. J0."])
+def test_a_mirrored_arc_turns_the_other_way(size: str) -> None:
+    run = ran(f"{HEAD}G51.1 X0\nG1 X0 Y0 F9\nG2 X10. Y10. {size}\nM30")
+    (arc,) = [move for move in run.moves if move.turn]
+    assert (*arc.point[:2], *arc.center[:2], arc.turn) == pytest.approx((-10.0, 10.0, -10.0, 0.0, 1))
+
+
 def test_a_mirror_image_reverses_a_rotation_and_scaling_moves_its_center() -> None:
     # 10 at 30 degrees, mirrored in x = 0
     mirrored = ran(f"{HEAD}G51.1 X0\nG68 X0 Y0 R30.\nX10. Y0\nM30")

@@ -78,6 +78,7 @@ def test_a_feed_in_the_tool_call_takes_effect() -> None:
         (("CYCL DEF 200 DRILLING", "L X+0 Y+0 FMAX", "L X+9 RL F9", "CYCL DEF 220 POLAR PATTERN"), "CYCLE", 7),
         (("CYCL DEF 10.1 ROT+30",), "BEYOND", 4),
         (("CYCL DEF 8.1 X",), "BEYOND", 4),
+        *(((f"CYCL DEF {cycle}.0",), "BEYOND", 4) for cycle in (26, 27, 28, 29)),
         (("CYCL DEF 10 ROT+5",), "BEYOND", 4),
         (("CYCL DEF 11.1 SCL 1.5",), "BEYOND", 4),
         (("CYCL DEF 19.1 A+0 B+15",), "BEYOND", 4),
