@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
+from core.controls.control_run import Stretch
 from core.geometry.path import Flags, Floats, Path, lengths, pieces_of
-from core.geometry.piece import Side
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -68,10 +68,12 @@ def inner_laps(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     return tuple(_between_leads(path, sums, point_ids, run) for run in runs)
 
 
-def between_lead_arcs(path: Path, contour: RowRange, side: Side) -> RowRange:
+def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_short: bool) -> RowRange:
     """Return the rows of an open contour without an arc that leads in or out; those of a closed one stay.
 
-    Such an arc is at most a quarter turn, runs on tangent from the wall, and has its center on the cutter's side.
+    Such an arc is next to the move that turns compensation on or off.  It is at most a quarter turn, wider than the
+    cutter, runs on tangent from the wall, and has its center on the cutter's side.  `cut_short`: the control stops
+    before the contour's end, so that no arc leads out.
     """
     first, last = contour
     if np.abs(path.points[first] - path.points[last]).max() <= CLOSED:
@@ -80,11 +82,12 @@ def between_lead_arcs(path: Path, contour: RowRange, side: Side) -> RowRange:
     def leads(arc: int, wall: int) -> bool:
         before, after = min(arc, wall), max(arc, wall)
         tangent = float(path.end_directions[before] @ path.start_directions[after]) >= cos(BLEND)
-        return bool(path.turns[arc] == side.sign and abs(path.sweeps[arc]) <= pi / 2 + BLEND and tangent)
+        wide = path.turns[arc] == stretch.side.sign and path.radii[arc] > stretch.radius
+        return bool(wide and abs(path.sweeps[arc]) <= pi / 2 + BLEND and tangent)
 
-    if last - first > 1 and leads(first, first + 1):
-        first += 1
-    if last - first > 1 and leads(last - 1, last - 2):
+    if stretch.entry and first == 0 and last > 1 and leads(0, 1):
+        first = 1
+    if not cut_short and last == len(path) and last - first > 1 and leads(last - 1, last - 2):
         last -= 1
     return first, last
 

@@ -154,7 +154,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)
     for done, stretch in enumerate(run.stretches):
         judging(done / len(run.stretches))
-        cut_short = run.stopped_at is not None and stretch.last == len(run.moves) and not stretch.exit
+        cut_short = _is_cut_short(run, stretch)
         results += [
             replace(_without_shallow(result, least), cut_short=cut_short)
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
@@ -165,6 +165,11 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
         others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated=cuts, of_others=others)
     return tuple(results)
+
+
+def _is_cut_short(run: ControlRun, stretch: Stretch) -> bool:
+    """True if the control stops within the stretch."""
+    return run.stopped_at is not None and stretch.last == len(run.moves)
 
 
 def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour]:
@@ -360,7 +365,8 @@ def _judge_part(
     if any(result.verdict.gouges for result in results):
         kept, roughing = without_roughing_laps(whole, kept, stretch.side, stretch.radius)
         opened = {rows: contours.get(rows, frozenset()) for rows in kept}
-        walls = {between_lead_arcs(whole, rows, stretch.side): lines for rows, lines in opened.items()}
+        cut_short = _is_cut_short(run, stretch)
+        walls = {between_lead_arcs(whole, rows, stretch, cut_short=cut_short): lines for rows, lines in opened.items()}
     if walls != contours:
         count = len(walls) + len(roughing)
         results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in walls]
