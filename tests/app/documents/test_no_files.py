@@ -71,8 +71,8 @@ def test_anything_in_place_of_a_journal_is_set_aside(state: Path, file: Path, wh
     """Work continues; the thing in the journal's place is set aside."""
     put_something(journal_path(file), what)
     operator = started(state, file)
-    assert EVERYTHING[what] in operator.asked or what == "endless"
-    assert "DAMAGED" in operator.asked or "In place of" in operator.asked
+    assert "UNSAVED WORK IS DAMAGED" in operator.asked
+    assert (f"there is {THINGS[what]}" if what in THINGS else "is damaged and cannot be read") in operator.asked
     operator.answer("CONTINUE").type(7)
     assert "kept-1 holds what was left before" in operator.said
     operator.save().left()
@@ -85,7 +85,11 @@ def test_a_document_opens_with_anything_in_place_of_a_kept_copy(state: Path, fil
     put_something(copy, what)
     opened = service(state).open(file, kept_copy=copy)
     assert isinstance(opened, Opened)
-    assert opened.offer is None or "UNSAVED WORK" in words(opened.offer.ask)
+    assert opened.offer is not None
+    asked = words(opened.offer.ask)
+    assert "UNSAVED WORK IS DAMAGED" in asked
+    assert (f"there is {THINGS[what]}" if what in THINGS else "is damaged and cannot be read") in asked
+    assert f"The file is {copy.name}." in asked
 
 
 def test_output_is_not_written_to_anything_but_a_file(tmp_path: Path) -> None:
