@@ -235,8 +235,12 @@ def test_an_over_run_that_cuts_the_part_is_an_error(
     """The last move runs up to the corner and then into the part."""
     text = ISO.replace("X0.\nY1.\n", "X0.\nY0.5\nX0.7 Y-0.7\n")
     assert text != ISO
-    status, findings, _ = checked(capsys, tmp_path, text, control)
+    status, findings, outcome = checked(capsys, tmp_path, text, control)
+    errors = {(finding["rule"], finding["line"]) for finding in findings if finding["severity"] == "error"}
+    assert {("GOUGE", 10), ("WRONG-SIDE", 10)} <= errors, findings
+    assert "OVER_RUN" not in rules(findings)
     assert status == 1, findings
+    assert "gouges by 0.2500 at line 9" in outcome
 
 
 ARC = """G20 G90 G17 F20.
