@@ -9,6 +9,7 @@ import time
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import replace
+from multiprocessing import active_children
 from pathlib import Path
 
 import pytest
@@ -108,7 +109,7 @@ def test_a_truncated_file_is_taken_only_with_the_damaged_option(
     [
         ("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
         ("d17-empty.dxf", "1 TEXT was skipped"),
-        ("gone.dxf", "gone.dxf"),
+        ("gone.dxf", "gone.dxf cannot be read: there is no such file or folder."),
     ],
 )
 def test_an_unreadable_drawing_is_refused_in_a_sentence(
@@ -127,9 +128,12 @@ def wait_for_ever(*, progress: object) -> int:
 def test_a_worker_ends_at_its_limit_and_can_be_canceled() -> None:
     with pytest.raises(DrawingError, match="takes longer than"):
         Worker(wait_for_ever, limit=0.5).result()
+    assert active_children() == []
     worker = Worker(wait_for_ever)
     assert worker.poll() is None
+    assert len(active_children()) == 1
     worker.cancel()
+    assert active_children() == []
 
 
 def test_an_nc_program_is_imported_as_the_contour_it_was_posted_from(tmp_path: Path) -> None:
