@@ -12,6 +12,7 @@ from core.controls.control_run import ControlRun
 from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import codes, flat, runs
+from tests.properties import exercised, must_exercise
 
 NEAR = pytest.approx
 START = "L X-30 Y-30 R0 FMAX"
@@ -113,6 +114,8 @@ def test_without_compensation_it_does_nothing_and_says_so() -> None:
     assert codes(made)[-1] == ("HE3", 8)
 
 
+@must_exercise(0.3, "runs")
+@must_exercise(0.03, "leaves out")
 @given(
     st.lists(st.tuples(st.integers(-12, 12), st.integers(1, 12)), min_size=2, max_size=14),
     st.integers(1, 99),
@@ -125,7 +128,10 @@ def test_where_it_runs_its_moves_join_and_no_line_is_lost(steps: list[tuple[int,
     if made.stopped_at is not None:
         assert made.findings[-1].severity is Severity.ERROR
         return
+    exercised("runs")
     (stretch,) = made.stretches
     assert stretch.programmed.lines.tolist()[1:] == list(range(5, 5 + len(blocks) + 2))
     cut = set(made.moves.lines.tolist())
     assert cut | set(left_out(made)) >= set(range(6, 6 + len(blocks)))
+    if left_out(made):
+        exercised("leaves out")
