@@ -64,7 +64,6 @@ async def test_an_unusable_file_name_is_explained_and_replaced_by_typing(folder,
     [
         ("missing/x.toml", "there is no such file or folder"),
         ("none.nc", "there is no such file or folder"),
-        ("~nobody_at_all", "does not exist yet: saving makes it"),
         ("x" * 300, "the name is too long"),
         ("pyproject.toml", "not a cutcomp program"),
         ("pipe", "this is a pipe"),
@@ -78,11 +77,21 @@ async def test_a_failed_open_keeps_the_program(folder, name, words):
     async with at_work(folder) as user:
         await user.press("tab", "'7", "enter")
         await entered(user, "app.open_path", name)
-        if isinstance(user.app.screen, Question):
-            await user.press("escape")
-        else:
-            assert words in user.prompt
-            assert len(user.prompt) < 160
+        assert words in user.prompt
+        assert len(user.prompt) < 160
+        assert user.session.block.tool == Number(7.0)
+        assert journals(folder) == [".part.toml.cutcomp-journal"]
+
+
+async def test_a_new_name_to_open_asks_about_the_unsaved_work_and_back_keeps_the_program(folder):
+    async with at_work(folder) as user:
+        await user.press("tab", "'7", "enter")
+        await entered(user, "app.open_path", "~nobody_at_all")
+        question = user.app.screen
+        assert isinstance(question, Question)
+        assert question.lines == ("part.toml has changes that are not saved.",)
+        await user.press("escape")
+        assert user.prompt.startswith("Path of a program")
         assert user.session.block.tool == Number(7.0)
         assert journals(folder) == [".part.toml.cutcomp-journal"]
 
