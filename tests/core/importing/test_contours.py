@@ -284,6 +284,20 @@ def test_a_sampled_notch_becomes_one_arc() -> None:
     assert arc.radius == pytest.approx(4.0, abs=0.005)
 
 
+@pytest.mark.parametrize("chords", range(4, 18))
+def test_as_many_chords_as_lie_on_one_circle_become_its_arc(chords: int) -> None:
+    """A line of another length follows, in the direction of the circle at its end."""
+    turned = [math.radians(4.0 * row) for row in range(chords + 1)]
+    ends = [(10.0 * math.sin(angle), 10.0 - 10.0 * math.cos(angle)) for angle in turned]
+    ends.append((ends[-1][0] + 20.0 * math.cos(turned[-1]), ends[-1][1] + 20.0 * math.sin(turned[-1])))
+    (contour,) = listed(dxf(*(line(start, end) for start, end in itertools.pairwise(ends)))).contours
+    bend, straight = sorted(fitted_contour(contour, 0.01).pieces, key=lambda piece: piece.length)
+    assert isinstance(bend, Arc)
+    assert bend.length == pytest.approx(10.0 * turned[-1], rel=1e-3)
+    assert isinstance(straight, Line)
+    assert straight.length == pytest.approx(20.0, abs=1e-3)
+
+
 def test_a_side_that_wavers_by_less_than_fit_becomes_one_line() -> None:
     # the lower side of a square of 20 with a point every 0.4, those near its ends off by half of FIT
     lower = [(0.4 * k, 0.0025 if k in (1, 2, 48, 49) else 0.0) for k in range(51)]
