@@ -79,6 +79,14 @@ def test_surface_center_path_rapids_and_the_cursors_moves_are_drawn() -> None:
     assert Style.CURRENT not in styles(scene_at_line(ground, found, 4))
 
 
+def test_feed_moves_next_to_a_stretch_are_drawn_whole() -> None:
+    """The moves of the stretch itself, entry and exit among them, are drawn as its center path."""
+    text = SQUARE.replace(b"G41 D1", b"G1 X-2 Y-1\nX-1.5 Y-1\nG41 D1").replace(b"G0 X-1\n", b"G1 X4 Y3\n")
+    before, after = (layer.path for layer in fixed_scene(proof(text)).layers if layer.style is Style.LEAD)
+    assert (before.points / 25.4).round(9).tolist() == [[-1.0, -1.0], [-2.0, -1.0], [-1.5, -1.0]]
+    assert (after.points / 25.4).round(9).tolist() == [[3.0, 3.0], [4.0, 3.0]]
+
+
 def test_the_feed_moves_of_a_run_are_dotted_on_the_plane_of_another() -> None:
     other = proof(control="linuxcnc")
     dotted = dotted_path(other, Plane.XY)
