@@ -20,6 +20,7 @@ from core.geometry.piece import Side
 from core.units import Unit, from_mm
 from tests.core.controls.klartext.klartext_runs import HEAD
 from tests.core.controls.klartext.test_center_path_laws import LEGS, pieces_of, programmed
+from tests.properties import exercised, must_exercise
 from tests.tool_tables import end_mills
 
 NEAR = pytest.approx
@@ -132,6 +133,7 @@ def test_tools_of_several_sizes_keep_theirs() -> None:
     assert [stretch.radius for stretch in made.stretches] == [NEAR(5), NEAR(2)]
 
 
+@must_exercise(0.5)
 @settings(max_examples=60, deadline=None)
 @given(LEGS, st.sampled_from(Side), st.sampled_from(["rosettacnc:normal", "linuxcnc"]))
 def test_the_path_is_that_of_klartext(legs: list[tuple[float, float, int, float]], side: Side, control: str) -> None:
@@ -146,6 +148,7 @@ def test_the_path_is_that_of_klartext(legs: list[tuple[float, float, int, float]
     made = by_contour(source, control)
     if made.stopped_at is not None:
         return
+    exercised()
     ours = source.moves.part(source.stretches[0].first, source.stretches[0].last)
     ends = [move.point[:2] for move in made.moves if move.line]
     near = [min(hypot(x - a, y - b) for a, b in ends) for x, y in ours.points[2:-1, :2].tolist()]

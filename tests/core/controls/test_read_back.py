@@ -41,6 +41,7 @@ from tests.core.controls.written_programs import (
     text_of,
     write,
 )
+from tests.properties import exercised, must_exercise
 
 
 def errors_of(*answer: Finding | None) -> list[Finding]:
@@ -221,6 +222,7 @@ def test_a_move_with_a_wrong_or_invalid_number_is_a_difference(array: str, line:
     assert f"ends line {line} " in difference.text
 
 
+@must_exercise(0.5)
 @settings(max_examples=120, deadline=None, derandomize=True)
 @given(LEGS, st.sampled_from(Side), st.sampled_from([name for name in names() if name != "klartext"]))
 def test_random_contours_read_back_or_are_refused_with_a_reason(
@@ -236,6 +238,7 @@ def test_random_contours_read_back_or_are_refused_with_a_reason(
         assert all(len(finding.text) > 20 for finding in result.findings)
         assert result.findings
         return
+    exercised()
     run = made_by(control, result.text, cut(compensated, depth=-0.2))
     assert run.stopped_at is None
     (stretch,) = run.stretches
