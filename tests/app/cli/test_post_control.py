@@ -12,7 +12,7 @@ from app.documents.programs import example
 
 def test_post_writes_compensated_code_for_a_control(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "part.nc"
-    assert main(["post", str(example("plate-mm")), "--control", "nine-series:b", "-o", str(out)]) in (0, 1)
+    assert main(["post", str(example("plate-mm")), "--control", "nine-series:b", "-o", str(out)]) == 0
     assert "G41 D2 G1" in out.read_text()
     assert "takes corners differently" in capsys.readouterr().err
 
