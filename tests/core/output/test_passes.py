@@ -171,14 +171,15 @@ def test_each_tool_begins_and_ends_at_safe_z():
 
 
 def test_rapids_in_xy_stay_above_z_start():
-    """A rapid in XY starts and ends above Z START."""
-    for each in passes(job(SLOT)):
-        last = each.motions[0]
-        for motion in each.motions[1:]:
-            if motion.rapid and (motion.x, motion.y) != (last.x, last.y):
-                assert motion.z > 0
-                assert last.z > 0
-            last = motion
+    """A rapid in XY, which is the way back to the start of each pass but the first, starts and ends above Z START."""
+    motions = [motion for each in passes(job(SLOT)) for motion in each.motions]
+    across = [
+        (before.z, after.z)
+        for before, after in pairwise(motions)
+        if after.rapid and (after.x, after.y) != (before.x, before.y)
+    ]
+    assert len(across) == len(passes(job(SLOT))) - 1 == 2
+    assert all(before > 0 and after > 0 for before, after in across)
 
 
 def ramp(path: Path, *ends: float, **changes: object) -> Job:
