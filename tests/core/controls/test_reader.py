@@ -10,6 +10,7 @@ from core.controls.control_run import AlarmError, Log
 from core.controls.iso.reader import PLAIN_SYNTAX, Block, Syntax, ToolData, read_line, tenths, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Finding
+from tests.properties import exercised, must_exercise
 
 
 def block(text: str, syntax: Syntax = PLAIN_SYNTAX) -> Block:
@@ -157,9 +158,11 @@ def test_a_line_of_a_megabyte_is_read_to_its_end(piece: str) -> None:
     assert finding is None or len(finding.text) < 200
 
 
-@given(st.text(max_size=60))
+@must_exercise(0.02, "read", "fault")
+@given(st.text(max_size=60) | st.lists(st.sampled_from(["G1", "X-2.5", "#1", " ", "(a)", "(", "Y"])).map("".join))
 @settings(max_examples=300, derandomize=True)
 def test_any_text_is_read_or_has_a_fault(text: str) -> None:
     finding = alarm(text)
+    exercised("read" if finding is None else "fault")
     assert finding is None or finding.text.isprintable()
     assert finding is None or (finding.column or 0) >= 1
