@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.arithmetic import MAX_CHARACTERS, CannotReadError, evaluate
+from tests.properties import exercised, must_exercise
 
 SCALES = {"in": Fraction(1), "mm": Fraction(5, 127), '"': Fraction(1)}
 
@@ -139,13 +140,22 @@ def test_evaluate_agrees_with_exact_arithmetic(terms, last):
     assert read(text) == eval(exact, {"Fraction": Fraction})
 
 
+def assert_answered(text: str) -> None:
+    """It is a number, or a sentence says why not."""
+    answer = outcome(text)
+    exercised("reason" if answer.endswith(".") else "number")
+    assert answer.endswith(".") or Fraction(answer) == read(text)
+
+
+@must_exercise(0.5, "reason")
 @settings(derandomize=True, max_examples=300)
 @given(st.text(max_size=20))
 def test_any_text_is_a_number_or_has_a_reason(text):
-    assert outcome(text).endswith(".") or Fraction(outcome(text)) == read(text)
+    assert_answered(text)
 
 
+@must_exercise(0.02, "number", "reason")
 @settings(derandomize=True, max_examples=300)
 @given(st.text(alphabet='0123456789./*-+() inm"', max_size=MAX_CHARACTERS))
 def test_any_text_of_allowed_characters_is_a_number_or_has_a_reason(text):
-    assert outcome(text).endswith(".") or Fraction(outcome(text)) == read(text)
+    assert_answered(text)
