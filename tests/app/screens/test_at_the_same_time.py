@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from asyncio import sleep
 from typing import Any
 
 import app.derivation_actions as owner
@@ -11,15 +12,23 @@ from tests.app.widget_pilot import operator
 
 
 async def test_a_result_that_arrives_while_the_program_ends_is_ignored(monkeypatch):
+    running = []
     async with operator("notch") as user:
 
         def late(*arguments: Any) -> Any:
             while user.app.is_running:
                 time.sleep(0.001)
+            running.append(user.app.is_running)
             return derived(*arguments)
 
         monkeypatch.setattr(owner, "derived", late)
         await user.pilot.press("tab", "tab", "tab", "tab", "5")
+        before = user.session
+        assert running == []
+    while not running:
+        await sleep(0.01)
+    assert running == [False]
+    assert user.session is before
 
 
 async def test_the_segment_list_opens_on_the_segment_of_the_form_and_stays_there():
