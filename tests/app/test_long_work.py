@@ -61,7 +61,7 @@ async def seen(user: Operator, text: str) -> None:
 async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
-        await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await user.send(*["tab"] * 4, "2", ".", "1", "enter")
         await seen(user, "working 40 %, Esc stops")
         verdict = user.screen.query_one("#verdict")
         assert "working 40 %" in str(verdict.border_title)
@@ -80,7 +80,9 @@ async def test_a_long_derivation_shows_its_progress_and_escape_stops_it(monkeypa
 async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "derived")
-        await user.pilot.press("tab", "2", "enter", "down", "4")
+        await user.send("tab", "2", "enter")
+        await seen(user, "working 40 %")
+        await user.send("down", "4")
         slow.go.set()
         await user.press("tab", "ctrl+z", "ctrl+z")
         assert user.session.derived_block.known
@@ -90,7 +92,7 @@ async def test_an_abandoned_half_typed_number_leaves_the_program_calculated(monk
 async def test_a_stopped_look_ahead_table_is_made_on_request(monkeypatch):
     async with operator() as user:
         slow = Slow(monkeypatch, app_module, "lookahead_table")
-        await user.pilot.press(*["tab"] * 4, "2", ".", "1", "enter")
+        await user.send(*["tab"] * 4, "2", ".", "1", "enter")
         await seen(user, "working 40 %, Esc stops")
         await user.press("escape")
         assert slow.stopped
@@ -167,13 +169,13 @@ async def test_escape_from_the_comparison_stops_the_controls(monkeypatch):
         slow = Slow(monkeypatch, dialogs_module, "compare")
         user.app.show_nc(NcDocument(NcText.read(b"G21 G1 X1 F9\nM30\n")))
         await user.settle()
-        await user.pilot.press("v")
+        await user.send("v")
         while not isinstance(user.app.screen, dialogs_module.CompareControls):
             await user.pilot.pause(0.01)
         waiting = user.app.screen.query_one("#compare-wait", Static)
         while "working 40 %" not in str(waiting.content):
             await user.pilot.pause(0.01)
-        await user.pilot.press("escape")
+        await user.send("escape")
         while not slow.stopped:
             await user.pilot.pause(0.01)
         assert type(user.app.screen).__name__ == "ProofScreen"

@@ -53,14 +53,18 @@ class Operator:
         self.app, self.pilot = app, pilot
 
     async def press(self, *keys: str) -> None:
-        """Press keys in order, as the driver passes them on; "'1.25" is typed letter by letter."""
+        """Press keys and wait for what they start; "'1.25" is typed letter by letter."""
+        await self.send(*keys)
+        await self.settle()
+
+    async def send(self, *keys: str) -> None:
+        """Press keys in order, as the driver passes them on, and wait until they are taken, not for their work."""
         order = KeyOrder(self.app)
         for key in keys:
             for name in key[1:] if key.startswith("'") else (key,):
                 order.take(key_event(name))
                 while order.on_its_way:
                     await sleep(0)
-        await self.settle()
 
     async def settle(self) -> None:
         """Wait for the calculations in threads, and until no widget has a message left.
