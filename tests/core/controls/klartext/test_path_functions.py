@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import cos, radians, sin, sqrt
+from math import cos, pi, radians, sin, sqrt
 
 import pytest
 
@@ -67,6 +67,15 @@ def test_rounding_between_equal_positions_is_no_move(blocks: tuple[str, ...]) ->
 def test_an_arc_that_ends_where_it_starts_is_a_full_circle() -> None:
     assert moves_of("CC X+10 Y+0", "C X+0 Y+0 DR+") == [(0, 0, 10, 0, 1)]
     assert moves_of("CC X+10 Y+0", "C DR+") == [(0, 0, 10, 0, 1)]
+
+
+@pytest.mark.parametrize("end", ["0.3", "0.1 + 0.2", "1.2 - 0.9"])
+@pytest.mark.parametrize(("direction", "turn"), [("DR+", 1), ("DR-", -1)])
+def test_an_end_at_the_start_but_for_rounding_makes_a_full_circle(end: str, direction: str, turn: int) -> None:
+    run = clean("L X+0.3 Y+0 R0 F100", f"Q1 = {end}", "CC X+10 Y+0", f"C X+Q1 Y+0 {direction}")
+    circle = run.moves.path()[-1]
+    assert circle.length == NEAR(2 * pi * 9.7)
+    assert run.moves.turns[-1] == turn
 
 
 @pytest.mark.parametrize(("sign", "direction", "y"), [("+", "+", 8), ("+", "-", -8), ("-", "+", -8), ("-", "-", 8)])
