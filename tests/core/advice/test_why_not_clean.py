@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import cos, pi, sin
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
@@ -26,6 +26,7 @@ DIAMETER_STEP = 0.001
 
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
 SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
+NOTCHED = lines((0, 0), (2, 0), (2, -0.5), (2.8, -0.5), (2.8, 0), (4, 0), (4, 2), (0, 2), (0, 0))
 STAR = lines(
     *((r * cos(a), r * sin(a)) for a, r in ((pi / 2 + k * pi / 5, (1.0, 0.4)[k % 2]) for k in range(11))),
 )
@@ -288,8 +289,12 @@ needy = st.one_of(
 
 
 @must_exercise(0.01, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
-@settings(max_examples=120, derandomize=True)
+@settings(max_examples=70, derandomize=True)
 @given(needy)
+@example(cutting_of(SQUARE, Side.LEFT, 0.5, closed=True, blend=0.3))
+@example(cutting_of(NOTCHED, Side.LEFT, 0.25, closed=True, blend=2.0))
+@example(setup(lines((0, 0), (1, 0), (1, 0.4), (-1, 0.4)), Side.LEFT, closed=False, blend=0.3))
+@example(setup(lines((0, 0), (1, 0), (1, 0.6), (-1, 0.6)), Side.LEFT, closed=False, blend=0.3))
 def test_every_remedy_makes_the_path_clean(cutting: CuttingSetup) -> None:
     advice = advice_of(cutting)
     plain = replace(cutting, blend=0.0)
