@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import random
 import shutil
-import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,6 +14,8 @@ import pytest
 from app.documents.files import load
 from app.documents.programs import example
 from core.program.model import Number
+from tests.app.documents.typist import started
+from tests.app.test_file_actions import DEAD
 from tests.reports.relay import Line, relayed
 from tests.terminal import Terminal, cutcomp, running
 
@@ -46,13 +46,8 @@ def split(terminal: Terminal, tail: bytes, seconds: float) -> None:
 
 
 def left_with_work(part: Path) -> None:
-    """Kill the program while it has unsaved work."""
-    with running([*PROGRAM, str(part)]) as terminal:
-        terminal.until("best", longest=30.0)
-        terminal.send(b"\t7\r")
-        terminal.until("undo 1")
-        os.kill(terminal.pid, signal.SIGKILL)
-        os.waitpid(terminal.pid, 0)
+    """Leave the journal of a program that was killed while it had unsaved work."""
+    started(part.parent / "own", part, DEAD).type(7).killed()
 
 
 @pytest.mark.parametrize("seconds", [0.15, 0.28])
