@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 from asyncio import sleep
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from time import monotonic
 from typing import Any
 
@@ -14,6 +14,7 @@ from textual.keys import KEY_NAME_REPLACEMENTS, REPLACED_KEYS
 from textual.message_pump import MessagePump
 from textual.pilot import Pilot
 from textual.screen import ModalScreen
+from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
 from app.documents.files import load
@@ -47,7 +48,9 @@ def key_event(key: str) -> Key:
 
 
 class Operator:
-    """Presses keys and reads the screen."""
+    """Presses keys and reads the screen; `calculating` are the groups of workers that are waited for to their end."""
+
+    calculating: tuple[str, ...] = ("derive", "table")
 
     def __init__(self, app: CutcompApp, pilot: Pilot[int]) -> None:
         self.app, self.pilot = app, pilot
@@ -69,16 +72,18 @@ class Operator:
     async def settle(self) -> None:
         """Wait for the calculations in threads, and until no widget has a message left.
 
-        Other workers than those of the verdict may wait for an answer or a hanging disk: they get only `PATIENCE`,
+        Other workers than those that calculate may wait for an answer or a hanging disk: they get only `PATIENCE`,
         and only while no question is in front.
         """
         rounds, patience = 0, monotonic() + PATIENCE
         # a program that has ended, even by a fault, has nothing to wait for
         while rounds < QUIET_ROUNDS and self.app.is_running:
-            working = [worker for worker in self.app.workers if worker.group in ("derive", "table")]
+            working = [worker for worker in self.app.workers if worker.group in self.calculating]
             others = len(self.app.workers) > len(working) and not isinstance(self.app.screen, ModalScreen)
             if working:
-                await self.app.workers.wait_for_complete(working)
+                # one is canceled when another replaces it
+                with suppress(WorkerCancelled):
+                    await self.app.workers.wait_for_complete(working)
             else:
                 others = others and monotonic() < patience
             await sleep(ROUND)

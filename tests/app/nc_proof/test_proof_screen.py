@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from threading import Event
 from time import sleep
 from typing import Any
 
 import pytest
 from textual.widgets import Input, Label, OptionList, Static
-from textual.worker import WorkerCancelled
 
 from app.app import CutcompApp
 from app.documents.files import load
@@ -47,18 +46,7 @@ PROGRAM = b"G20 G17 F10\r\nG1 X0 Y-1\nG42 D1 X1 Y1;\nX3\nY3\nG40 X0\nM2\n"
 class Proof(Operator):
     """An operator at NC PROOF."""
 
-    async def settle(self) -> None:
-        for _ in range(3):
-            working = [
-                worker
-                for worker in self.app.workers
-                if worker.group in ("proof", "dotted", "compare", "derive", "table", "drawing")
-            ]
-            if working:
-                # the drawing worker is cancelled when a newer drawing replaces it
-                with suppress(WorkerCancelled):
-                    await self.app.workers.wait_for_complete(working)
-            await self.pilot.pause()
+    calculating = ("proof", "dotted", "compare", "derive", "table", "drawing")
 
     @property
     def proof(self) -> ProofScreen:
