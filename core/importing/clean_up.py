@@ -5,7 +5,7 @@ The result is sorted, so that a drawing whose entities are shuffled or drawn bac
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
@@ -31,18 +31,22 @@ KEY_DECIMALS: Final = 6
 
 
 class LayeredPiece(NamedTuple):
-    """A piece in millimeters with its layer and the line of its entity in the file."""
+    """A piece in millimeters with its layer and the number of its entity, 0 if not known."""
 
     piece: Piece
     layer: str
-    line: int = 0
+    entity: int = 0
 
 
 @dataclass(slots=True)
 class Cleaned:
-    """The pieces that stay, and how many were too short, equal to others, or joined with those they overlap."""
+    """The pieces that stay, and how many were too short, equal to others, or joined with those they overlap.
+
+    `closed_entities` holds the pieces of closed entities that share a piece with another one: each is chained alone.
+    """
 
     pieces: list[LayeredPiece] = field(default_factory=list)
+    closed_entities: list[list[LayeredPiece]] = field(default_factory=list)
     tiny: int = 0
     duplicates: int = 0
     overlaps: int = 0
@@ -60,8 +64,8 @@ def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
     cleaned = Cleaned(tiny=count - len(kept))
     slack = min(tolerance, MOST_SLACK)
     count = len(kept)
-    kept = _without_duplicates(kept, slack)
-    cleaned.duplicates = count - len(kept)
+    kept, cleaned.closed_entities = _without_duplicates(kept, tolerance, slack)
+    cleaned.duplicates = count - len(kept) - sum(map(len, cleaned.closed_entities))
     count = len(kept)
     kept = _without_overlaps(kept, tolerance, slack)
     cleaned.overlaps = count - len(kept)
@@ -140,20 +144,52 @@ def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
         yield run
 
 
-def _without_duplicates(items: list[LayeredPiece], slack: float) -> list[LayeredPiece]:
-    """Drop each piece that equals another one, forward or backward."""
-    # each of perhaps a thousand copies is compared only with the piece that stays
-    width, kept = max(slack, 1e-7), list[LayeredPiece]()
-    cells: defaultdict[tuple[int, int], list[Piece]] = defaultdict(list)
-    for item in items:
+def _without_duplicates(
+    items: list[LayeredPiece], tolerance: float, slack: float
+) -> tuple[list[LayeredPiece], list[list[LayeredPiece]]]:
+    """Drop each piece that equals another one, forward or backward, unless both are edges of closed entities.
+
+    Return the pieces that stay, and apart from them those of the closed entities that share an edge.
+    """
+    copies = _equal_rows(items, slack)
+    shared = {items[row].entity for rows in copies for row in rows if len(rows) > 1} - {0}
+    edges: defaultdict[int, dict[int, int]] = defaultdict(dict)
+    for number, rows in enumerate(copies):
+        for row in rows:
+            if items[row].entity in shared:
+                edges[items[row].entity].setdefault(number, row)
+    # an entity with the same edges as one before it is a copy
+    whole = {frozenset(edge_rows): edge_rows for edge_rows in reversed(edges.values()) if len(edge_rows) > 1}
+    closed = [rows for rows in whole.values() if _is_closed([items[row].piece for row in rows.values()], tolerance)]
+    owners = Counter(number for rows in closed for number in rows)
+    apart = [rows for rows in closed if any(owners[number] > 1 for number in rows)]
+    taken = {number for rows in apart for number in rows}
+    kept = [items[rows[0]] for number, rows in enumerate(copies) if number not in taken]
+    return kept, [[items[row] for row in rows.values()] for rows in apart]
+
+
+def _is_closed(pieces: Sequence[Piece], tolerance: float) -> bool:
+    """True if an even number of ends meets at each node: the pieces make loops alone."""
+    return all(len(ends) % 2 == 0 for ends in nodes_of(pieces, tolerance).pieces)
+
+
+def _equal_rows(items: Sequence[LayeredPiece], slack: float) -> list[list[int]]:
+    """Return the rows of equal pieces together, in order of the first of them."""
+    # each of perhaps a thousand copies is compared only with the first of them
+    width, groups = max(slack, 1e-7), list[list[int]]()
+    cells: defaultdict[tuple[int, int], list[list[int]]] = defaultdict(list)
+    for row, item in enumerate(items):
         middle = item.piece.start if is_circle(item.piece) else item.piece.point_at(0.5)
-        column, row = floor(middle[0] / width), floor(middle[1] / width)
-        around = [cells.get((column + x, row + y), ()) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+        x, y = floor(middle[0] / width), floor(middle[1] / width)
+        around = [cells.get((x + right, y + up), ()) for right in (-1, 0, 1) for up in (-1, 0, 1)]
         near = max(min(slack, item.piece.length / 4.0), 1e-7)
-        if not any(_equal(item.piece, other, near) for cell in around for other in cell):
-            cells[column, row].append(item.piece)
-            kept.append(item)
-    return kept
+        rows = next((rows for cell in around for rows in cell if _equal(item.piece, items[rows[0]].piece, near)), None)
+        if rows is None:
+            rows = []
+            cells[x, y].append(rows)
+            groups.append(rows)
+        rows.append(row)
+    return groups
 
 
 def _equal(first: Piece, second: Piece, slack: float) -> bool:

@@ -123,6 +123,9 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     progress("chaining", 0, 1)
     result = chained([item.piece for item in cleaned.pieces], options.tolerance)
     contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in result.chains]
+    for items in cleaned.closed_entities:
+        loops = chained([item.piece for item in items], options.tolerance)
+        contours += [_contour(chain, items, options.tolerance) for chain in loops.chains]
     contours = [contour for contour in contours if contour.pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
@@ -148,7 +151,7 @@ def _pieces(shapes: Sequence[Drawn], options: ImportOptions, progress: Progress)
     for number, drawn in enumerate(shapes):
         if number % 100 == 0:
             progress("fitting", number, len(shapes))
-        pieces += [LayeredPiece(piece, drawn.layer, drawn.line) for piece in _scaled(drawn, scale, options.fit)]
+        pieces += [LayeredPiece(piece, drawn.layer, drawn.entity) for piece in _scaled(drawn, scale, options.fit)]
     return pieces
 
 

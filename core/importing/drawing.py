@@ -100,11 +100,11 @@ Shape = Piece | EllipseArc | BSpline
 
 
 class Drawn(NamedTuple):
-    """A shape with its layer; `line` is that of its entity in the file, 0 if not known."""
+    """A shape with its layer and the number of its entity, counted from 1 once for each insertion; 0 if not known."""
 
     shape: Shape
     layer: str
-    line: int = 0
+    entity: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -242,12 +242,11 @@ class _Reader:
             return
         if len(self.shapes) + len(shapes) > MAX_SHAPES:
             raise too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
-        line = self.lines[id(entity)].line if id(entity) in self.lines else 0
         if not all(map(_finite, shapes)):
             self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
             return
         self.taken += 1
-        self.shapes += [Drawn(shape, layer, line) for shape in shapes]
+        self.shapes += [Drawn(shape, layer, self.taken) for shape in shapes]
 
     def _unreadable(self, entity: DXFGraphic, why: str) -> None:
         text = f"The {entity.dxftype()} {self._where(entity)} cannot be read: {why}"

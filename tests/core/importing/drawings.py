@@ -71,6 +71,13 @@ def square(x: float, y: float, size: float, layer: str = "0") -> list[list[tuple
     return [line(start, end, layer) for start, end in itertools.pairwise(corners)]
 
 
+def polyline(*corners: Point, closed: bool = True) -> list[tuple[int, object]]:
+    """A POLYLINE of lines."""
+    vertices = [tag for x, y in corners for tag in ((0, "VERTEX"), (8, "0"), (10, x), (20, y), (30, 0))]
+    head = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, int(closed)), (10, 0), (20, 0), (30, 0)]
+    return [*head, *vertices, (0, "SEQEND")]
+
+
 def entity(piece: Piece, decimals: int = 12) -> list[tuple[int, object]]:
     """A piece as LINE or ARC; DXF knows arcs counterclockwise only."""
     if isinstance(piece, Line):

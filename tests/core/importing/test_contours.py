@@ -23,12 +23,14 @@ from core.importing.listing import matching, rows_of
 from core.units import Unit
 from tests.core.importing.drawings import (
     arc,
+    block,
     circle,
     circle_of_lines,
     dxf,
     entity,
     line,
     listed,
+    polyline,
     random_contour,
     square,
 )
@@ -215,6 +217,32 @@ def test_two_contours_may_share_part_of_a_wall() -> None:
     drawing = listed(dxf(*square(0, 0, 10), *inner))
     assert [contour.drawn for contour in drawing.contours if contour.closed] == [4, 4]
     assert drawing.overlaps == 0
+
+
+def rectangle(x: float, y: float) -> list[tuple[int, object]]:
+    """A closed polyline 40 wide and 30 high."""
+    return polyline((x, y), (x + 40, y), (x + 40, y + 30), (x, y + 30))
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(1, 2), (2, 1), (3, 3)])
+def test_closed_polylines_that_share_edges_stay_closed(columns: int, rows: int) -> None:
+    cells = [rectangle(40 * column, 30 * row) for column in range(columns) for row in range(rows)]
+    for entities in (cells, cells[::-1], [*cells, cells[0], line((0, 0), (40, 0))]):
+        drawing = listed(dxf(*entities))
+        assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * (columns * rows)
+        assert drawing.branches == ()
+        assert drawing.duplicates == (0 if len(entities) == len(cells) else 5)
+
+
+def test_an_inserted_block_beside_itself_shares_an_edge() -> None:
+    at = [[(0, "INSERT"), (8, "0"), (2, "B"), (10, x), (20, 0), (30, 0)] for x in (0, 40)]
+    drawing = listed(dxf(*at, more=block("B", rectangle(0, 0))))
+    assert [contour.closed for contour in drawing.contours] == [True, True]
+
+
+def test_a_polyline_out_and_back_is_one_line() -> None:
+    drawing = listed(dxf(polyline((0, 0), (10, 0)), rectangle(0, 0)))
+    assert (drawing.duplicates, [contour.closed for contour in drawing.contours]) == (1, [True])
 
 
 def test_a_curve_of_pieces_shorter_than_the_tolerance_is_kept() -> None:
