@@ -54,6 +54,9 @@ LARGEST_SAGITTA: Final = 0.005
 ROUND: Final = 1e-9
 """A sweep within this of 0 or of a full turn, in radians, is the full circle."""
 
+ROUNDED_TURN: Final = 1e-4
+"""An end within this of a full turn after the begin, in radians, is a full turn whose angles were rounded."""
+
 STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
 
@@ -458,7 +461,8 @@ def _is_straight(chord: float, bulge: float) -> bool:
 def _turned(begin: float, end: float) -> tuple[float, float]:
     """Return two angles as a counterclockwise turn; equal ones, or ones a full turn apart, give the full circle."""
     swept = (end - begin) % tau
-    if swept <= ROUND or tau - swept <= ROUND:
+    # not for a begin a full turn after the end: a short arc over angle 0 has such angles
+    if swept <= ROUND or tau - swept <= ROUND or abs(end - begin - tau) <= ROUNDED_TURN:
         swept = tau
     return begin, begin + swept
 

@@ -254,6 +254,24 @@ def test_an_arc_of_a_full_turn_is_a_circle() -> None:
     assert listed(dxf(arc((1, 2), 3, 0, 360))).contours[0].circle == pytest.approx(3.0)
 
 
+@pytest.mark.parametrize("end", [6.28319, 6.28318, 6.2832, 6.2831])
+def test_an_ellipse_with_a_rounded_end_is_whole(end: float) -> None:
+    head = [(0, "ELLIPSE"), (8, "0"), (10, 0), (20, 0), (30, 0), (11, 20), (21, 0), (31, 0), (40, 0.5)]
+    (contour,) = listed(dxf([*head, (41, 0.0), (42, end)])).contours
+    assert contour.closed
+    assert contour.area == pytest.approx(math.pi * 20 * 10, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "sweep"),
+    [(0, 360.0001, 360), (0, 359.999, 360), (30, 390.002, 360), (10, 10.001, 0.001), (359.9995, 0.0005, 0.001)],
+)
+def test_an_arc_has_the_sweep_of_its_angles(begin: float, end: float, sweep: float) -> None:
+    (contour,) = listed(dxf(arc((0, 0), 1000, begin, end))).contours
+    assert (contour.circle is not None) is (sweep == 360)
+    assert contour.length == pytest.approx(math.radians(sweep) * 1000)
+
+
 def test_lines_that_overlap_at_an_angle_are_joined() -> None:
     corner, within, beyond, top, left = (7, -3), (22, 17), (37, 37), (67, 77), (7, 77)
     whole = listed(dxf(line(corner, beyond), line(within, top), line(top, left), line(left, corner)))
