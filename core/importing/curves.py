@@ -218,6 +218,13 @@ def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
     return [piece for first, last in _smooth_runs(curve) for piece in _fitted(curve.part(first, last), fit)]
 
 
+def ends_of_spline(shape: BSpline) -> tuple[complex, complex]:
+    """Return the start and the end of a B-spline, in the unit of its control points."""
+    curve = _bezier_curve(shape)
+    start, end = curve.at(np.array([0.0, float(curve.control.shape[1])]))[0].tolist()
+    return start, end
+
+
 def _fitted(curve: _SplineCurve, fit: float) -> list[Piece]:
     """Return a smooth curve as arcs and lines: split at its curvature extremes or not, whichever needs fewer."""
     end = float(curve.control.shape[1])

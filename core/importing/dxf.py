@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 import numpy as np
 
 from core.geometry.piece import Line
+from core.importing.curves import ends_of_spline
 from core.importing.drawing import (
     MAX_BYTES,
     MAX_ENTITIES,
@@ -56,6 +57,9 @@ ROUND: Final = 1e-9
 
 ROUNDED_TURN: Final = 1e-4
 """An end within this of a full turn after the begin, in radians, is a full turn whose angles were rounded."""
+
+SPLINE_GAP: Final = 0.01
+"""The ends of a closed SPLINE do not meet if they are farther apart than this, in the drawing's unit."""
 
 STEPS_OF_PROGRESS: Final = 100
 """Entities between two calls of the progress callback."""
@@ -417,7 +421,13 @@ class _Reader:
         flat = np.array([complex(point.x, point.y) for point in points])
         if (weights <= 0.0).any() or (np.diff(knots) < 0.0).any() or len(knots) != len(points) + tool.order:
             raise ValueError("its knots or weights cannot be right")
-        yield BSpline(tool.degree, flat, weights, knots)
+        shape = BSpline(tool.degree, flat, weights, knots)
+        if entity.closed:
+            start, end = ends_of_spline(shape)
+            if abs(end - start) > SPLINE_GAP:
+                where = self._where(entity)
+                self.notes[f"The SPLINE {where} is marked closed, but its ends do not meet: it is read as open."] += 1
+        yield shape
 
 
 class _NotFlatError(Exception):

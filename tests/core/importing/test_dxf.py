@@ -442,6 +442,30 @@ def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
     )
 
 
+CLAMPED = [0, 0, 0, 1, 2, 3, 3, 3]
+PERIODIC = [0, 1, 2, 3, 4, 5, 6, 7, 8]
+
+
+@pytest.mark.parametrize(
+    ("points", "knots", "noted"),
+    [
+        ([(0, 0), (20, 0), (20, 20), (0, 20), (-9, 5)], CLAMPED, True),
+        ([(0, 0), (20, 0), (20, 20), (0, 20), (0, 0)], CLAMPED, False),
+        ([(0, 0), (20, 0), (20, 20), (0, 20), (0, 0), (20, 0)], PERIODIC, False),
+    ],
+)
+def test_a_closed_spline_with_ends_apart_is_reported(
+    points: list[tuple[float, float]], knots: list[int], noted: bool
+) -> None:
+    head = [(0, "SPLINE"), (5, "1A"), (100, "AcDbEntity"), (8, "0"), (100, "AcDbSpline"), (70, 11), (71, 2)]
+    counts = [(72, len(knots)), (73, len(points))]
+    places = [tag for x, y in points for tag in ((10, x), (20, y), (30, 0))]
+    result = listed(of_version("AC1015", *head, *counts, *((40, knot) for knot in knots), *places))
+    text = "The SPLINE at line 19 is marked closed, but its ends do not meet: it is read as open."
+    assert result.notes == ((text,) if noted else ())
+    assert [contour.closed for contour in result.contours] == [not noted]
+
+
 def test_a_polyline_with_a_late_layer_is_refused() -> None:
     tags = [(0, "LWPOLYLINE"), (90, 2), (70, 0), (10, 0.0), (20, 0.0), (10, 5.0), (20, 0.0), (8, "CUT")]
     with pytest.raises(DrawingError) as refused:
