@@ -36,6 +36,9 @@ TIME_LIMIT: Final = 60.0
 PROGRESS_PAUSE: Final = 0.1
 """The least seconds between two progress messages."""
 
+EXIT_WAIT: Final = 2.0
+"""The most seconds that a worker may take to end after its pipe is closed."""
+
 
 @dataclass(frozen=True, slots=True)
 class Progress:
@@ -77,8 +80,13 @@ class Worker(Generic[Result]):
             if self._receiver.poll(min(wait, max(self._deadline - time.monotonic(), 0.0))):
                 return self._received(self._receiver.recv())
         except (EOFError, OSError) as error:
+            # a process that has closed its pipe ends by itself, with its own exit code
+            self._process.join(EXIT_WAIT)
+            killed = (self._process.exitcode or 0) < 0
             self.cancel()
-            raise DrawingError("TOO_MUCH", "Reading the drawing was ended, perhaps for want of memory.") from error
+            if killed:
+                raise DrawingError("TOO_MUCH", "Reading the drawing was ended, perhaps for want of memory.") from error
+            raise DrawingError("FAILED", "Reading the drawing failed: cutcomp has an error. Report it.") from error
         if time.monotonic() >= self._deadline:
             self.cancel()
             raise DrawingError("TOO_MUCH", f"Reading the drawing takes longer than {self._limit:g} s.")

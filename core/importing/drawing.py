@@ -143,8 +143,8 @@ class Drawing:
 class DrawingError(Exception):
     """A drawing cannot be taken; the text is the sentence for the operator.
 
-    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH or NO_EZDXF.  `readable` counts the entities of a
-    damaged file that can be read if the operator accepts it; None if it cannot be taken.
+    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH, NO_EZDXF or FAILED.  `readable` counts the entities
+    of a damaged file that can be read if the operator accepts it; None if it cannot be taken.
     """
 
     def __init__(self, code: str, text: str, readable: int | None = None) -> None:

@@ -66,18 +66,21 @@ def _with_markers(data: bytes, scan: Scan) -> bytes:
     """Return a text file in which ezdxf reads every entity whole.
 
     In a file of R12, or of no version, ezdxf reads only what comes before an entity's first subclass marker: such a
-    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.
+    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.  What follows EOF is left out.
     """
     is_r12 = scan.version in ("", R12) and (scan.marked or scan.unmarked)
     if scan.bad_line or not (is_r12 or scan.unmarked):
         return data
     lines = text_lines(data)
     written, begin = list[bytes](), 0
-    for row in (*range(2, len(lines) - 1, 2), len(lines)):
-        if row < len(lines) and int(lines[row]):
+    for row in range(2, len(lines) - 1, 2):
+        if int(lines[row]):
             continue
         written += _entity_with_markers(lines[begin:row])
         begin = row
+        if lines[row + 1].strip() == b"EOF":
+            break
+    written += lines[begin : begin + 2]
     return b"\n".join([*(_as_r2000(written) if is_r12 else written), b""])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -134,6 +135,22 @@ def test_a_worker_ends_at_its_limit_and_can_be_canceled() -> None:
     assert len(active_children()) == 1
     worker.cancel()
     assert active_children() == []
+
+
+def fail(*, progress: object) -> int:
+    raise ValueError(progress)
+
+
+def die(*, progress: object) -> int:
+    os.kill(os.getpid(), signal.SIGKILL)
+    return wait_for_ever(progress=progress)
+
+
+def test_only_a_killed_worker_may_have_lacked_memory() -> None:
+    with pytest.raises(DrawingError, match="want of memory"):
+        Worker(die).result()
+    with pytest.raises(DrawingError, match="cutcomp has an error"):
+        Worker(fail).result()
 
 
 def test_an_nc_program_is_imported_as_the_contour_it_was_posted_from(tmp_path: Path) -> None:

@@ -442,6 +442,15 @@ def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
     )
 
 
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+@pytest.mark.parametrize("end", [b"\x1a", b"\n\n\n", b"\n\n", b"no\ncode\n"])
+def test_what_follows_eof_is_left_out(version: str, end: bytes) -> None:
+    corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0)]
+    data = of_version(version, (0, "LWPOLYLINE"), (8, "CUT"), (90, 3), (70, 1), *corners)
+    (contour,) = listed(data + end).contours
+    assert (contour.closed, contour.drawn) == (True, 3)
+
+
 CLAMPED = [0, 0, 0, 1, 2, 3, 3, 3]
 PERIODIC = [0, 1, 2, 3, 4, 5, 6, 7, 8]
 
