@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.importing.nodes import exact_nodes, nodes_of
+from core.importing.nodes import Nodes, exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
 """Largest distance in millimeters of equal or collinear pieces, even if TOLERANCE is larger."""
@@ -104,15 +104,19 @@ def _key(item: LayeredPiece) -> tuple[float, ...]:
 
 
 def _without_tiny(items: list[LayeredPiece], tolerance: float) -> list[LayeredPiece]:
-    """Drop short pieces that lead nowhere; a run of short pieces stays if it extends as far as the tolerance."""
+    """Drop short pieces that lead nowhere; a run of short pieces stays if it extends as far as the tolerance.
+
+    A piece of a run whose own ends are one point is dropped: alone it would be a closed chain without length.
+    """
     # a piece without length has no direction either
     items = [item for item in items if item.piece.length >= NO_LENGTH]
     small = [row for row, item in enumerate(items) if item.piece.length < tolerance]
     if not small:
         return items
-    runs = _runs([items[row].piece for row in small], tolerance)
-    dropped: set[int] = set()
-    for run in runs:
+    pieces = [items[row].piece for row in small]
+    nodes = exact_nodes(pieces, tolerance)
+    dropped = {row for row, (start, end) in zip(small, nodes.of_piece, strict=True) if start == end}
+    for run in _runs(nodes):
         ends = [point for member in run for point in _extent(items[small[member]].piece)]
         width = max(x for x, _ in ends) - min(x for x, _ in ends)
         height = max(y for _, y in ends) - min(y for _, y in ends)
@@ -125,11 +129,10 @@ def _extent(piece: Piece) -> tuple[Point, ...]:
     return piece.start, piece.point_at(0.5), piece.end
 
 
-def _runs(pieces: Sequence[Piece], tolerance: float) -> Iterator[list[int]]:
+def _runs(nodes: Nodes) -> Iterator[list[int]]:
     """Yield the connected groups of pieces, as rows."""
-    nodes = exact_nodes(pieces, tolerance)
-    seen = [False] * len(pieces)
-    for first in range(len(pieces)):
+    seen = [False] * len(nodes.of_piece)
+    for first in range(len(seen)):
         if seen[first]:
             continue
         seen[first], run, waiting = True, list[int](), [first]

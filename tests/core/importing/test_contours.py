@@ -260,6 +260,15 @@ def test_a_point_within_a_curve_of_short_pieces_is_dropped() -> None:
     assert result.contours[0].closed
 
 
+@pytest.mark.parametrize("sliver", [0.00009, 0.00002])
+def test_a_sliver_within_a_curve_of_short_pieces_is_dropped(sliver: float) -> None:
+    corners = [(0.009 * k, 0.0) for k in range(4)]
+    corners += [(0.027, sliver), *((0.027 + 0.009 * k, sliver) for k in range(1, 4)), (5.0, 0.0), (0.0, 5.0)]
+    result = listed(dxf(*(line(start, end) for start, end in itertools.pairwise([*corners, corners[0]]))))
+    assert (result.tiny, result.branches) == (1, ())
+    assert [(contour.closed, contour.drawn) for contour in result.contours] == [(True, 9)]
+
+
 def test_the_start_is_the_middle_of_the_longest_line() -> None:
     entities = [line((0, 0), (30, 0)), line((30, 0), (30, 10)), line((30, 10), (0, 10)), line((0, 10), (0, 0))]
     contour = listed(dxf(*entities)).contours[0]
