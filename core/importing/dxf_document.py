@@ -15,14 +15,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
-from core.importing.dxf_tags import BINARY_MARK, MARKER, Scan, scan_tags, scan_text, text_lines
+from core.importing.dxf_tags import BINARY_MARK, HANDLE, MARKER, NO_HANDLE, Scan, scan_tags, scan_text, text_lines
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
 R12: Final = "AC1009"
 R2000: Final = "AC1015"
-HANDLE: Final = 5
 _OF_LWPOLYLINE: Final = frozenset({10, 38, 39, 43, 70, 90})
 """Group codes with which an LWPOLYLINE's own data may begin."""
 
@@ -59,24 +58,25 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
         fault = scan.first_fault
         readable = sum(not entity.fault for entity in scan.entities)
         raise damaged_file(f"The {fault.kind} {fault.where} {fault.fault}", readable)
-    return scan, _loaded(_with_markers(data, scan), scan, damaged=damaged)
+    return scan, _loaded(_normalized(data, scan), scan, damaged=damaged)
 
 
-def _with_markers(data: bytes, scan: Scan) -> bytes:
+def _normalized(data: bytes, scan: Scan) -> bytes:
     """Return a text file in which ezdxf reads every entity whole.
 
     In a file of R12, or of no version, ezdxf reads only what comes before an entity's first subclass marker: such a
-    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.  What follows EOF is left out.
+    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.  It reads no file with the handle 0,
+    and gives an entity without a handle its own: the 0 is dropped.  What follows EOF is left out.
     """
     is_r12 = scan.version in ("", R12) and (scan.marked or scan.unmarked)
-    if scan.bad_line or not (is_r12 or scan.unmarked):
+    if scan.bad_line or not (is_r12 or scan.unmarked or scan.null_handle):
         return data
     lines = text_lines(data)
     written, begin = list[bytes](), 0
     for row in range(2, len(lines) - 1, 2):
         if int(lines[row]):
             continue
-        written += _entity_with_markers(lines[begin:row])
+        written += _with_markers(_without_null_handle(lines[begin:row]))
         begin = row
         if lines[row + 1].strip() == b"EOF":
             break
@@ -98,7 +98,16 @@ def _as_r2000(lines: list[bytes]) -> list[bytes]:
     return [*_lines_of([(0, "SECTION"), (2, "HEADER")]), *version, *_lines_of([(0, "ENDSEC")]), *lines]
 
 
-def _entity_with_markers(lines: list[bytes]) -> list[bytes]:
+def _without_null_handle(lines: list[bytes]) -> list[bytes]:
+    """Return an entity's lines without the handle 0; those of a section as they are."""
+    if lines[1].strip() == b"SECTION":
+        return lines
+    tags = zip(lines[::2], lines[1::2], strict=True)
+    null = NO_HANDLE.encode()
+    return [line for tag in tags if int(tag[0]) != HANDLE or tag[1].strip() != null for line in tag]
+
+
+def _with_markers(lines: list[bytes]) -> list[bytes]:
     """Return an entity's lines, an LWPOLYLINE's with both its markers; as they are if its layer comes too late."""
     codes = [int(code) for code in lines[::2]]
     first = next((row for row, code in enumerate(codes) if code in _OF_LWPOLYLINE), 0)

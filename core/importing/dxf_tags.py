@@ -17,6 +17,9 @@ from typing import Final, NamedTuple
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
 COMMENT: Final = 999
+HANDLE: Final = 5
+NO_HANDLE: Final = "0"
+"""A handle that means none: no entity may have it, but some programs write it into each."""
 MARKER: Final = 100
 """The group code of a subclass marker, such as AcDbPolyline."""
 
@@ -99,6 +102,8 @@ class Scan:
     """An entity has subclass markers (group code 100), which R12 does not know."""
     unmarked: bool = False
     """An LWPOLYLINE has none."""
+    null_handle: bool = False
+    """An entity has the handle 0."""
     bad_line: int = 0
     """The first line that should be a group code and is not, 0 if there is none."""
     open_section: str = ""
@@ -242,7 +247,9 @@ class _Scanner:
                 self.scan.lost.append(ScannedEntity("entity", named[1].line, 1, fault="has no kind (group code 0)"))
             elif self.section not in _SECTIONS:
                 self.scan.unknown_sections.append(self.section)
-        elif marker.value == "BLOCK" and self.section == "BLOCKS":
+            return
+        self.scan.null_handle |= any(tag[:2] == (HANDLE, NO_HANDLE) for tag in body)
+        if marker.value == "BLOCK" and self.section == "BLOCKS":
             self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
             self.scan.blocks.setdefault(self.block, [])
         elif self.entity is not None and (marker.value in _SUBORDINATE or marker.line == self.entity.line):

@@ -451,6 +451,13 @@ def test_what_follows_eof_is_left_out(version: str, end: bytes) -> None:
     assert (contour.closed, contour.drawn) == (True, 3)
 
 
+@pytest.mark.parametrize("version", VERSIONS)
+def test_entities_with_the_handle_zero_are_read(version: str | None) -> None:
+    sides = [[kind, (5, "0"), *more] for kind, *more in square(0, 0, 10)]
+    drawing = read(of_version(version, *(tag for side in sides for tag in side)))
+    assert drawing.entities == 4
+
+
 CLAMPED = [0, 0, 0, 1, 2, 3, 3, 3]
 PERIODIC = [0, 1, 2, 3, 4, 5, 6, 7, 8]
 
