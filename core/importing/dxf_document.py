@@ -15,15 +15,26 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
-from core.importing.dxf_tags import BINARY_MARK, HANDLE, MARKER, NO_HANDLE, Scan, scan_tags, scan_text, text_lines
+from core.importing.dxf_tags import (
+    BINARY_MARK,
+    HANDLE,
+    MARKER,
+    MARKERS,
+    NO_HANDLE,
+    Scan,
+    scan_tags,
+    scan_text,
+    text_lines,
+)
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
 R12: Final = "AC1009"
 R2000: Final = "AC1015"
-_OF_LWPOLYLINE: Final = frozenset({10, 38, 39, 43, 70, 90})
-"""Group codes with which an LWPOLYLINE's own data may begin."""
+LAYER: Final = 8
+_OWN_CODES: Final = frozenset({10, 11, 12, 13, 38, 39, 40, 41, 42, 43, 44, 70, 71, 72, 73, 74, 90, 91, 210})
+"""Group codes with which the own data of an LWPOLYLINE or a SPLINE may begin."""
 
 MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
 
@@ -65,8 +76,8 @@ def _normalized(data: bytes, scan: Scan) -> bytes:
     """Return a text file in which ezdxf reads every entity whole.
 
     In a file of R12, or of no version, ezdxf reads only what comes before an entity's first subclass marker: such a
-    file becomes R2000.  It reads no LWPOLYLINE without markers: they are inserted.  It reads no file with the handle 0,
-    and gives an entity without a handle its own: the 0 is dropped.  What follows EOF is left out.
+    file becomes R2000.  It reads no LWPOLYLINE or SPLINE without its markers: they are inserted.  It reads no file with
+    the handle 0, and gives an entity without a handle its own: the 0 is dropped.  What follows EOF is left out.
     """
     is_r12 = scan.version in ("", R12) and (scan.marked or scan.unmarked)
     if scan.bad_line or not (is_r12 or scan.unmarked or scan.null_handle):
@@ -108,14 +119,18 @@ def _without_null_handle(lines: list[bytes]) -> list[bytes]:
 
 
 def _with_markers(lines: list[bytes]) -> list[bytes]:
-    """Return an entity's lines, an LWPOLYLINE's with both its markers; as they are if its layer comes too late."""
-    codes = [int(code) for code in lines[::2]]
-    first = next((row for row, code in enumerate(codes) if code in _OF_LWPOLYLINE), 0)
-    if lines[1].strip() != b"LWPOLYLINE" or MARKER in codes or not first or 8 in codes[first:]:
+    """Return an entity's lines with the markers it lacks; as they are if its layer comes too late."""
+    kind = lines[1].strip().decode("latin-1")
+    if kind not in MARKERS:
         return lines
-    common = 2 if codes[1] == HANDLE else 1
-    markers = [_lines_of([(MARKER, name)]) for name in ("AcDbEntity", "AcDbPolyline")]
-    return [*lines[: 2 * common], *markers[0], *lines[2 * common : 2 * first], *markers[1], *lines[2 * first :]]
+    codes = [int(code) for code in lines[::2]]
+    named = {value.strip().decode("latin-1") for code, value in zip(codes, lines[1::2], strict=True) if code == MARKER}
+    common, own = (_lines_of([(MARKER, name)]) if name not in named else [] for name in MARKERS[kind])
+    first = next((row for row, code in enumerate(codes) if code in _OWN_CODES), 0)
+    if own and (not first or LAYER in codes[first:]):
+        return lines
+    begin = 2 if codes[1] == HANDLE else 1
+    return [*lines[: 2 * begin], *common, *lines[2 * begin : 2 * first], *own, *lines[2 * first :]]
 
 
 def _lines_of(tags: Sequence[tuple[int, str]]) -> list[bytes]:

@@ -22,6 +22,10 @@ NO_HANDLE: Final = "0"
 """A handle that means none: no entity may have it, but some programs write it into each."""
 MARKER: Final = 100
 """The group code of a subclass marker, such as AcDbPolyline."""
+MARKERS: Final = MappingProxyType(
+    {"LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"), "SPLINE": ("AcDbEntity", "AcDbSpline")}
+)
+"""The markers without which ezdxf does not read an entity: before its common data, and before its own."""
 
 _BREAK: Final = re.compile(rb"\r\n|\r")
 
@@ -101,7 +105,7 @@ class Scan:
     marked: bool = False
     """An entity has subclass markers (group code 100), which R12 does not know."""
     unmarked: bool = False
-    """An LWPOLYLINE has none."""
+    """An entity lacks one of its `MARKERS`."""
     null_handle: bool = False
     """An entity has the handle 0."""
     bad_line: int = 0
@@ -266,7 +270,7 @@ class _Scanner:
         assert self.entity is not None
         counts = Counter(tag.code for tag in body)
         self.scan.marked |= MARKER in counts
-        self.scan.unmarked |= kind == "LWPOLYLINE" and MARKER not in counts
+        self.scan.unmarked |= any((MARKER, name) not in (tag[:2] for tag in body) for name in MARKERS.get(kind, ()))
         if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
             self.entity.paper = True
         fault = _fault(kind, counts, body)

@@ -410,15 +410,15 @@ def of_version(version: str | None, *tags: tuple[int, object]) -> bytes:
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("marked", [True, False])
+@pytest.mark.parametrize("marked", [(True, True), (True, False), (False, True), (False, False)])
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_a_polyline_is_read_whole_in_every_version_with_or_without_markers(
-    version: str | None, marked: bool, mirrored: bool
+    version: str | None, marked: tuple[bool, bool], mirrored: bool
 ) -> None:
-    markers: list[tuple[int, object]] = [(100, "AcDbEntity"), (100, "AcDbPolyline")] if marked else []
+    common, own = [(100, "AcDbEntity")] * marked[0], [(100, "AcDbPolyline")] * marked[1]
     corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0), (10, 0.0), (20, 30.0)]
     data_tags: list[tuple[int, object]] = [(90, 4), (70, 1), *corners, *(MIRRORED if mirrored else [])]
-    tags = [(0, "LWPOLYLINE"), (5, "1A"), *markers[:1], (8, "CUT"), *markers[1:], *data_tags]
+    tags = [(0, "LWPOLYLINE"), (5, "1A"), *common, (8, "CUT"), *own, *data_tags]
     data = of_version(version, *tags)
     (contour,) = listed(data).contours
     x_values = [piece.start[0] for piece in contour.pieces]
@@ -429,13 +429,30 @@ def test_a_polyline_is_read_whole_in_every_version_with_or_without_markers(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_marked_spline_keeps_its_degree(version: str | None) -> None:
+@pytest.mark.parametrize("marked", [(True, True), (True, False), (False, True), (False, False)])
+def test_a_spline_keeps_its_degree_with_or_without_markers(version: str | None, marked: tuple[bool, bool]) -> None:
     # a Bezier parabola: with a degree other than 2 its number of knots would be wrong
     knots = [(40, knot) for knot in (0, 0, 0, 1, 1, 1)]
     points = [tag for x, y in ((0, 0), (10, 20), (20, 0)) for tag in ((10, x), (20, y), (30, 0))]
-    markers = (0, "SPLINE"), (5, "1A"), (100, "AcDbEntity"), (8, "CUT"), (100, "AcDbSpline")
-    tags = [*markers, (70, 8), (71, 2), (72, 6), (73, 3), *knots, *points]
+    common, own = [(100, "AcDbEntity")] * marked[0], [(100, "AcDbSpline")] * marked[1]
+    tags = [
+        (0, "SPLINE"),
+        (5, "1A"),
+        *common,
+        (8, "CUT"),
+        *own,
+        (210, 0),
+        (220, 0),
+        (230, 1),
+        (70, 8),
+        (71, 2),
+        (72, 6),
+        (73, 3),
+        *knots,
+        *points,
+    ]
     (contour,) = listed(of_version(version, *tags)).contours
+    assert contour.layer == "CUT"
     middle = min(contour.pieces, key=lambda piece: abs(piece.point_at(0.5)[0] - 10.0)).point_at(0.5)
     assert max(point[1] for piece in contour.pieces for point in (piece.start, piece.end, middle)) == pytest.approx(
         10.0, abs=0.05
