@@ -27,7 +27,7 @@ from core.importing.curves import pieces_of_ellipse, pieces_of_spline
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import boxes_of, containers, crossings
+from core.importing.nesting import boxes_of, containers, crosses_itself, crossings
 from core.units import Kind, Unit, from_mm, show
 
 TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
@@ -237,10 +237,12 @@ def _nested(contours: Sequence[Contour]) -> list[Contour]:
         contour = replace(closed[row], kind=_kind(depth), depth=depth)
         if not contour.number or contour.kind is not closed[row].kind:
             contour = _directed(contour)
-        problems = (f"touches or crosses chain {numbers[crossed[row]]}",) if row in crossed else ()
+        problems = [f"touches or crosses chain {numbers[crossed[row]]}"] if row in crossed else []
+        if len(closed) <= MAX_CROSSING_CHECK and crosses_itself(contour.pieces):
+            problems.append("touches or crosses itself")
         number = numbers[row]
         listed.append(
-            replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=problems)
+            replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=tuple(problems))
         )
     open_contours = sorted((contour for contour in contours if not contour.closed), key=_by_length)
     return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(open_contours, 1)]

@@ -1,7 +1,7 @@
 """Finds which closed contours lie inside which, which of them cross, and the areas and boxes of contours.
 
-Areas and boxes are exact.  Nesting and crossings are tested on chords that deviate from the arcs by no more than
-`CHORD_ERROR` millimeters.
+Areas, boxes and crossings of a contour with itself are exact.  Nesting and crossings with others are tested on chords
+that deviate from the arcs by no more than `CHORD_ERROR` millimeters.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ import shapely
 from core.geometry.chords import chords_of
 from core.geometry.path import Floats, Path, Pieces, boxes
 from core.geometry.piece import Arc, Piece, Point
+from core.geometry.piece_arrays import piece_arrays
+from core.verify.self_crossings import self_crossings
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top."""
@@ -99,3 +101,12 @@ def crossings(chains: Sequence[Sequence[Piece]], most: int) -> dict[int, int]:
         if first != second:
             met.setdefault(first, second)
     return met
+
+
+def crosses_itself(chain: Sequence[Piece]) -> bool:
+    """True if a closed chain meets itself away from its joints."""
+    if len(chain) < 2:
+        return False
+    # the exact formulas are evaluated where they do not apply too
+    with np.errstate(all="ignore"):
+        return len(self_crossings(piece_arrays(Path.from_pieces(chain)), closed=True)) > 0

@@ -7,7 +7,10 @@ import math
 import random
 
 import pytest
+import shapely
 
+from core.geometry.chords import chords_of
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.importing.clean_up import reversed_piece
 from core.importing.contour import (
@@ -130,6 +133,26 @@ def test_two_squares_that_touch_at_a_corner_are_two_contours() -> None:
     contours = listed(dxf(*square(0, 0, 10), *square(10, 10, 10))).contours
     assert [(contour.closed, contour.drawn) for contour in contours] == [(True, 4), (True, 4)]
     assert contours[0].problems == ("touches or crosses chain 2",)
+
+
+def test_a_contour_that_crosses_itself_says_so() -> None:
+    bow_tie = polyline((0, 0), (40, 30), (40, 0), (0, 30))
+    touching = polyline((100, 0), (140, 0), (140, 30), (120, 0), (100, 30))
+    contours = listed(dxf(bow_tie, touching, circle((200, 0), 5), *square(220, 0, 10))).contours
+    assert sorted(contour.problems for contour in contours) == [(), (), *[("touches or crosses itself",)] * 2]
+    crossed = listed(dxf(bow_tie, *square(-10, -10, 20))).contours
+    assert ("touches or crosses chain 1", "touches or crosses itself") in [contour.problems for contour in crossed]
+
+
+@pytest.mark.parametrize("decimals", [3, 12])
+def test_a_contour_crosses_itself_exactly_if_its_chords_do(decimals: int) -> None:
+    crossing = 0
+    for seed in range(130):
+        contour = listed(dxf(*(entity(piece, decimals) for piece in random_contour(seed)))).contours[0]
+        simple = shapely.LineString(chords_of(Path.from_pieces(contour.pieces), 1e-5)).is_simple
+        assert contour.problems == (() if simple else ("touches or crosses itself",)), seed
+        crossing += not simple
+    assert crossing == 3
 
 
 def test_a_dividing_line_stays_an_open_contour() -> None:
