@@ -278,7 +278,12 @@ class _Reader:
             raise DrawingError("TOO_MUCH", f"INSERTs are nested deeper than {MAX_INSERT_DEPTH} blocks.")
         self._match(list(block), self.scanned.pop(str(block.name).lower(), []))
         if not len(block):
-            self.notes[f"INSERT of the block {words_of(insert.dxf.get('name', ''))!r}, which holds nothing."] += 1
+            name, head = words_of(insert.dxf.get("name", "")), block.block
+            why = "which holds nothing"
+            if head is not None and (head.is_xref or head.is_xref_overlay):
+                path = head.dxf.get("xref_path", "")
+                why = "whose geometry is in another file (XREF)" + (f": {words_of(path)!r}" if path else "")
+            self.notes[f"INSERT of the block {name!r}, {why}."] += 1
         if _is_clipped(insert):
             self.notes["An INSERT is clipped (XCLIP): all of its block is taken."] += 1
         rows, columns = insert.dxf.row_count, insert.dxf.column_count

@@ -205,6 +205,15 @@ def test_an_insert_of_a_missing_block_is_reported() -> None:
     assert "'GONE', which the file does not have" in drawing.notes[0]
 
 
+@pytest.mark.parametrize("flags", [4, 8, 12, 36])
+def test_an_insert_of_another_drawing_names_its_file(flags: int) -> None:
+    empty = block("XR").replace("\n70\n0\n", f"\n70\n{flags}\n1\nparts/frame.dwg\n")
+    notes = read(dxf(insert("XR", (0, 0)), *square(0, 0, 1), more=empty)).notes
+    assert notes == ("INSERT of the block 'XR', whose geometry is in another file (XREF): 'parts/frame.dwg'.",)
+    notes = read(dxf(insert("E", (0, 0)), *square(0, 0, 1), more=block("E"))).notes
+    assert notes == ("INSERT of the block 'E', which holds nothing.",)
+
+
 def test_skipped_entities_are_counted_by_kind() -> None:
     text = [(0, "TEXT"), (8, "0"), (10, 0), (20, 0), (30, 0), (40, 5), (1, "PART")]
     point = [(0, "POINT"), (8, "0"), (10, 0), (20, 0), (30, 0)]
