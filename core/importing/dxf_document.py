@@ -126,8 +126,8 @@ def _with_markers(lines: list[bytes]) -> list[bytes]:
     codes = [int(code) for code in lines[::2]]
     named = {value.strip().decode("latin-1") for code, value in zip(codes, lines[1::2], strict=True) if code == MARKER}
     common, own = (_lines_of([(MARKER, name)]) if name not in named else [] for name in MARKERS[kind])
-    first = next((row for row, code in enumerate(codes) if code in _OWN_CODES), 0)
-    if own and (not first or LAYER in codes[first:]):
+    first = next((row for row, code in enumerate(codes) if code in _OWN_CODES), len(codes))
+    if own and (first == len(codes) or LAYER in codes[first:]):
         return lines
     begin = 2 if codes[1] == HANDLE else 1
     return [*lines[: 2 * begin], *common, *lines[2 * begin : 2 * first], *own, *lines[2 * first :]]

@@ -508,6 +508,11 @@ def test_a_closed_spline_with_ends_apart_is_reported(
     assert [contour.closed for contour in result.contours] == [not noted]
 
 
+def test_a_polyline_of_one_marker_alone_is_skipped() -> None:
+    drawing = read(of_version("AC1015", *square(0, 0, 1)[0], (0, "LWPOLYLINE"), (5, "1A"), (100, "AcDbPolyline")))
+    assert drawing.notes == ("A LWPOLYLINE has fewer than two points and is skipped.",)
+
+
 def test_a_polyline_with_a_late_layer_is_refused() -> None:
     tags = [(0, "LWPOLYLINE"), (90, 2), (70, 0), (10, 0.0), (20, 0.0), (10, 5.0), (20, 0.0), (8, "CUT")]
     with pytest.raises(DrawingError) as refused:
