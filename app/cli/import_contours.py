@@ -18,7 +18,7 @@ from app.documents.programs import empty_program
 from app.session.words import counted, length, place
 from core.geometry.piece import Side
 from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
-from core.importing.contours import ContourList
+from core.importing.contours import ContourList, frame_notes
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, nc_blocks
@@ -180,12 +180,12 @@ def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Con
     unit = listed.unit
     program, imported = with_contours(empty_program(unit), contours)
     _write_program(options, program, comment(options.file.name, contours))
-    for sentence in sentences(listed, unit):
+    for sentence in (*sentences(listed, unit), *frame_notes(listed, {contour.number for contour in contours})):
         say(sentence)
     for block, contour in zip(imported, contours, strict=True):
         turn = f", {contour.turn.name}" if contour.closed else ""
         segments = counted(len(block.block.segments), "segment")
-        say(f"chain {contour.number}: {segments} from {place(contour.start, unit)}{turn}.")
+        say(f"chain {contour.number}: {contour.kind}, {segments} from {place(contour.start, unit)}{turn}.")
         for note in block.notes:
             say(note)
 

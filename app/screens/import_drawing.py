@@ -50,7 +50,16 @@ from core.importing.contour import (
     started_at_usual_place,
     traveled_like,
 )
-from core.importing.contours import FIT, MAX_TOLERANCE, Branch, ContourList, ImportOptions, contours_of, with_joined
+from core.importing.contours import (
+    FIT,
+    MAX_TOLERANCE,
+    Branch,
+    ContourList,
+    ImportOptions,
+    contours_of,
+    frame_notes,
+    with_joined,
+)
 from core.importing.drawing import Drawing as ReadDrawing
 from core.importing.drawing import DrawingError, DrawingUnit
 from core.importing.listing import Row, matching, rows_of, sentences, unit_question
@@ -657,16 +666,17 @@ class ImportScreen(BaseScreen):
             self.say(str(error), Tone.ERROR)
             return
         if self.host.apply(made, f"IMPORT {self.path.name}"):
-            self._show_taken(made, blocks)
+            numbers = {contour.number for contour in contours}
+            self._show_taken(made, blocks, [] if self.listed is None else frame_notes(self.listed, numbers))
 
-    def _show_taken(self, made: Program, blocks: Sequence[ImportedBlock]) -> None:
+    def _show_taken(self, made: Program, blocks: Sequence[ImportedBlock], frames: Sequence[str]) -> None:
         """Show the form of the first new block, and the notes on all of them."""
         first = len(made.blocks) - len(blocks) + 1
         self.host.move(FormPlace(first))
         self.host.action_contour()
         which = f"blocks {first}-{len(made.blocks)}" if len(blocks) > 1 else f"block {first}"
         self.app.notify(f"Took {which} from {self.path.name}. Ctrl+Z takes it back.", timeout=4)
-        notes = [note for block in blocks for note in block.notes]
+        notes = [*frames, *(note for block in blocks for note in block.notes)]
         if notes:
             rest = f" {len(notes) - MAX_NOTES} more notes." if len(notes) > MAX_NOTES else ""
             text = f"{' '.join(notes[:MAX_NOTES])}{rest}"

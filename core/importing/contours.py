@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from math import dist
 from typing import Final
@@ -207,6 +208,28 @@ def with_joined(listed: ContourList, first: int, second: int) -> ContourList | N
     contours = _with_open_gaps(_nested([_fresh(contour) for contour in made]), unit, tolerance)
     nodes = [(branch.at, branch.ways) for branch in listed.branches]
     return replace(listed, contours=tuple(contours), branches=_branches(nodes, contours, tolerance))
+
+
+def frame_notes(listed: ContourList, numbers: AbstractSet[int]) -> list[str]:
+    """Return a sentence for each outermost contour that is not taken, around taken ones of which one lies in another.
+
+    It may be the part's outline or the frame of the drawing; a frame makes holes of outlines.
+    """
+    around = {number: _around(listed, number) for number in sorted(numbers)}
+    outermost = {outer[0] for outer in around.values() if not numbers.isdisjoint(outer)} - numbers
+    return [
+        f"Chain {number} around chains {', '.join(str(each) for each in around if number in around[each])} is not "
+        "taken. If it is only a frame, reverse them."
+        for number in sorted(outermost)
+    ]
+
+
+def _around(listed: ContourList, number: int) -> list[int]:
+    """Return the numbers of the contours around one, the outermost first."""
+    around: list[int] = []
+    while number := listed.contours[number - 1].inside:
+        around.insert(0, number)
+    return around
 
 
 def _fresh(contour: Contour) -> Contour:

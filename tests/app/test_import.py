@@ -27,6 +27,7 @@ from core.importing.drawing import DrawingError
 from core.program.model import CutterComp
 from core.program.solve.block import solve_block
 from core.units import Unit
+from tests.core.importing.drawings import dxf, square
 
 DATA = Path(__file__).parents[1] / "data" / "dxf"
 
@@ -44,6 +45,18 @@ class InlineWorker:
 @pytest.fixture(autouse=True)
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.cli.import_contours.Worker", InlineWorker)
+
+
+def test_the_kind_of_each_chain_and_a_frame_around_them_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, out = tmp_path / "frame.dxf", tmp_path / "part.toml"
+    source.write_bytes(dxf(*square(0, 0, 80), *square(5, 5, 40), *square(15, 15, 20)))
+    assert main(["import", str(source), "--chain", "2,3", "-o", str(out)]) == 0
+    told = capsys.readouterr().err
+    assert "Chain 1 around chains 2, 3 is not taken. If it is only a frame, reverse them." in told
+    assert "chain 2: HOLE, 5 segments from" in told
+    assert "chain 3: ISLAND, 5 segments from" in told
 
 
 def test_the_list_has_a_row_for_each_contour(capsys: pytest.CaptureFixture[str]) -> None:

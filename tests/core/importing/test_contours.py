@@ -22,6 +22,7 @@ from core.importing.contour import (
     started_at_corner,
     started_at_side,
 )
+from core.importing.contours import frame_notes
 from core.importing.listing import matching, rows_of
 from core.units import Unit
 from tests.core.importing.drawings import (
@@ -119,6 +120,24 @@ def test_holes_follow_their_outlines_and_islands_follow_their_holes() -> None:
         assert contour.turn is (Turn.CCW if contour.kind is ContourKind.HOLE else Turn.CW)
         assert contour.side is not None
         assert contour.side.value == "LEFT"
+
+
+@pytest.mark.parametrize(
+    ("numbers", "around"),
+    [
+        # 1 holds 2 and 4, 2 holds 3; 5 holds 6
+        ({1, 2, 3, 4, 5, 6}, ()),
+        ({2, 3}, ("Chain 1 around chains 2, 3",)),
+        ({2, 3, 4, 6}, ("Chain 1 around chains 2, 3, 4",)),
+        ({1, 3}, ()),
+        ({2, 4}, ()),
+    ],
+)
+def test_a_chain_around_an_outline_that_is_not_taken_is_named(numbers: set[int], around: tuple[str, ...]) -> None:
+    plate = [*square(0, 0, 80), *square(5, 5, 40), *square(15, 15, 20), circle((60, 60), 5)]
+    drawing = listed(dxf(*plate, *square(100, 0, 70), circle((120, 20), 3)))
+    notes = frame_notes(drawing, numbers)
+    assert notes == [f"{which} is not taken. If it is only a frame, reverse them." for which in around]
 
 
 def test_reversing_a_contour_changes_its_side() -> None:
