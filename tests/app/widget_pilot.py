@@ -62,6 +62,9 @@ class Operator:
 
     async def send(self, *keys: str) -> None:
         """Press keys in order, as the driver passes them on, and wait until they are taken, not for their work."""
+        await sleep(0)
+        if self._messages():
+            await self.pilot.pause(0)
         order = KeyOrder(self.app)
         for key in keys:
             for name in key[1:] if key.startswith("'") else (key,):
