@@ -29,6 +29,8 @@ RIGHT_COLUMN: Final[Mapping[Form, frozenset[str]]] = MappingProxyType(
     }
 )
 """The fields in the right column of each form; all others are in the left one."""
+MISSING: Final = frozenset({"MISSING", "TOOL_VALUE"})
+"""The findings on blank fields of START that are needed."""
 
 
 def form_at(session: Session) -> Form:
@@ -128,7 +130,7 @@ def missing_fields(session: Session) -> tuple[str, ...]:
     if session.segment is not None:
         return solved_segment(session).missing
     findings = session.derived_block.solved.findings
-    return tuple(finding.field for finding in findings if finding.code == "MISSING" and finding.field)
+    return tuple(finding.field for finding in findings if finding.code in MISSING and finding.field)
 
 
 def solved_segment(session: Session) -> SolvedSegment:

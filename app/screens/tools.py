@@ -220,7 +220,9 @@ class ToolsScreen(FormScreen):
 
     def _show_use(self) -> None:
         tool, program = self.tool, self.current_session.program
-        text = "" if tool is None else "\n".join((_use_text(program, tool.number), *_faults(tool, program.unit)))
+        others = (other for other in program.tools if other is not tool)
+        faults = [fault for each in (tool, *others) if each is not None for fault in _faults(each, program.unit)]
+        text = "" if tool is None else "\n".join((_use_text(program, tool.number), *faults))
         panel = self.query_one("#tool-use", Static)
         if str(panel.content) != text:
             panel.update(text, layout=False)
@@ -301,7 +303,8 @@ def _next_tool(program: Program) -> Tool:
 def _faults(tool: Tool, unit: Unit) -> list[str]:
     """Return an ERR line for each field of a tool that cannot be used."""
     reasons = [(field.label, unusable(_value(tool, field.name), field, unit)) for field in TOOL]
-    return [f"ERR {text if text.startswith(label) else f'{label}: {text}'}" for label, text in reasons if text]
+    texts = [text if text.startswith(label) else f"{label}: {text}" for label, text in reasons if text]
+    return [f"ERR tool {tool.number} {text}" for text in texts]
 
 
 def _use_text(program: Program, number: int) -> str:

@@ -21,7 +21,7 @@ from core.geometry.piece import Point
 from core.program.fields import TABLES, Form, field_of, form_of
 from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program
 from core.program.solve.corners import Corners, put_corners_in
-from core.program.solve.reading import Reading, read_form, usable
+from core.program.solve.reading import Reading, read_form, typed_trouble, usable
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment, Value
 from core.program.solve.stretch import Contour, place_faults, stretch_at
@@ -34,6 +34,9 @@ NEEDED: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_fe
 
 FINISH_VALUES: Final = ("speed", "feed", "plunge_feed", "coolant")
 """The values that TOOL SETUP keeps for a tool; a block uses the same ones for both of its tools."""
+
+TOOL_VALUES: Final = ("speed", "plunge_feed")
+"""The needed fields of START that TOOL SETUP proposes."""
 
 ZERO_IF_BLANK: Final = ("finish_tool", "peck_depth")
 """The fields of START in which a blank means 0: no finish tool, full depth in one pass."""
@@ -181,7 +184,7 @@ def _start(block: Block, program: Program) -> _Start:
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
     # wrong entries come before missing ones: only a few findings are visible at once
     tools = (*tool.findings, *finish.findings, *_finish_values(block, program))
-    trouble = (*tools, *_depths(known), *_missing(reading), *_empty(block))
+    trouble = (*tools, *_depths(known), *_missing(reading, block, program), *_empty(block))
     feed = (known.get("plunge_feed"), Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
     coolant = _coolant(block, program)
     return _Start(reading.values, point, known, tool, finish, reading.findings + trouble, feed, coolant)
@@ -192,7 +195,7 @@ def _propose(reading: Reading, block: Block, program: Program) -> float | None:
     tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
     if tool is None:
         return None
-    for name in ("speed", "plunge_feed"):
+    for name in TOOL_VALUES:
         typed = getattr(tool, name)
         known = usable(field_of(Form.TOOL, name), typed, program.unit)
         if known is not None and reading.values[name] is None:
@@ -230,12 +233,25 @@ def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
     return (Finding("FINISH_VALUES", Severity.WARNING, text, 0, "finish_tool"),)
 
 
-def _missing(reading: Reading) -> tuple[Finding, ...]:
-    blanks = (name for name in NEEDED if reading.values[name] is None)
+def _missing(reading: Reading, block: Block, program: Program) -> tuple[Finding, ...]:
+    blanks = [name for name in NEEDED if reading.values[name] is None]
+    refused = {name: text for name in blanks if (text := _tool_value_refusal(name, block, program))}
+    missing = {name: f"{field_of(Form.START, name).label} is blank: enter it on START." for name in blanks}
     return tuple(
-        Finding("MISSING", Severity.ERROR, f"{field_of(Form.START, name).label} is blank: enter it on START.", 0, name)
-        for name in blanks
+        Finding("TOOL_VALUE" if name in refused else "MISSING", Severity.ERROR, refused.get(name, text), 0, name)
+        for name, text in missing.items()
     )
+
+
+def _tool_value_refusal(name: str, block: Block, program: Program) -> str:
+    """Return why the value that TOOL SETUP has for a blank field of START cannot be used; empty if it has none."""
+    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
+    typed = None if tool is None or name not in TOOL_VALUES else getattr(tool, name)
+    field = field_of(Form.START, name)
+    trouble = None if typed is None else typed_trouble(field, typed, program.unit)
+    if tool is None or trouble is None:
+        return ""
+    return f"{field.label} of tool {tool.number} on TOOL SETUP{trouble[1].removeprefix(field.label)}"
 
 
 def _depths(known: dict[str, float]) -> tuple[Finding, ...]:

@@ -44,7 +44,7 @@ def read_form(
         typed = values[field.name] = getattr(part, field.name)
         if typed is None:
             continue
-        trouble = _trouble(field, typed, unit)
+        trouble = typed_trouble(field, typed, unit)
         if trouble is None:
             assert isinstance(typed, Number | Relative)
             ending = "_inc" if isinstance(typed, Relative) else ""
@@ -57,12 +57,12 @@ def read_form(
 
 def usable(field: Field, typed: Typed, unit: Unit) -> float | None:
     """Return a plain number in millimeters or radians; None for anything else or if the field does not accept it."""
-    if not isinstance(typed, Number) or _trouble(field, typed, unit) is not None:
+    if not isinstance(typed, Number) or typed_trouble(field, typed, unit) is not None:
         return None
     return _internal(typed.value, field.kind, unit)
 
 
-def _trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
+def typed_trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
     """Return the code and the sentence of the fault in a typed field, None if it can be used."""
     if isinstance(typed, Number | Relative):
         refusal = value_refusal(field, typed.value, unit)

@@ -37,10 +37,23 @@ async def test_an_impossible_speed_stays_marked_on_tool_setup():
             speed = next(field for field in user.screen.query(NumberField) if field.name == "speed@0")
             assert speed.styles.color.hex == user.app.theme_variables["c-err"].upper()
             use = str(user.screen.query_one("#tool-use", Static).content)
-            assert f"ERR SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
+            assert f"ERR tool 1 SPEED (RPM){' must be' if text == '-5' else ': 1x'}" in use
             await user.press("shift+tab")
         await user.press("'3000", "enter")
         assert user.session.program.tools[0].speed == Number(3000.0)
+
+
+async def test_a_mistyped_speed_of_tool_setup_is_named_on_start_and_stays_marked_while_another_tool_has_the_cursor():
+    async with operator() as user:
+        await user.press("f6", "tab", "tab", "tab", "'3o00", "enter", "f2")
+        assert user.at == "diameter@1"
+        assert "ERR tool 1 SPEED (RPM): 3o00 cannot be read." in str(user.screen.query_one("#tool-use", Static).content)
+        await user.press("f8", *["down"] * 9, "delete", "enter")
+        assert user.session.block.speed is None
+        assert (user.at, user.value("speed")) == ("speed", "?")
+        assert user.prompt == (
+            "SPEED (RPM) of tool 1 on TOOL SETUP: 3o00 cannot be read. o is not a unit here: type a whole number."
+        )
 
 
 async def test_missing_values_are_asked_for_and_the_verdict_names_the_judged_segments():
