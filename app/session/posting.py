@@ -93,7 +93,7 @@ def refusals(derived: Derived, refusal: Refusal) -> tuple[tuple[str, ...], tuple
 def objections(derived: Derived) -> Iterator[str]:
     """Yield a line on uncut stock and a line on segments the look-ahead deletes, each with its blocks."""
     unit = derived.program.unit
-    left = [f"block {number} {length(uncut, unit)}" for number, uncut in _uncut_lengths(derived)]
+    left = [f"block {number} {length(uncut, unit)} long" for number, uncut in _uncut_lengths(derived)]
     deleted = [(block.number, numbers) for block in derived.blocks if (numbers := deleted_segments(block))]
     if left:
         yield f"UNCUT {', '.join(left)}"
@@ -111,10 +111,15 @@ def _uncut_lengths(derived: Derived) -> Iterator[tuple[int, float]]:
 
 def deleted_segments(block: DerivedBlock) -> str:
     """Return the segments that the control's path deletes; empty if the best path is posted instead."""
+    return segment_numbers(deleted_numbers(block))
+
+
+def deleted_numbers(block: DerivedBlock) -> frozenset[int]:
+    """Return the numbers of those segments.  Corner arcs are left out."""
     paths = block.paths
     if paths is None or paths.compensated is None or paths.best is not None:
-        return ""
-    return segment_numbers(paths.compensated.deleted.segments.tolist())
+        return frozenset()
+    return frozenset(int(number) for number in paths.compensated.deleted.segments.tolist() if number == int(number))
 
 
 def setup_sheet(program: Program, path: Path, now: datetime, *, name: str = "") -> str:

@@ -25,6 +25,8 @@ ROLES = {
     Kind.NOTE: "$c-label",
 }
 """The color of each kind of finding."""
+HEADING_WIDTH = 37
+"""The width in cells of a heading over the loupe on the narrowest screens."""
 MIN_WIDTH = 20
 """The narrowest width in cells to which sentences are wrapped."""
 
@@ -40,7 +42,9 @@ def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:
     """Return the selected finding as one line: its sign, which of how many, its title, its segments."""
     entry = entries[at]
     where = entry.where.replace("segment", "seg").replace("corner", "seg")
-    return f"{mark(entry.kind, marks)} {at + 1}/{len(entries)} {entry.title.removesuffix(' thick')}  {where}".rstrip()
+    titles = (entry.title, entry.title.removesuffix(" thick"))
+    lines = [f"{mark(entry.kind, marks)} {at + 1}/{len(entries)} {title}  {where}".rstrip() for title in titles]
+    return lines[0] if len(lines[0]) <= HEADING_WIDTH else lines[1]
 
 
 class FindingsList(OptionRows):

@@ -20,7 +20,7 @@ from textual.widgets import Static
 
 from app.documents.survey import Outcome
 from app.session.block_findings import TO_TYPE
-from app.session.posting import deleted_segments
+from app.session.posting import deleted_numbers, deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
 from core.finding import Severity
@@ -216,13 +216,28 @@ def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
     gouge = _gouge_chip(judgment, case.unit, marks)
     left = length(judgment.uncut_length, case.unit)
     has_uncut = not isfinite(judgment.uncut_length) or judgment.uncut
-    uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if has_uncut else (f"{marks.good} UNCUT none", "$c-good")
-    gone = deleted_segments(case.block)
-    deleted = (f"{marks.deleted} DELETED {gone}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
+    uncut = (f"{marks.warning} UNCUT {left} long", "$c-uncut") if has_uncut else (f"{marks.good} UNCUT none", "$c-good")
+    deleted, counted = _deleted_chips(case.block, marks)
     warned = any(finding.severity is Severity.WARNING for finding in case.block.findings)
     # the chips sum up what is uncut or deleted; the findings list has the rest
     others = ((f"{marks.warning} see {findings_key}", "$c-warn"),) if warned and not judgment.gouges else ()
-    return _row((gouge, uncut, deleted, *others))
+    rows = [
+        _row((gouge, uncut, *rest), gap)
+        for rest in ((deleted, *others), (counted, *others), (counted,))
+        for gap in ("   ", "  ")
+    ]
+    return next((row for row in rows if len(row) <= CHIPS_WIDTH), rows[-1])
+
+
+def _deleted_chips(block: DerivedBlock, marks: Marks) -> tuple[tuple[str, str], tuple[str, str]]:
+    """Return DELETED with the numbers of the segments, and with their count, for which there is more often room."""
+    gone = deleted_numbers(block)
+    texts = (f"DELETED {segment_numbers(gone)}", f"{len(gone)} DELETED")
+    named, counted = (
+        (f"{marks.deleted} {text}", "$c-deleted") if gone else (f"{marks.good} DELETED none", "$c-good")
+        for text in texts
+    )
+    return named, counted
 
 
 def _stopped_short(case: Case) -> bool:
@@ -258,8 +273,8 @@ def _gouge_chip(judgment: Judgment, unit: Unit, marks: Marks) -> tuple[str, str]
     return f"{marks.good} GOUGE none", "$c-good"
 
 
-def _row(texts: Iterable[tuple[str, str]]) -> Content:
-    return Content("   ").join([Content.styled(text, f"bold {role}") for text, role in texts])
+def _row(texts: Iterable[tuple[str, str]], gap: str) -> Content:
+    return Content(gap).join([Content.styled(text, f"bold {role}") for text, role in texts])
 
 
 def first_step(block: DerivedBlock) -> str:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from textual.app import App, ComposeResult
 from textual.widgets import Static
@@ -10,7 +11,7 @@ from app.documents.files import load
 from app.documents.programs import empty_program, example
 from app.session.words import segment_numbers
 from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
-from core.finding import Severity
+from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Number, Unread, changed
@@ -37,7 +38,7 @@ def test_the_pocket_has_the_designed_title_strip_and_chips(pocket):
     marks = MARKS["braille"]
     assert title(pocket) == "LOOK-AHEAD CAL 8 deletes segment 9"
     assert strip(pocket, marks).plain == " 1 ✖•••••• 8 •••••••••••• 20   best 2: deletes 9"
-    assert chips(pocket, marks).plain == "✓ GOUGE none   ▲ UNCUT 1.9367   × DELETED 9"
+    assert chips(pocket, marks).plain == "✓ GOUGE none   ▲ UNCUT 1.9367 long   × DELETED 9"
 
 
 def test_a_gouge_comes_first_in_title_and_chips(notch):
@@ -85,6 +86,20 @@ def test_the_chips_of_a_clean_path_with_a_warning_point_to_f10(pocket):
     assert any(finding.severity is Severity.WARNING for finding in block.findings)
     assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("▲ see F10")
     assert "F10" not in chips(pocket, MARKS["braille"]).plain
+
+
+def test_the_chips_of_many_deleted_segments_still_point_to_f10(pocket):
+    paths = pocket.block.paths
+    gone = replace(paths.compensated.deleted, segments=np.array([2.0, 4.0, 5.5, 6.0, 8.0]))
+    compensated = replace(paths.compensated, deleted=gone)
+    warning = Finding("ANY", Severity.WARNING, "A warning.", 2)
+    block = replace(pocket.block, paths=replace(paths, compensated=compensated))
+    case = Case(replace(block, findings=(warning,)), None, Unit.MM)
+    line = chips(case, MARKS["braille"]).plain
+    assert line == "✓ GOUGE none  ▲ UNCUT 49.191 long  × 4 DELETED  ▲ see F10"
+    assert len(line) <= 57
+    without = chips(Case(replace(block, findings=()), None, Unit.MM), MARKS["braille"]).plain
+    assert without == "✓ GOUGE none   ▲ UNCUT 49.191 long   × DELETED 2 4 6 8"
 
 
 def test_an_empty_block_says_what_to_type_first():
