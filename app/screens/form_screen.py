@@ -22,7 +22,7 @@ from core.program.edit import Edited, Refused
 from core.program.fields import Field, read_typed, text_refusal
 from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Value
-from core.units import Kind, sentence
+from core.units import Kind, printable, sentence
 
 CALCULATED: Final = frozenset({Kind.LENGTH, Kind.ANGLE})
 """The kinds of fields on which the calculator works."""
@@ -43,7 +43,7 @@ class FormScreen(BaseScreen):
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("tab,down", "step(1)", "Next field", show=False),
         Binding("shift+tab,up", "step(-1)", "Field before", show=False),
-        Binding("enter", "accept", "Take the field", show=False),
+        Binding("enter", "enter", "Take the field", show=False),
         Binding("escape", "restore", "Old value back", show=False),
         *(Binding(f"{n}", f"armed_softkey({n})", f"F{n} after Esc", show=False, priority=True) for n in range(1, 9)),
         Binding("equals_sign", "calculator", "Calculator", show=False, priority=True),
@@ -204,7 +204,12 @@ class FormScreen(BaseScreen):
 
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
-        self.say(f"{event.letter} is not a choice: left and right change it.", Tone.ERROR)
+        self._refuse_choice(event.name, event.typed)
+
+    def _refuse_choice(self, name: str, typed: str) -> None:
+        field = self._field(name)
+        what = "" if field is None else f" of {field.label}"
+        self.say(f"{printable(typed)} is no choice{what}: left and right change it.", Tone.ERROR)
 
     # ---- keys
 
@@ -214,6 +219,15 @@ class FormScreen(BaseScreen):
         if self.take() and (names := self.names()):
             here = names.index(self.current.name) if self.current is not None and self.current.name in names else -1
             self.focus_field(names[(here + by) % len(names)])
+
+    def action_enter(self) -> None:
+        """Take the field and go on; stay once on a choice if what was typed there is no choice."""
+        widget = self.current
+        if isinstance(widget, ChoiceField) and widget.refused:
+            self._refuse_choice(widget.name or "", widget.refused)
+            widget.refused = ""
+        else:
+            self.action_accept()
 
     def action_accept(self) -> None:
         """Take the field and go to the next one."""

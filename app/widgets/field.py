@@ -26,6 +26,8 @@ MAX_TYPED: int = 200
 """The most characters that a field takes; more come from a stuck key."""
 
 
+SIGNS: str = "+-./"
+"""The signs of a number, which is no choice."""
 LISTED: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
 """Number fields that open a list with Space: tools and look-ahead."""
 
@@ -186,16 +188,18 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     @dataclass
     class Unknown(Message):
-        """A letter that no choice begins with was typed."""
+        """Text was typed that is the beginning of no choice."""
 
         name: str
-        letter: str
+        typed: str
 
     def __init__(
         self, name: str, choices: Sequence[str], text: str = "", *, prompt: str = "", blank: bool = False
     ) -> None:
         self.choices = tuple(choices)
         self._spelled = ""
+        self.refused = ""
+        """What has been typed since the last choice, if no choice begins with it."""
         super().__init__(
             [(choice, choice) for choice in choices],
             prompt=escape(prompt) or "?",
@@ -219,6 +223,7 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     def action_step(self, by: int) -> None:
         """Go to the next or previous choice."""
+        self.refused = ""
         here = self.choices.index(self.value) if self.value in self.choices else -1 if by > 0 else 0
         self.value = self.choices[(here + by) % len(self.choices)]
 
@@ -232,25 +237,26 @@ class ChoiceField(Select[str], inherit_bindings=False):
 
     def action_blank(self) -> None:
         """Post that the choice is to be blank again."""
+        self.refused = ""
         self.post_message(self.Blanked(self.name or ""))
 
     def on_blur(self) -> None:
         """Forget the letters typed so far."""
-        self._spelled = ""
+        self._spelled = self.refused = ""
 
     def on_key(self, event: events.Key) -> None:
         """Select by letters: one goes to the next choice that begins with it, more of them spell it out."""
-        if event.character is None or not event.character.isalnum():
+        if event.character is None or not (event.character.isalnum() or event.character in SIGNS):
             return
         event.stop()
         letter = event.character.upper()
         for spelled in (self._spelled + letter, letter):
             choice = self._choice_spelled(spelled)
             if choice is not None:
-                self._spelled, self.value = spelled, choice
+                self._spelled, self.value, self.refused = spelled, choice, ""
                 return
-        self._spelled = ""
-        self.post_message(self.Unknown(self.name or "", letter))
+        self.refused, self._spelled = f"{self.refused or self._spelled}{letter}", ""
+        self.post_message(self.Unknown(self.name or "", self.refused))
 
     def _choice_spelled(self, spelled: str) -> str | None:
         here = self.choices.index(self.value) if self.value in self.choices else -1

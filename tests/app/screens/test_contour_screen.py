@@ -130,6 +130,19 @@ async def test_a_choice_of_two_words_is_typed_with_its_space():
         assert user.screen.query_one("#fields ChoiceField", ChoiceField).expanded
 
 
+async def test_enter_after_text_that_is_no_choice_stays_once_and_names_all_of_it():
+    async with operator() as user:
+        await user.press("tab", "tab", "'33")
+        assert user.prompt == "33 is no choice of CUTTER COMP.: left and right change it."
+        await user.press("enter")
+        assert (user.at, user.value("cutter_comp")) == ("cutter_comp", "LEFT")
+        assert user.prompt == "33 is no choice of CUTTER COMP.: left and right change it."
+        await user.press("enter")
+        assert user.at == "x_start"
+        await user.press("up", "up", "'-.5", "right", "enter")
+        assert (user.at, user.value("cutter_comp")) == ("x_start", "RIGHT")
+
+
 async def test_a_choice_can_be_typed_stepped_or_listed():
     async with operator() as user:
         await user.press("down", "down", "r")
@@ -141,7 +154,7 @@ async def test_a_choice_can_be_typed_stepped_or_listed():
         await user.press("space", "up", "enter")
         assert str(user.session.block.cutter_comp) == "LEFT"
         await user.press("q")
-        assert user.prompt == "Q is not a choice: left and right change it."
+        assert user.prompt == "Q is no choice of CUTTER COMP.: left and right change it."
 
 
 async def test_a_new_block_keeps_tool_feeds_and_depths():
