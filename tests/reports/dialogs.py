@@ -151,7 +151,9 @@ DIALOGS: Final = (
         "WRITE IN ANOTHER FOLDER?",
         ("is not in the current folder", "WRITE THERE", *GO_BACK),
     ),
-    Dialog("UNITS", POCKET, ("f4", "right"), "UNITS", ("Convert every typed length and feed", "CONVERT", *GO_BACK)),
+    Dialog(
+        "UNITS", POCKET, ("f4", "right", "enter"), "UNITS", ("Convert every typed length and feed", "CONVERT", *GO_BACK)
+    ),
     Dialog("IMPORT", (PART,), keys_of("f6", "f3", "enter"), "IMPORT?", ("IMPORT", *GO_BACK)),
     Dialog("TOOLS", POCKET, ("ctrl+home", "tab", "space"), "TOOLS", ("END MILL",)),
     Dialog("SHIFT BLOCK", POCKET, palette("shift block"), "SHIFT BLOCK", ("How far, in X and Y.", "X", "Y")),

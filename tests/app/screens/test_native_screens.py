@@ -77,7 +77,7 @@ async def test_draw_steps_through_the_findings_and_returns_to_the_form():
 async def test_changing_the_unit_asks_first_and_converts_the_lengths():
     async with operator() as user:
         await run(user, "app.parameters")
-        await user.press("right", "c")
+        await user.press("right", "enter", "c")
         await everything(user)
         assert user.session.program.unit is Unit.MM
         assert user.session.block.x_start == Number(50.8)
