@@ -75,6 +75,8 @@ LATER: Final = "Or Page Down: the next segment may give it."
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
 
 
+DEPTHS: Final = frozenset({"z_start", "z_bottom"})
+"""The fields of START between which the cut lies."""
 SWITCHED: Final = frozenset({"choice", "tangent"})
 """Choices that Space steps through: SOLUTION to the next answer, TANGENT to the other one."""
 
@@ -539,6 +541,16 @@ class ContourScreen(FormScreen):
             self.focus_field(stop)
         else:
             self._form_done()
+        if widget.name in DEPTHS:
+            self._say_depth()
+
+    def _say_depth(self) -> None:
+        """Say if Z BOTTOM is not below Z START."""
+        session = self.current_session
+        finding = next((each for each in session.derived_block.findings if each.code == "Z_ORDER"), None)
+        if finding is not None:
+            tone = Tone.ERROR if finding.severity is Severity.ERROR else Tone.WARNING
+            self.say(sentence(finding, session.program.unit), tone)
 
     def _form_done(self) -> None:
         """After a form's last field, go back to a field that still needs an answer, else to the next segment."""

@@ -209,6 +209,9 @@ def _advice(case: Case) -> str:
 def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
     """Return GOUGE, UNCUT and DELETED; without segments, what to type first; without a path, the first error."""
     if hint := first_step(case.block):
+        depth = next((finding for finding in case.block.findings if finding.code == "Z_ORDER"), None)
+        if depth is not None:
+            return Content.styled(f"{marks.warning} {sentence(depth, case.unit)}", "bold $c-warn")
         return Content.styled(f" {hint}", "$c-label")
     judgment = case.judgment
     if case.block.side is None or judgment is None or _stopped_short(case):

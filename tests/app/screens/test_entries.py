@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 from textual import events
 from textual.widgets import Static
 
+from app.documents.programs import empty_program
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Question
 from app.widgets.field import NumberField
 from core.program.file.read import loads
-from core.program.model import Number
+from core.program.model import CutterComp, Number
 from core.units import Unit
 from tests.app.widget_pilot import operator
 
@@ -71,6 +73,35 @@ async def test_missing_values_are_asked_for_and_the_verdict_names_the_judged_seg
         assert "Segments 7 and 8 need 1 more value: XY ANGLE of 7, or an end (X END or Y END)." in [
             entry.text for entry in user.screen.entries
         ]
+
+
+@pytest.mark.parametrize(
+    ("bottom", "text"),
+    [
+        ("0", "▲ Z BOTTOM is at Z START: nothing is cut."),
+        ("2", "✖ Z BOTTOM 2.0000 is above Z START 0.0000."),
+        ("-2", " START is complete: Page Down for segment 1."),
+    ],
+)
+async def test_a_new_start_without_depth_says_so_once_z_bottom_is_taken(bottom: str, text: str):
+    typed = (Number(1.0), CutterComp.LEFT, *(Number(value) for value in (0.0, 0.0, 0.0, 5.0, 1000.0)))
+    names = ("tool", "cutter_comp", "x_start", "y_start", "z_start", "plunge_feed", "speed")
+    program = empty_program()
+    block = replace(program.blocks[0], **dict(zip(names, typed, strict=True)))
+    async with operator(replace(program, blocks=(block,))) as user:
+        await user.press(*["down"] * 7)
+        assert user.at == "z_bottom"
+        await user.press(f"'{bottom}", "tab")
+        assert str(user.screen.query_one("#chips").render()) == text
+
+
+async def test_enter_says_that_z_bottom_is_not_below_z_start():
+    async with operator() as user:
+        await user.press(*["down"] * 7, "'0", "enter")
+        assert user.at != "z_bottom"
+        assert user.prompt == "Z BOTTOM is at Z START: nothing is cut."
+        await user.press("tab")
+        assert user.prompt != "Z BOTTOM is at Z START: nothing is cut."
 
 
 async def test_the_only_block_cannot_be_deleted():
