@@ -371,10 +371,13 @@ class FileActions(DerivationActions):
         if not all(proof.take_lines() for proof in proofs):
             return False
         ours = [self.document] if self.document.file.opening in openings else []
-        ask = leaving(title, [*ours, *(proof.document for proof in proofs)])
+        half_typed = self.screen.half_typed_sentence if ours and isinstance(self.screen, BaseScreen) else ""
+        ask = leaving(title, [*ours, *(proof.document for proof in proofs)], half_typed)
         word = DISCARD if ask is None else await self.ask(ask)
         if word != SAVE:
             return word == DISCARD
+        if half_typed and not self.take_typed():
+            return False
         for proof in proofs:
             if proof.document.unsaved and not await self.saved_nc(proof, None):
                 return False
@@ -575,9 +578,8 @@ class FileActions(DerivationActions):
     # ---- quit
 
     async def action_quit(self) -> None:
-        """Quit; ask about unsaved changes."""
-        if self.take_typed():
-            self._leave()
+        """Quit; ask about unsaved changes and half-typed text."""
+        self._leave()
 
     @work(group="question")
     async def _leave(self) -> None:

@@ -112,15 +112,19 @@ def into_which(drawing: Path, document: Document) -> Ask:
 # ---- before leaving
 
 
-def leaving(title: str, documents: Sequence[Document]) -> Ask | None:
-    """Ask before documents are closed, listing those with unsaved changes; None if all are saved."""
+def leaving(title: str, documents: Sequence[Document], half_typed: str = "") -> Ask | None:
+    """Ask before documents are closed, listing those with unsaved changes; None if all are saved.
+
+    `half_typed` is the sentence on text that would be lost too.
+    """
     unsaved = [document for document in documents if document.unsaved]
-    if not unsaved:
+    if not unsaved and not half_typed:
         return None
     lines = tuple(
         f"{name_of(document)} {'was never saved' if document.file.path is None else 'has changes that are not saved'}."
         for document in unsaved
     )
+    lines += (half_typed,) if half_typed else ()
     answers = (Answer(DISCARD, "the changes are lost"), Answer(SAVE, "then go on"))
     return Ask(title, lines, answers)
 

@@ -345,6 +345,11 @@ class BaseScreen(Screen[None]):
         """Take the text typed into the field with the cursor; return False, and say why, if it is refused."""
         return True
 
+    @property
+    def half_typed_sentence(self) -> str:
+        """What is typed and not taken yet; empty if nothing is."""
+        return ""
+
     def forget_typed(self) -> None:
         """Discard typed text that has not been taken."""
 

@@ -202,6 +202,14 @@ class FormScreen(BaseScreen):
         """True if the field with the cursor has typed text that has not been taken."""
         return isinstance(self.current, NumberField) and self.current.edited
 
+    @property
+    def half_typed_sentence(self) -> str:
+        """The text that has not been taken, and its field."""
+        widget, field = self.current, self.current_field
+        if not isinstance(widget, NumberField) or field is None or not widget.edited:
+            return ""
+        return f"{printable(widget.value.strip())} in {field.label} is not taken yet."
+
     @on(ChoiceField.Unknown)
     def _no_choice(self, event: ChoiceField.Unknown) -> None:
         self._refuse_choice(event.name, event.typed)

@@ -9,6 +9,7 @@ from textual.events import AppBlur, AppFocus
 from textual.widgets import DataTable, OptionList
 
 from app.screens.contour import ContourScreen
+from app.screens.dialogs import Question
 from app.screens.lookahead import LookaheadScreen
 from app.screens.palette import Palette
 from app.screens.program import depths_kept
@@ -177,6 +178,31 @@ async def test_quitting_with_unsaved_work_asks_and_escape_keeps_it():
         await user.press("escape")
         assert user.session.block.tool == Number(3.0)
         assert type(user.app.screen).__name__ == "ContourScreen"
+
+
+async def test_going_back_from_quit_leaves_the_text_half_typed():
+    async with operator() as user:
+        await user.press("tab", "'33", "ctrl+q")
+        assert isinstance(user.app.screen, Question)
+        assert user.app.screen.lines == ("33 in TOOL is not taken yet.",)
+        await user.press("escape")
+        assert (user.at, user.value("tool"), user.session.history.undo_count) == ("tool", "33", 0)
+        await user.press("4", "enter")
+        assert user.session.block.tool == Number(334.0)
+        await user.press("ctrl+z", "home", "ctrl+q")
+        assert user.session.block.tool == Number(1.0)
+
+
+async def test_discarding_half_typed_text_quits():
+    async with operator() as user:
+        await user.press("tab", "'33", "ctrl+q", "d")
+        assert not user.app.is_running
+
+
+async def test_an_unconfirmed_segment_number_does_not_keep_quit_waiting():
+    async with operator() as user:
+        await user.press("3", "ctrl+q")
+        assert not user.app.is_running
 
 
 async def test_a_larger_terminal_shows_the_segment_list_with_its_rows():

@@ -84,10 +84,9 @@ async def test_missing_values_are_asked_for_and_the_verdict_names_the_judged_seg
     ],
 )
 async def test_a_new_start_without_depth_says_so_once_z_bottom_is_taken(bottom: str, text: str):
-    typed = (Number(1.0), CutterComp.LEFT, *(Number(value) for value in (0.0, 0.0, 0.0, 5.0, 1000.0)))
-    names = ("tool", "cutter_comp", "x_start", "y_start", "z_start", "plunge_feed", "speed")
-    program = empty_program()
-    block = replace(program.blocks[0], **dict(zip(names, typed, strict=True)))
+    program, zero = empty_program(), Number(0.0)
+    block = replace(program.blocks[0], tool=Number(1.0), x_start=zero, y_start=zero, z_start=zero)
+    block = replace(block, cutter_comp=CutterComp.LEFT, plunge_feed=Number(5.0), speed=Number(1000.0))
     async with operator(replace(program, blocks=(block,))) as user:
         await user.press(*["down"] * 7)
         assert user.at == "z_bottom"
