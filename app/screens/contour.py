@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import dist
+from textwrap import wrap
 from typing import ClassVar, Final
 
 from textual import events, on, work
@@ -70,6 +71,8 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "c": ChamferSegment,
 }
 """The letters that add a new segment, or change the kind of one that is still empty."""
+WAITS: Final = TO_TYPE | {"NOT_YET"}
+"""The findings on a run that waits for more values."""
 KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 LATER: Final = "Or Page Down: the next segment may give it."
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."
@@ -450,10 +453,12 @@ class ContourScreen(FormScreen):
             here = finding.field == field.name and int(finding.segment or 0) == session.place.segment
             to_type = finding.code in TO_TYPE
             if here and finding.severity is Severity.ERROR and (session.block.segments or not to_type):
-                tone = Tone.WARNING if to_type else Tone.ERROR
-                return Sentence(sentence(finding, session.program.unit) + self._or_later(finding), tone)
+                text = sentence(finding, session.program.unit) + self._or_later(finding)
+                if not to_type:
+                    return Sentence(text, Tone.ERROR)
+                return Sentence(self._with_prompt(text, field) or text, Tone.WARNING)
         advice = "" if self.on_segment else remedy(session.lookahead_table, field.name, session.program.unit)
-        return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field))
+        return Sentence(advice, Tone.WARNING) if advice else self._run_sentence(prompt_of(field), field)
 
     def _or_later(self, finding: Finding) -> str:
         """Return a hint that the next segment may determine this one; empty if it does not apply."""
@@ -462,18 +467,35 @@ class ContourScreen(FormScreen):
         waits = finding.code == "MISSING" and last and not run_stops(session)
         return f" {LATER}" if waits and session.segment is not None and not is_empty(session.segment) else ""
 
-    def _run_sentence(self, prompt: str) -> Sentence | None:
-        """Return why this segment's run has no answer, with the prompt below it if there is room."""
+    def _run_sentence(self, prompt: str, field: Field | None = None) -> Sentence | None:
+        """Return why this segment's run has no answer, with the prompt if there is room.
+
+        While a run waits for values, the prompt of a field comes first, and alone if there is no room for both and
+        the sentence does not name the field.
+        """
         session = self.current_session
         finding = run_trouble(session)
         if finding is None:
             return None
+        waits = finding.code in WAITS
+        tone = Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR
         text = sentence(finding, session.program.unit) + self._or_later(finding)
         if finding.code == "NOT_YET":
             text += f" Or F7: point to the end of segment {finding.segment:g}."
-        elif len(text) < self.size.width - 1:
-            text += f"\n{prompt}"
-        return Sentence(text, Tone.WARNING if finding.code in TO_TYPE else Tone.ERROR)
+        if field is None or not waits:
+            fits = finding.code != "NOT_YET" and len(text) < self.size.width - 1
+            return Sentence(f"{text}\n{prompt}" if fits else text, tone)
+        both = self._with_prompt(text, field)
+        if not both and finding.code in TO_TYPE and field.label not in text:
+            return Sentence(prompt)
+        return Sentence(both or text, tone)
+
+    def _with_prompt(self, text: str, field: Field) -> str:
+        """Return a field's prompt and then a text, if both fit the two lines of the prompt; else an empty text."""
+        for both in (f"{prompt_of(field)}\n{text}", f"{prompt_of(field)} {text}"):
+            if sum(len(wrap(line, self.size.width - 2)) for line in both.split("\n")) <= 2:
+                return both
+        return ""
 
     def prompt_text(self) -> Sentence:
         """Return a list's keys, the prompt of SEGMENT, an empty LINE's other kinds, or the field's prompt."""

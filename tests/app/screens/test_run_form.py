@@ -61,6 +61,17 @@ async def test_an_incomplete_run_counts_its_missing_values_on_each_segment():
         assert (user.value("x_end"), user.tag("x_end")) == ("60.000", "CAL")
 
 
+async def test_each_field_of_an_incomplete_run_says_what_it_takes():
+    case = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
+    async with operator(program_of(case)) as user:
+        await to(user, 2, "radius")
+        radius = "Radius of the arc."
+        assert user.prompt.startswith(f"{radius}\nSegments 1 to 3 need 1 more value: RADIUS of 2")
+        await user.press("tab", "tab")
+        assert user.at == "start_angle"
+        assert user.prompt.startswith("Direction in which the arc starts, from +X.")
+
+
 async def test_a_half_typed_number_recalculates_the_run_and_escape_restores_it():
     async with operator(golden("c18")) as user:
         await to(user, 2, "radius")
