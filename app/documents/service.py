@@ -35,7 +35,7 @@ from app.documents.lock import Lock, Owner, alive, held_by, myself, release, tak
 from app.documents.paths import as_program, chosen, folder, is_folder, outside, printable_path, short_path, written_at
 from app.documents.patience import FILE, within
 from app.documents.programs import empty_program, example, examples
-from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, whole_name
+from app.documents.questions import GO_BACK, Ask, held_sentence, name_of, person, whole_name
 from core.program.file.read import StoreError
 from core.program.model import unread_texts
 from core.units import Unit, printable
@@ -377,8 +377,15 @@ class DocumentService:
         except (OSError, StoreError) as error:
             kept.journal = None
             return Opened(work, Notice(f"Restored. Not on disk: {_reason(error)}", warning=True))
-        copy = f"{whole_name(aside)} stays; Ctrl+O lists it. " if aside is not None else ""
-        return Opened(work, Notice(f"{copy}Your work is back. Ctrl+Z undoes it step by step, Ctrl+S saves it."))
+        copy = f" {whole_name(aside)} holds a copy: Ctrl+O lists it." if aside is not None else ""
+        whose = self._whose(journal.head.owner)
+        return Opened(work, Notice(f"{whose} Ctrl+Z undoes it step by step, Ctrl+S saves it.{copy}"))
+
+    def _whose(self, owner: Owner) -> str:
+        """Return the sentence that says whose work was restored."""
+        if (owner.user, owner.host) != (self.me.user, self.me.host):
+            return f"The work of {person(owner)} is here."
+        return "The other terminal's work is here." if alive(owner) and owner != self.me else "Your work is back."
 
     def _journal_of_restored(self, kept: _Kept, work: Document, path: Path, journal: Journal) -> Path | None:
         """Begin a journal with the restored work; return the old journal's path unless it is replaced or gone."""

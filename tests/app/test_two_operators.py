@@ -92,7 +92,7 @@ def type_on_after_a_take_over(part: Path, first: Terminal) -> None:
         second.send(b"t")
         second.until("UNSAVED WORK FOUND", longest=PATIENCE)
         second.send(b"r")
-        second.until("Your work is back", longest=PATIENCE)
+        second.until("work is here", longest=PATIENCE)
         first.send(b"\x1b[1;5H\t2\t")
         first.until("has had this program open", longest=PATIENCE)
         first.until("undo 2", longest=PATIENCE)

@@ -143,7 +143,7 @@ def test_a_journal_damaged_in_the_middle_is_reported_and_kept_whole(state: Path,
     operator = started(state, file)
     assert "The end of it cannot be read and is kept as a backup." in operator.asked
     assert operator.answer("RESTORE").number == 7
-    assert "journal.damaged-1 stays; Ctrl+O lists it." in operator.said
+    assert "journal.damaged-1 holds a copy: Ctrl+O lists it." in operator.said
     assert journal.with_name(f"{journal.name}.damaged-1").read_bytes() == damaged
     operator.type(8).killed()
     assert started(state, file).answer("RESTORE").number == 8
@@ -179,6 +179,11 @@ def typed_on(state: Path, file: Path, answer: str) -> None:
     second = started(state, file, DEAD).answer("TAKE OVER")
     assert "The other terminal may still be in use" in second.asked
     second.answer(answer)
+    if answer == "RESTORE":
+        assert second.said.startswith(
+            "The other terminal's work is here. Ctrl+Z undoes it step by step, Ctrl+S saves it."
+        )
+        assert second.said.endswith(" holds a copy: Ctrl+O lists it.")
     first.type(125)
     first.killed()
     assert b"125" in b"".join(path.read_bytes() for path in file.parent.glob(".part*theirs*"))
