@@ -238,7 +238,8 @@ class ContourScreen(FormScreen):
         last, segment = len(session.block.segments), session.place.segment
         texts = {
             "block-number": str(session.place.block),
-            "file": session.file_label,
+            # a half-typed number changes nothing yet, and the status line says so too
+            "file": self.current_session.file_label,
             "segment-kind": f"{form_at(session):<8}{run_label(session)}".rstrip(),
             "segment-count": f"of {last}" if last else "",
         }

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
-from textual.widgets import DataTable, Input
+from textual.widgets import DataTable, Input, Label
 
 from app.app import CutcompApp
 from app.documents.files import load
@@ -111,6 +111,15 @@ async def test_a_number_typed_without_enter_is_saved_and_asked_about(folder):
         assert isinstance(user.app.screen, Question)
         await user.press("escape")
         assert (user.value("tool"), user.session.block.tool) == ("8", Number(7.0))
+
+
+async def test_the_head_and_the_status_line_agree_while_a_number_is_typed(folder):
+    async with at_work(folder) as user:
+        await user.press("tab", "'7")
+        file, state = (user.screen.query_one(name, Label) for name in ("#file", "#undo"))
+        assert (str(file.content), str(state.content)) == ("part", "saved")
+        await user.press("enter")
+        assert (str(file.content), str(state.content)) == ("part *", "not saved   undo 1")
 
 
 async def test_an_unreadable_number_is_not_saved(folder):
