@@ -35,6 +35,7 @@ from app.widgets.contour_table import ContourTable
 from app.widgets.drawing import LOOK_KEYS, Drawing
 from app.widgets.plain import PlainLabel, PlainText
 from app.widgets.softkeys import Softkey
+from app.widgets.status import UNITS, Status
 from core.controls.program_text import quoted
 from core.draw.characters import Mode
 from core.draw.view import View
@@ -183,6 +184,14 @@ class ImportScreen(BaseScreen):
         prepare_workers()
         self._read()
 
+    def show_state_on(self, status: Status) -> None:
+        """Show the unit that a new program takes from the drawing, none until it is read; else the open program's."""
+        if self._fresh:
+            unit = "" if self.options is None else f" {UNITS[self.unit]} "
+            status.show(unit, 0, 0, unsaved=False, saved=False, new=bool(unit))
+        else:
+            super().show_state_on(status)
+
     @property
     def unit(self) -> Unit:
         """The unit of the program that receives the contours."""
@@ -294,6 +303,7 @@ class ImportScreen(BaseScreen):
         self._unfolded.clear()
         self._backdrop = listed.contours
         self.quiet()
+        self.show_state()
         self._show_rows(1)
         if not listed.contours:
             self.say("These layers hold no contour. F2 chooses others.", Tone.WARNING)

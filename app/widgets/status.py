@@ -63,7 +63,8 @@ class Status(Horizontal):
             free = self.surroundings.free()
         self._show("clock", self.surroundings.clock())
         room = "" if free is None else f"Free: {size_text(free)}"
-        self._show("units", self._work or f"Prog Units: {self._unit}   {room}".rstrip())
+        unit = f"Prog Units: {self._unit}   " if self._unit else ""
+        self._show("units", self._work or f"{unit}{room}".rstrip())
         self.query_one("#units").set_class(free is not None and free < LOW_ON_DISK, "-warning")
 
     def show_program(self, session: Session) -> None:

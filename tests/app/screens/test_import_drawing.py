@@ -10,7 +10,7 @@ from math import cos, dist, pi, sin
 from pathlib import Path
 
 import pytest
-from textual.widgets import DataTable
+from textual.widgets import DataTable, Label
 
 from app.app import CutcompApp
 from app.documents import drawing_files
@@ -149,6 +149,13 @@ async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
         assert title == "d14-layers.dxf  MM ($INSUNITS)  layers 2 of 2"
         await user.press("down")
         assert user.importing.picture.heading == "chain 2  HOLE"
+
+
+async def test_a_new_program_shows_the_unit_of_the_drawing_before_it_is_taken(tmp_path):
+    async with importer(DATA / "d14-layers.dxf", tmp_path, unit=Unit.IN, fresh=True) as user:
+        assert str(user.importing.query_one("#units", Label).content) == "Prog Units:  M M    Free: 23 GB"
+    async with importer(DATA / "d14-layers.dxf", tmp_path, unit=Unit.IN) as user:
+        assert str(user.importing.query_one("#units", Label).content) == "Prog Units:  I N C H    Free: 23 GB"
 
 
 async def test_marked_contours_become_blocks_in_one_undoable_edit(tmp_path):
