@@ -321,4 +321,4 @@ def _uses(program: Program, number: int) -> list[str]:
     roughing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.tool)]
     finishing = [str(at) for at, block in enumerate(program.blocks, 1) if called(block.finish_tool)]
     calls = (("TOOL", roughing), ("FINISH TOOL", finishing))
-    return [f"{what} of block {', '.join(blocks)}" for what, blocks in calls if blocks]
+    return [f"{what} of block{'s' if blocks[1:] else ''} {', '.join(blocks)}" for what, blocks in calls if blocks]
