@@ -219,6 +219,8 @@ class CutcompApp(TransformActions):
         from app.screens.palette import Palette
 
         if isinstance(self.screen, BaseScreen):
+            # what was said before does not concern the action that comes next
+            self.screen.quiet()
             # without Textual's id, as the previous palette may still be closing
             self.push_screen(Palette())
 

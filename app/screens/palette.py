@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import partial
+from types import MappingProxyType
 from typing import Any, ClassVar, Final
 
 from textual import on
@@ -49,7 +50,37 @@ ACTIONS: Final = (
     ("QUIT", "app.quit", "Ctrl+Q"),
 )
 """Name, action and hint of each action that works on every screen; one the App does not have is not listed."""
+OTHER_WORDS: Final = MappingProxyType(
+    {
+        "SAVE": "write store keep",
+        "OPEN": "load files home folder",
+        "NEW INCH": "create part program imperial",
+        "NEW MM": "create part program metric millimeter",
+        "POST": "gcode g-code export output nc",
+        "SETUP SHEET": "print",
+        "DRAW": "graphics view plot picture",
+        "PROGRAM PARAMETERS": "units inch mm metric blend finish clearance",
+        "PART SETUP": "origin zero offset g54",
+        "TOOL SETUP": "tools cutters diameter",
+        "IMPORT DRAWING": "dxf cad",
+        "NC PROOF": "simulate verify check backplot gcode g-code",
+        "SHIFT BLOCK": "transform move translate",
+        "ROTATE BLOCK": "transform turn",
+        "MIRROR BLOCK": "transform flip reflect",
+        "REPEAT SEGMENTS, SHIFTED": "transform copy pattern array",
+        "REPEAT SEGMENTS, ROTATED": "transform copy pattern array",
+        "DELETE SEGMENT": "remove erase",
+        "DELETE TOOL": "remove erase",
+        "CALCULATOR": "trig triangle bolt circle tangent",
+        "LIGHT / DARK": "colors theme",
+        "KEYS, HELP": "manual",
+        "QUIT": "exit end close leave",
+    }
+)
+"""Other words for actions, in small letters, as a shop may call them."""
 NOTHING_FOUND: Final = "No action has that name."
+OTHER_SCORE: Final = 0.01
+"""The score of an action found by another word, below any found by its name."""
 GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
 
 
@@ -85,7 +116,8 @@ class Actions(Provider):
         closed by then.
         """
         matcher = self.matcher(query)
-        matches = [(score, action) for action in self._unique() if (score := matcher.match(action[0])) > 0]
+        scored = [(matcher.match(action[0]) or _other_score(query, action[0]), action) for action in self._unique()]
+        matches = [(score, action) for score, action in scored if score > 0]
         for score, (name, action, hint) in matches:
             yield Hit(score, matcher.highlight(name), partial(self.screen.run_action, action), help=hint)
         number = GO_TO_SEGMENT.fullmatch(query)
@@ -95,6 +127,13 @@ class Actions(Provider):
         elif not matches:
             app: Any = self.app
             yield Hit(1.0, NOTHING_FOUND, partial(app.say, NOTHING_FOUND), help="Delete letters, or go back with Esc")
+
+
+def _other_score(query: str, name: str) -> float:
+    """Return a small score if each word of the query begins a word of the name or another word for it; else 0."""
+    words = f"{name.lower()} {OTHER_WORDS.get(name, '')}".split()
+    parts = query.lower().split()
+    return OTHER_SCORE if parts and all(any(word.startswith(part) for word in words) for part in parts) else 0.0
 
 
 class Palette(CommandPalette):
