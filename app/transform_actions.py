@@ -59,7 +59,9 @@ class TransformActions(FileActions):
         if edited is not None and self.apply(edited, f"{title} {number}"):
             # messages about the previous edit no longer apply
             self.quiet()
-            self.notify(f"{title} {number} is done. Ctrl+Z undoes it.", timeout=4)
+            before, after = (each.blocks[number - 1].cutter_comp for each in (program, self.session.program))
+            side = "" if after is before else f" CUTTER COMP. is {after} now."
+            self.notify(f"{title} {number} is done.{side} Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:

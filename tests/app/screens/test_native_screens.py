@@ -243,6 +243,26 @@ async def test_the_palette_says_at_once_that_no_action_has_that_name():
         await user.press("enter")
         assert isinstance(user.app.screen, ContourScreen)
         assert user.prompt == NOTHING_FOUND
+        await user.press("ctrl+k", "escape")
+        assert user.prompt != NOTHING_FOUND
+
+
+@pytest.mark.parametrize(
+    ("word", "actions"),
+    [
+        ("transform", {"SHIFT BLOCK", "ROTATE BLOCK", "MIRROR BLOCK"}),
+        ("flip block", {"MIRROR BLOCK"}),
+        ("dxf", {"IMPORT DRAWING"}),
+        ("exit", {"QUIT"}),
+        ("copy", {"REPEAT SEGMENTS, SHIFTED", "REPEAT SEGMENTS, ROTATED"}),
+    ],
+)
+async def test_the_palette_finds_actions_by_other_words_of_the_shop(word: str, actions: set[str]):
+    async with operator() as user:
+        await user.press("ctrl+k", f"'{word}")
+        await everything(user)
+        options = user.app.screen.query_one(OptionList).options
+        assert actions <= {str(option.prompt).splitlines()[0] for option in options}
 
 
 @pytest.mark.parametrize("screen", [DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen])
@@ -319,9 +339,17 @@ async def test_the_palette_mirrors_a_block_in_one_edit():
         await user.press("enter", "enter", "enter")
         await everything(user)
         assert user.session.block.cutter_comp == "RIGHT"
+        done = "MIRROR BLOCK 1 is done. CUTTER COMP. is RIGHT now. Ctrl+Z undoes it."
+        assert done in [message.message for message in user.app._notifications]
         assert user.session.block.x_start == Number(-2.0)
         await user.press("ctrl+z")
         assert user.session.program == before
+
+
+async def test_tool_setup_names_all_blocks_that_use_a_tool():
+    async with operator() as user:
+        await user.press("f8", "f2", "f6")
+        assert str(user.screen.query_one("#tool-use", Static).content) == "TOOL 1\nTOOL of blocks 1, 2"
 
 
 async def test_an_unreadable_number_keeps_the_small_form_open():
