@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum, auto
 from shlex import quote
@@ -200,24 +200,40 @@ def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
 
 def _with_option(row: Answer, asked: Asked) -> Answer:
     """Return the answer; a stop for lack of a tool's size names the option that gives it."""
-    if not asked.names_options or row.why is None or row.stopped_at is None:
+    return _with_remedy(row, with_tool_option) if asked.names_options else row
+
+
+def _with_remedy(row: Answer, with_remedy: Callable[[str], str]) -> Answer:
+    """Return the answer with a remedy in the text of the alarm that stops the control."""
+    if row.why is None or row.stopped_at is None:
         return row
-    why = replace(row.why, text=with_tool_option(row.why.text))
+    why = replace(row.why, text=with_remedy(row.why.text))
     return replace(row, why=why, findings=tuple(why if finding is row.why else finding for finding in row.findings))
 
 
 def with_tool_option(text: str) -> str:
     """Return the text of an alarm; if it says that a tool's size is unknown, with the option that gives it."""
+    tool = _tool_without_size(text)
+    return f"{text} On the command line: --tool {quote(tool)}=DIAMETER." if tool else text
+
+
+def with_tool_key(text: str) -> str:
+    """Return the text of an alarm; if it says that a tool's size is unknown, with the key of NC PROOF that gives it."""
+    tool = _tool_without_size(text)
+    return f"{text} T gives tool {tool} its diameter." if tool else text
+
+
+def _tool_without_size(text: str) -> str:
+    """Return the tool whose size an alarm says is unknown; empty if it says something else."""
     size = _NO_SIZE.search(text)
-    if size is None and not _NO_TOOL.search(text):
-        return text
-    tool = quote(size[1] or size[2]) if size else "1"
-    return f"{text} On the command line: --tool {tool}=DIAMETER."
+    if size is not None:
+        return str(size[1] or size[2])
+    return "1" if _NO_TOOL.search(text) else ""
 
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
-    """Return the answer of a control that has run a text."""
-    return _answer(done, results, _foreign(done.control, text), "", shop=False)
+    """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
+    return _with_remedy(_answer(done, results, _foreign(done.control, text), "", shop=False), with_tool_key)
 
 
 def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progress = silent) -> tuple[Answer, ...]:

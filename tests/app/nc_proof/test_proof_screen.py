@@ -100,6 +100,9 @@ async def with_tool(user: Proof, text: str = "1=.25") -> None:
 async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp_path):
     async with at_proof(tmp_path) as user:
         assert "alarms at line 3" in user.outcome
+        assert " T gives tool 1 its diameter." in user.proof.result.answer.why.text
+        await user.press("n")
+        assert user.prompt.endswith(" T gives tool 1 its diameter.")
         await with_tool(user)
         assert "gouges by 0.1250" in user.outcome
         assert "1=0.25" in str(user.proof.query_one("#proof-tools", Label).content)
