@@ -81,6 +81,8 @@ OTHER_WORDS: Final = MappingProxyType(
 NOTHING_FOUND: Final = "No action has that name."
 OTHER_SCORE: Final = 0.01
 """The score of an action found by another word, below any found by its name."""
+MIN_OTHER: Final = 3
+"""The fewest letters that find an action by another word."""
 GO_TO_SEGMENT: Final = re.compile(r"\D*(\d{1,5})\s*")
 
 
@@ -131,9 +133,11 @@ class Actions(Provider):
 
 def _other_score(query: str, name: str) -> float:
     """Return a small score if each word of the query begins a word of the name or another word for it; else 0."""
+    if len(query.strip()) < MIN_OTHER:
+        return 0.0
     words = f"{name.lower()} {OTHER_WORDS.get(name, '')}".split()
     parts = query.lower().split()
-    return OTHER_SCORE if parts and all(any(word.startswith(part) for word in words) for part in parts) else 0.0
+    return OTHER_SCORE if all(any(word.startswith(part) for word in words) for part in parts) else 0.0
 
 
 class Palette(CommandPalette):
