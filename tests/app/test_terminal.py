@@ -61,7 +61,7 @@ def test_f3_of_xterm_restores_the_calculated_look_ahead(tmp_path: Path) -> None:
         terminal.until("CUTCOMP LOOKAHEAD CAL      2")
         terminal.send(b"\t" * 11 + b"4\r")
         terminal.until("CUTCOMP LOOKAHEAD USR      4")
-        terminal.until("DELETED 2-3")
+        terminal.until("deletes segments 2-3")
         terminal.send(ESC + b"OR")
         terminal.until("CUTCOMP LOOKAHEAD CAL      2")
 
