@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 from rich.segment import Segment
 from textual import events
@@ -26,7 +26,7 @@ MAX_TYPED: int = 200
 """The most characters that a field takes; more come from a stuck key."""
 
 
-SIGNS: str = "+-./"
+SIGNS: Final = "+-./"
 """The signs of a number, which is no choice."""
 LISTED: frozenset[str] = frozenset({"tool", "finish_tool", "lookahead"})
 """Number fields that open a list with Space: tools and look-ahead."""
