@@ -54,7 +54,7 @@ def contours_of(path: Path) -> tuple[RowRange, ...]:
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
-def inner_laps(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
+def closed_passes(path: Path, contour: RowRange) -> tuple[RowRange, ...]:
     """Return the closed runs of a contour that passes its first point again, else the contour.
 
     Leads at the beginning and the end of a run are left out.

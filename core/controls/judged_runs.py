@@ -27,7 +27,7 @@ from core.controls.moves_above import Divided, divided, heights_above
 from core.controls.rapids_at_depth import CutContour, UncompensatedCut, highest_cut, moves_through, rapid_walls
 from core.controls.registry import arc_tolerance
 from core.controls.repeated_passes import path_key, without_repeats
-from core.controls.roughing_laps import RoughingLap, without_roughing_laps
+from core.controls.roughing_passes import RoughingPass, without_roughing_passes
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
 from core.geometry.path import Path, Rows, joined
@@ -92,7 +92,7 @@ class Judged:
     first part.  `unseen_gouges` counts gouges too shallow for a digit of the program's unit; the verdict leaves them
     out.  `above`: moves above the contour, which are not judged.  On a run's first result, `uncompensated` has the cuts
     of moves without compensation into all contours, and `of_others` the cuts of compensated moves into contours of
-    other stretches.  `loops` go around outside corners and are not surface; later laps cut `roughing` laps away.
+    other stretches.  `loops` go around outside corners and are not surface; later passes cut `roughing` passes away.
     """
 
     stretch: Stretch
@@ -114,7 +114,7 @@ class Judged:
     uncompensated: tuple[UncompensatedCut, ...] = ()
     of_others: tuple[ContourCut, ...] = ()
     loops: tuple[CornerLoop, ...] = ()
-    roughing: tuple[RoughingLap, ...] = ()
+    roughing: tuple[RoughingPass, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -355,15 +355,15 @@ def _judge_part(
 ) -> list[Judged]:
     """Return the verdict on each contour of a part with one side and radius; the first one has the leads.
 
-    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing laps are left out, and
-    of an open contour the arcs that lead in and out.
+    `contours` have all lines of an open one among closed ones.  If a contour is gouged, roughing passes are left out,
+    and of an open contour the arcs that lead in and out.
     """
     center = _center_path(run, stretch)
     accepted = _accepted_difference(run, whole, center)
     results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
-    kept, roughing, walls = tuple(contours), tuple[RoughingLap, ...](), dict(contours)
+    kept, roughing, walls = tuple(contours), tuple[RoughingPass, ...](), dict(contours)
     if any(result.verdict.gouges for result in results):
-        kept, roughing = without_roughing_laps(whole, kept, stretch.side, stretch.radius)
+        kept, roughing = without_roughing_passes(whole, kept, stretch.side, stretch.radius)
         opened = {rows: contours.get(rows, frozenset()) for rows in kept}
         cut_short = _is_cut_short(run, stretch)
         walls = {between_lead_arcs(whole, rows, stretch, cut_short=cut_short): lines for rows, lines in opened.items()}
@@ -642,11 +642,14 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
 
 
 def _roughing(result: Judged) -> Iterator[Finding]:
-    """Warn of laps that are not judged because a later lap cuts them away."""
-    for lap in result.roughing:
-        lines, later = (_lines_of(numbers) for numbers in (lap.numbers, lap.later_numbers))
-        text = f"The lap of {lines} is taken for roughing: that of {later} cuts it away. If it is a wall, it is gouged."
-        yield Finding("ROUGHING", Severity.WARNING, text, line=_line(lap.numbers[0]))
+    """Warn of passes that are not judged because a later pass cuts them away."""
+    for each in result.roughing:
+        lines, later = (_lines_of(numbers) for numbers in (each.numbers, each.later_numbers))
+        text = (
+            f"The pass of {lines} is taken for roughing: that of {later} cuts its wall away. "
+            "If the wall should stay, it is gouged."
+        )
+        yield Finding("ROUGHING", Severity.WARNING, text, line=_line(each.numbers[0]))
 
 
 def _lines_of(numbers: tuple[float, float]) -> str:

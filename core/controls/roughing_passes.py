@@ -1,6 +1,6 @@
-"""Roughing laps are closed contours that a later lap of the same stretch cuts away, one step of the cutter deeper.
+"""Roughing passes are closed contours that a later pass of the same stretch cuts away, one step of the cutter deeper.
 
-A bore is opened circle by circle, a boss is cut down to size: what the earlier laps leave is no wall of the part.
+A bore is opened circle by circle, a boss is cut down to size: what the earlier passes leave is no wall of the part.
 """
 
 from __future__ import annotations
@@ -12,42 +12,42 @@ from typing import Final
 import numpy as np
 from shapely.geometry import Polygon
 
-from core.controls.contours_and_leads import RowRange, inner_laps
+from core.controls.contours_and_leads import RowRange, closed_passes
 from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.tolerance import CLOSED
 
 SAG: Final = 1e-3
-"""Millimeters by which chords may be off the laps; laps that come nearer than two of them share a wall."""
+"""Millimeters by which chords may be off the passes; passes that come nearer than two of them share a wall."""
 
 
 @dataclass(frozen=True, slots=True)
-class RoughingLap:
-    """A lap and the later one that cuts it away, by the numbers of their first and last moves."""
+class RoughingPass:
+    """A pass and the later one that cuts it away, by the numbers of their first and last moves."""
 
     numbers: tuple[float, float]
     later_numbers: tuple[float, float]
 
 
-def without_roughing_laps(
+def without_roughing_passes(
     path: Path, contours: Sequence[RowRange], side: Side, radius: float
-) -> tuple[tuple[RowRange, ...], tuple[RoughingLap, ...]]:
-    """Return the contours that later laps leave, ascending, and the laps that they cut away.
+) -> tuple[tuple[RowRange, ...], tuple[RoughingPass, ...]]:
+    """Return the contours that later passes leave, ascending, and the passes that they cut away.
 
-    The later lap runs the same way around, shares no wall with the earlier one, and lies at most a cutter's diameter
-    deeper, so that nothing stays between them.  A lap that misses this is a wall.
+    The later pass runs the same way around, shares no wall with the earlier one, and lies at most a cutter's diameter
+    deeper, so that nothing stays between them.  A pass that misses this is a wall.
     """
-    laps = [lap for contour in contours for lap in inner_laps(path, contour)]
-    regions = [_region(path, lap) for lap in laps]
-    kept, roughing = list[RowRange](), list[RoughingLap]()
-    for index, lap in enumerate(laps):
-        rest = zip(laps[index + 1 :], regions[index + 1 :], strict=True)
+    passes = [rows for contour in contours for rows in closed_passes(path, contour)]
+    regions = [_region(path, rows) for rows in passes]
+    kept, roughing = list[RowRange](), list[RoughingPass]()
+    for index, rows in enumerate(passes):
+        rest = zip(passes[index + 1 :], regions[index + 1 :], strict=True)
         later = next((other for other, region in rest if _cuts_away(regions[index], region, side, radius)), None)
         if later is None:
-            kept.append(lap)
+            kept.append(rows)
         else:
-            roughing.append(RoughingLap(_ends(path, lap), _ends(path, later)))
+            roughing.append(RoughingPass(_ends(path, rows), _ends(path, later)))
     return (tuple(kept), tuple(roughing)) if roughing else (tuple(contours), ())
 
 
@@ -64,7 +64,7 @@ def _region(path: Path, rows: RowRange) -> Polygon | None:
 
 
 def _cuts_away(earlier: Polygon | None, later: Polygon | None, side: Side, radius: float) -> bool:
-    """True if the second lap lies within the material of the first one, at most a cutter's diameter deeper."""
+    """True if the second pass lies within the material of the first one, at most a cutter's diameter deeper."""
     if earlier is None or later is None or earlier.exterior.distance(later.exterior) <= 2.0 * SAG:
         return False
     counterclockwise = bool(earlier.exterior.is_ccw)

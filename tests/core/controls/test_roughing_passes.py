@@ -1,4 +1,4 @@
-"""A closed contour that a later lap cuts away is roughing; every other one is a wall."""
+"""A closed contour that a later pass cuts away is roughing; every other one is a wall."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ SHAPES = {
         "X-60.",
     ),
 }
-"""Where the tool starts, two laps of half the sizes {0} and {1} on the left of the path, and where it ends."""
+"""Where the tool starts, two passes of half the sizes {0} and {1} on the left of the path, and where it ends."""
 
 
 def found(shape: str, first: int, second: int, control: str = "fanuc:a") -> list[Finding]:
-    """What is said of two laps with a tool of 10."""
-    start, laps, end = SHAPES[shape]
+    """What is said of two passes with a tool of 10."""
+    start, passes, end = SHAPES[shape]
     number = "" if control == "linuxcnc" else " D1"
-    cut = f"G41{number} G1 {laps.format(first, second)}\nG40 {end}"
+    cut = f"G41{number} G1 {passes.format(first, second)}\nG40 {end}"
     run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", control, t1=10.0)
     return list(judged_findings(judge_run(run)))
 
@@ -39,11 +39,11 @@ def errors(findings: list[Finding]) -> set[str]:
 @pytest.mark.parametrize(
     ("shape", "first", "second", "line"), [("boss", 30, 25, 7), ("bore", 20, 28, 6), ("plate", 32, 30, 7)]
 )
-def test_a_lap_that_a_later_lap_cuts_away_is_roughing(
+def test_a_pass_that_a_later_pass_cuts_away_is_roughing(
     shape: str, first: int, second: int, line: int, control: str
 ) -> None:
     if (shape, control) == ("plate", "linuxcnc"):
-        # it stops at the step from lap to lap, which is shorter than the tool's radius
+        # it stops at the step from pass to pass, which is shorter than the tool's radius
         assert not [finding for finding in found(shape, first, second, control) if finding.code == "ROUGHING"]
         return
     findings = found(shape, first, second, control)
@@ -55,31 +55,31 @@ def test_a_lap_that_a_later_lap_cuts_away_is_roughing(
 @pytest.mark.parametrize(
     ("shape", "first", "second"),
     [
-        # deeper first, so the second lap has nothing to cut
+        # deeper first, so the second pass has nothing to cut
         ("boss", 25, 30),
         ("bore", 28, 20),
-        # more than a cutter's diameter deeper: a ring of the first lap's material stays
+        # more than a cutter's diameter deeper: a ring of the first pass's material stays
         ("boss", 40, 29),
         ("bore", 10, 21),
     ],
 )
-def test_other_laps_are_walls(shape: str, first: int, second: int) -> None:
+def test_other_passes_are_walls(shape: str, first: int, second: int) -> None:
     findings = found(shape, first, second)
     assert "GOUGE" in errors(findings)
     assert not [finding for finding in findings if finding.code == "ROUGHING"]
 
 
-def test_a_lap_that_shares_a_wall_with_the_later_one_is_a_wall() -> None:
-    """The second lap of one outline has a wrong coordinate."""
-    lap = "Y30.\nX{}.\nY-30.\nX-30.\nY0.\n"
-    cut = f"G41 D1 G1 X-45. Y-20.\nX-30. Y0.\n{lap.format(30)}{lap.format(28)}X-45. Y20.\nG40 X-60."
+def test_a_pass_that_shares_a_wall_with_the_later_one_is_a_wall() -> None:
+    """The second pass of one outline has a wrong coordinate."""
+    once = "Y30.\nX{}.\nY-30.\nX-30.\nY0.\n"
+    cut = f"G41 D1 G1 X-45. Y-20.\nX-30. Y0.\n{once.format(30)}{once.format(28)}X-45. Y20.\nG40 X-60."
     run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 X-60. Y-20.\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
 
 
-def test_a_gouge_of_the_last_lap_is_told() -> None:
+def test_a_gouge_of_the_last_pass_is_told() -> None:
     """The way out of the bore is to the left of the wall, where the part is."""
-    start, laps, end = SHAPES["bore"]
-    cut = f"G41 D1 G1 {laps.format(20, 28).replace('X5.', 'X40.')}\nG40 {end}"
+    start, passes, end = SHAPES["bore"]
+    cut = f"G41 D1 G1 {passes.format(20, 28).replace('X5.', 'X40.')}\nG40 {end}"
     run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
