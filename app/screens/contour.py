@@ -542,8 +542,8 @@ class ContourScreen(FormScreen):
     def action_accept(self) -> None:
         """Take the field and go to the next one that needs an answer; after the last one, to the next segment.
 
-        A new value that leaves a run unsolved keeps the cursor once.  On SEGMENT a typed number goes to
-        that segment.
+        A new value that leaves a run unsolved or nothing to cut keeps the cursor once.  On SEGMENT a typed number goes
+        to that segment.
         """
         widget = self.current
         if widget is None or (isinstance(widget, SegmentField) and widget.edited):
@@ -560,20 +560,21 @@ class ContourScreen(FormScreen):
         may_follow = stop is not None and run_lacks(session)
         if session.program is not before and run_stops(session) and not may_follow:
             return
+        if session.program is not before and widget.name in DEPTHS and self._say_depth():
+            return
         if stop is not None:
             self.focus_field(stop)
         else:
             self._form_done()
-        if widget.name in DEPTHS:
-            self._say_depth()
 
-    def _say_depth(self) -> None:
-        """Say if Z BOTTOM is not below Z START."""
+    def _say_depth(self) -> bool:
+        """Say that Z BOTTOM is not below Z START; False if it is."""
         session = self.current_session
         finding = next((each for each in session.derived_block.findings if each.code == "Z_ORDER"), None)
         if finding is not None:
             tone = Tone.ERROR if finding.severity is Severity.ERROR else Tone.WARNING
             self.say(sentence(finding, session.program.unit), tone)
+        return finding is not None
 
     def _form_done(self) -> None:
         """After a form's last field, go back to a field that still needs an answer, else to the next segment."""

@@ -9,7 +9,8 @@ import pytest
 from textual import events
 from textual.widgets import Static
 
-from app.documents.programs import empty_program
+from app.documents.files import load
+from app.documents.programs import empty_program, example
 from app.screens.contour import ContourScreen
 from app.screens.dialogs import Question
 from app.widgets.field import NumberField
@@ -94,13 +95,18 @@ async def test_a_new_start_without_depth_says_so_once_z_bottom_is_taken(bottom: 
         assert str(user.screen.query_one("#chips").render()) == text
 
 
-async def test_enter_says_that_z_bottom_is_not_below_z_start():
-    async with operator() as user:
-        await user.press(*["down"] * 7, "'0", "enter")
-        assert user.at != "z_bottom"
-        assert user.prompt == "Z BOTTOM is at Z START: nothing is cut."
-        await user.press("tab")
-        assert user.prompt != "Z BOTTOM is at Z START: nothing is cut."
+async def test_enter_stays_once_on_a_z_bottom_that_is_not_below_z_start():
+    """Also where Z BOTTOM is the last value that START lacks."""
+    program = load(example("pocket"))
+    for z_bottom in (program.blocks[0].z_bottom, None):
+        block = replace(program.blocks[0], z_bottom=z_bottom)
+        async with operator(replace(program, blocks=(block, *program.blocks[1:]))) as user:
+            await user.press(*["down"] * 7, "'0", "enter")
+            assert user.at == "z_bottom"
+            assert user.prompt == "Z BOTTOM is at Z START: nothing is cut."
+            await user.press("enter")
+            assert user.at != "z_bottom"
+            assert user.prompt != "Z BOTTOM is at Z START: nothing is cut."
 
 
 async def test_the_only_block_cannot_be_deleted():
