@@ -98,14 +98,19 @@ def heading_at(piece: Piece, at: Point) -> float:
     return atan2(y, x)
 
 
+def counted_like(angle: float, typed: float) -> float:
+    """Return a direction as the angle within half a turn of a typed one: 295 is -65 beside a typed -30."""
+    return typed + (angle - typed + pi) % tau - pi
+
+
 def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Line)
     if name == "angle":
-        # the difference of two directions, at most half a turn
-        off = abs((heading(piece) - value + pi) % tau - pi)
+        actual = counted_like(heading(piece), value)
+        off = abs(actual - value)
         if off <= AGREES or piece.length * off <= ARC_RADII:
             return None
-        return fault("CONTRADICTION", f"XY ANGLE is {shown_angle(value)}, but {shown_angle(heading(piece))}", name)
+        return fault("CONTRADICTION", f"XY ANGLE is {shown_angle(value)}, but {shown_angle(actual)}", name)
     solved = piece.length if name == "length" else piece.end[_END.index(name)]
     if abs(solved - value) <= ARC_RADII:
         return None

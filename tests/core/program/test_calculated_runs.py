@@ -258,6 +258,8 @@ def test_parallel_to_that_contradicts_calculated_ends_does_not_ask_to_blank_an_a
     assert "XY ANGLE comes to 33.690, but 0.000 by PARALLEL TO: correct the end, or blank PARALLEL TO." in texts
     texts = texts_of(case_of(line(x_end=50, y_end=0), line(parallel=1, angle=30, x_end=80)))
     assert "XY ANGLE is 30.000, but 0.000 by PARALLEL TO: correct or blank one of them." in texts
+    texts = texts_of(case_of(line(x_end=50, y_end=-50), line(parallel=1, angle=-30, x_end=80)))
+    assert "XY ANGLE is -30.000, but -45.000 by PARALLEL TO: correct or blank one of them." in texts
 
 
 def test_a_chamfer_in_a_run_is_inserted_at_the_sharp_corner() -> None:

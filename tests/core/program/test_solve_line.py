@@ -122,6 +122,10 @@ def test_missing_data_are_named(typed, missing, words):
             "angle: XY ANGLE is 50.000, but 53.130 by X END and Y END: correct or blank one of them.",
         ),
         (
+            {"x_end": 3.0, "y_end": -4.0, "angle": -30.0},
+            "angle: XY ANGLE is -30.000, but -53.130 by X END and Y END: correct or blank one of them.",
+        ),
+        (
             {"x_end": 3.0, "angle": 45.0, "length": 6.0},
             "length: XY LENGTH is 6.000, but 4.243 by X END and XY ANGLE: correct or blank one of them.",
         ),
