@@ -29,6 +29,9 @@ from core.geometry.piece import Point
 SAME_POINT: Final = 1e-9
 """Millimeters within which the axes count as being at a point already."""
 
+LEAST_INCREMENT: Final = 0.001
+"""Millimeters that controls count in: points so near are one point."""
+
 RIGHT_ANGLE: Final = pi / 2 + 1e-9
 """Turns up to this angle are extended to the miter point."""
 
@@ -120,14 +123,15 @@ def corner_kind(first: Element, second: Element, offset: float, rules: CornerRul
     if abs(inward) > pi - rules.reversal:
         hooked = rules.hooks and (second.turn or first.turn) * offset < 0.0
         return CornerKind.INSIDE if hooked else CornerKind.OUTSIDE
-    if abs(inward) <= rules.tangent or (rules.touching and _touch(first, second, offset, rules.touching)):
+    if abs(inward) <= rules.tangent or (
+        rules.touching and _near(offset_end(first, offset), offset_start(second, offset), rules.touching)
+    ):
         return CornerKind.TANGENT
     return CornerKind.INSIDE if inward > 0.0 else CornerKind.OUTSIDE
 
 
-def _touch(first: Element, second: Element, offset: float, within: float) -> bool:
-    (ax, ay), (bx, by) = offset_end(first, offset), offset_start(second, offset)
-    return hypot(ax - bx, ay - by) <= within
+def _near(a: Point, b: Point, within: float) -> bool:
+    return hypot(a[0] - b[0], a[1] - b[1]) <= within
 
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
@@ -140,7 +144,12 @@ def join(first: Element, second: Element, offset: float, rules: CornerRules) -> 
         return Joint(end, start, corner=kind)
     if kind is CornerKind.INSIDE or rules.outside is Outside.MEETING:
         point = _meeting_point(first, second, offset, rules.inside)
-        return Joint(end, start, corner=kind, missed=True) if point is None else Joint(point, point, corner=kind)
+        if point is None:
+            return Joint(end, start, corner=kind, missed=True)
+        # two arcs of nearly the same circle meet anywhere along it
+        if _near(end, start, LEAST_INCREMENT) and not _near(end, point, LEAST_INCREMENT):
+            return Joint(end, end)
+        return Joint(point, point, corner=kind)
     return _outside(first, second, offset, rules)._replace(corner=kind)
 
 

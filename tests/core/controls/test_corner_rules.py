@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin, sqrt, tan
+from math import cos, dist, pi, radians, sin, sqrt, tan
 
 import pytest
 
@@ -183,3 +183,13 @@ def test_offsets_that_miss_each_other_at_an_inside_corner_are_marked() -> None:
     missed = join(EAST, arc(4, 0, 4, 1, 3.9, 0.5, 1), 1.0, CornerRules())
     assert missed.missed
     assert missed.end == (4, 1)
+
+
+def test_two_arcs_of_one_circle_with_rounded_centers_join_at_their_common_point() -> None:
+    """The offsets meet 0.134 mm along the circle; both run through the same point to a tenth of a micrometer."""
+    first = arc(46.752, -21.963, 40.496, -31.554, -13.37, 10.421, -1)
+    second = arc(40.496, -31.554, 38.683, -33.783, -13.371, 10.419, -1)
+    assert dist(meeting(first, second, 3.0) or (0.0, 0.0), offset_end(first, 3.0)) > 0.1
+    joint = join(first, second, 3.0, CornerRules())
+    assert joint.end == joint.start == offset_end(first, 3.0)
+    assert dist(joint.end, offset_start(second, 3.0)) < 1e-4
