@@ -12,7 +12,7 @@ from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.expressions import ParameterStore
-from core.controls.iso.flow import Flow, MakeControl, ProgramLibrary
+from core.controls.iso.flow import Flow, MakeControl, OWordFlow, ProgramLibrary
 from core.controls.iso.machine import Machine
 from core.controls.iso.macro_b_flow import MacroFlow
 from core.controls.iso.macro_b_machine import MacroMachine
@@ -24,11 +24,12 @@ LINES_BETWEEN: Final = 200
 """Lines between two reports of progress."""
 
 
+_CR_ALONE: Final = re.compile(rb"\r(?!\n)")
+
+
 def no_library(_: int | str) -> None:
     """Return None: a library without programs."""
 
-
-_CR_ALONE: Final = re.compile(rb"\r(?!\n)")
 
 NO_LIBRARY: Final[ProgramLibrary] = no_library
 
@@ -51,7 +52,8 @@ def execute(
         flow: Flow = MacroFlow(lines, dialect, log, with_macros, library)
     else:
         machine = Machine(dialect, control, tools, log)
-        flow = Flow(lines, dialect, log, machine, library)
+        flow_class = OWordFlow if dialect.parameters is ParameterStore.NGC else Flow
+        flow = flow_class(lines, dialect, log, machine, library)
     stopped_at = None
     try:
         if dialect.syntax.strict and text.startswith(BYTE_ORDER_MARKS):

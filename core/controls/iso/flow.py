@@ -21,7 +21,6 @@ from core.controls.iso.expressions import (
     ExpressionReader,
     FaultError,
     MacroParameters,
-    ParameterStore,
     tell_unset,
 )
 from core.controls.iso.machine import Control, Machine
@@ -116,36 +115,193 @@ def _read(index: int, line: str) -> OWord | None:
     return OWord(index, label, match[4], squeezed, match.start(4), match.end())
 
 
-class OWords:
-    """Follows the O-words of a program; `run` returns the index of the next line.
+GIVEN_UP_TEXT: Final = "cutcomp stops here and does not judge the run. Fix the loop or repeat fewer times."
 
-    `calls` are the program and the running subprograms, the innermost last, those called by M98 included.
-    `load` looks for the file of a subprogram that is not in this one, adds its words and returns its name.
-    `origin_of` returns the main file's line that a line counts for, and where a line of a called file is.
+_LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
+
+
+def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, int]:
+    """Return where the subprograms of M98 begin: by number, the index of the first line with that O but no O-word."""
+    labels: dict[int, int] = {}
+    for index, line in enumerate(lines):
+        label = None if index in words else _LABEL.match(line)
+        if label:
+            labels.setdefault(int(label[1]), index)
+    return labels
+
+
+class Flow:
+    """The lines of a program and the index `at` of the one to run next; `values` are its parameters, if it has any.
+
+    Lines of called files follow the file's own, of which there are `main_lines`; `called_from` has for each called file
+    the line that called it first, its name, and its number of lines.
     """
 
     def __init__(
-        self,
-        words: dict[int, OWord],
-        values: MacroParameters,
-        log: Log,
-        calls: list[Call],
-        load: Callable[[str, int], str],
-        origin_of: Callable[[int], tuple[int, str]],
-    ) -> None:
-        self.words = dict[int, OWord]()
-        self.values = values
+        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
+    ) -> None:  # fmt: skip
+        self.lines = lines
+        self.main_lines = len(lines)
+        self.called_from: list[tuple[int, str, int]] = []
+        self.library = library
+        self.dialect = dialect
         self.log = log
-        self.calls = calls
-        self.load = load
-        self.origin_of = origin_of
+        self.at = 0
+        code = (index for index, line in enumerate(lines) if line.strip() and line.strip()[0] not in "(;%")
+        self.first_code = next(code, len(lines))
+        self.calls = [Call(len(lines))]
+        self.budget = dialect.max_repeated_blocks
+        self.ran = bytearray(len(lines))
+        self.percents = 0
+        self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
+        self.labels = _labels_of(lines, {})
+
+    def add_called(self, name: str, count: int, line: int) -> int:
+        """Note a file that a line calls; return the number of its first line."""
+        first = self.main_lines + sum(lines for _, _, lines in self.called_from) + 1
+        self.called_from.append((self.origin_of(line)[0], name, count))
+        return first
+
+    def origin_of(self, number: int) -> tuple[int, str]:
+        """Return the main file's line that a line counts for, and its own place in a called file: `O3001.nc line 5`."""
+        left = number - self.main_lines
+        for line, name, count in self.called_from:
+            if 0 < left <= count:
+                return line, f"{name} line {left}"
+            left -= count
+        return number, ""
+
+    def blocks(self, line: int) -> Iterable[Block]:
+        """Return the blocks of a line."""
+        if self.dialect.syntax.strict:
+            check_length(self.lines[line - 1], line, self.log)
+        return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
+
+    def ends_here(self, line: int, /) -> bool:
+        """True if the program ends with a line that was run."""
+        if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
+            self.percents += 1
+        return self.percents > 1 or (len(self.calls) == 1 and self.at >= self.main_lines)
+
+    def follow_call(self, block: Block) -> bool:
+        """Follow a block's M98 or M99; False if the program ends with it."""
+        if 980 in block.m:
+            self._call(block)
+        elif 990 in block.m:
+            return self._return(block)
+        elif "O" in block.words and not self._numbers() and self.first_code < self.at - 1:
+            text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
+            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
+        return True
+
+    def _numbers(self) -> set[int]:
+        """Return the numbers of the running subprograms that M98 called."""
+        return {call.number for call in self.calls if call.number is not None}
+
+    def _call(self, block: Block) -> None:
+        number = whole(block.words.get("P", -1.0))
+        column = block.column("P" if "P" in block.words else "M", None if "P" in block.words else 980)
+        if not self.dialect.subprograms:
+            self.log.stop("SUBPROGRAM", "This control has no subprograms; write the blocks out.", block.line, column)
+        if number is None or number < 0:
+            self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", block.line, column)
+        if number in self._numbers():
+            self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
+        start = self.labels.get(number)
+        if start is None:
+            text = f"There is no subprogram O{number} in this file. Put it after the end of the program."
+            self.log.stop("SUBPROGRAM", text, block.line, column)
+        times = whole(block.words.get("L", 1.0))
+        if times is None or times < 0:
+            text = "L, how often the subprogram runs, is a whole number, not below 0."
+            self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
+        if times > 0:
+            caller = self.calls[-1]
+            self.calls.append(Call(self.at, caller.label, caller.opened, number, start, times - 1))
+            self.at = start
+
+    def _return(self, block: Block) -> bool:
+        if "P" in block.words:
+            text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
+            text = f"{text} {only_on(JUMPS)}"
+            self.log.stop("BRANCH", text, block.line, block.column("P"))
+        if len(self.calls) > 1 and self.calls[-1].number is None:
+            text = "A subprogram called by its O-word ends with endsub or return, not with M99."
+            self.log.stop("OWORD", text, block.line, block.column("M", 990))
+        if len(self.calls) == 1:
+            text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
+            self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
+            return False
+        call = self.calls[-1]
+        if call.again:
+            call.again -= 1
+            self.at = call.start
+        else:
+            self.calls.pop()
+            self.at = call.back
+        return True
+
+    def count_repeat(self, line: int) -> None:
+        """Count a line that is about to run, if it ran before: a plain one as one block, any other as more."""
+        if not self.ran[line - 1]:
+            self.ran[line - 1] = True
+            return
+        text = self.lines[line - 1]
+        per_block = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
+        self.budget -= 1 if is_plain(text) else 2 + len(text) // per_block
+        if self.budget < 0:
+            text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
+            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
+
+    def finish(self, *, alarmed: bool) -> None:
+        """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
+        if alarmed:
+            return
+        last = max((row for row in range(self.main_lines) if self.ran[row]), default=0)
+        after = next((row for row in range(last + 1, self.main_lines) if has_words(self.lines[row])), None)
+        if after is None:
+            return
+        # a subprogram that a condition skips needs no warning
+        closed = any(self.lines[row].strip() == "%" for row in range(last, after))
+        if closed or not self.lines[after].lstrip().upper().startswith("O") or self._is_uncalled(after):
+            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
+
+    def _is_uncalled(self, row: int) -> bool:
+        """True if a row is a program's O and number alone, and no line has that number in a P."""
+        named = _PROGRAM_ALONE.match(self.lines[row])
+        return named is not None and not any(re.search(rf"P[ \t]*0*{named[1]}\b", line, re.I) for line in self.lines)
+
+    def end_of_file(self) -> None:
+        """Warn that the file ends inside a subprogram, or without the end that the control needs."""
+        if len(self.calls) > 1:
+            text = "The file ends inside a subprogram; end the subprogram with M99."
+            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
+        elif self.dialect.end_needed and self.percents < 2:
+            self.log.tell(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
+
+
+class OWordFlow(Flow):
+    """The lines of a LinuxCNC program, whose O-words are run instead of read.
+
+    `begun` has the row of the word that began something under a label, by the subprogram that runs and that label.
+    """
+
+    values: MacroParameters
+
+    def __init__(
+        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
+    ) -> None:  # fmt: skip
+        super().__init__(lines, dialect, log, machine, library)
+        self.words = dict[int, OWord]()
         self.begun: dict[tuple[str | None, str], int] = {}
         self.subs = list[int]()
         self.by_label: dict[str, list[OWord]] = {}
-        self.add(words)
+        self.o_words_left = MAX_O_WORDS
+        self._add_words(lines)
+        self.labels = _labels_of(lines, self.words)
         self._steps: dict[str, Callable[[OWord], int]] = {
             "SUB": self._sub,
-            "CALL": self._call,
+            "CALL": self._call_sub,
             "ENDSUB": self._end,
             "RETURN": self._end,
             "IF": self._if,
@@ -161,18 +317,43 @@ class OWords:
             "CONTINUE": self._continue,
         }
 
-    def add(self, words: Mapping[int, OWord]) -> None:
-        """Add the words of lines that follow those already known."""
+    def _add_words(self, lines: Sequence[str], first: int = 0) -> None:
+        """Note the O-words of lines; `first` is the index of the first of these lines."""
+        words = o_words_of(lines, first)
         self.words.update(words)
         self.subs += [row for row, word in words.items() if word.word == "SUB"]
         for word in words.values():
             self.by_label.setdefault(word.label, []).append(word)
 
-    def run(self, word: OWord) -> int:
-        """Run an O-word and return the index of the next line."""
+    def blocks(self, line: int) -> Iterable[Block]:
+        """Return the blocks of a line; an O-word is run and has none."""
+        word = self.words.get(line - 1)
+        if word is None:
+            return super().blocks(line)
+        check_length(self.lines[line - 1], line, self.log)
+        if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
+            self._stop(word, "A subprogram called by M98 ends with M99; call it with its O-word, or write M99.")
+        self.o_words_left -= 1
+        if self.o_words_left < 0:
+            text = f"The program has run more than {MAX_O_WORDS} O-words. {GIVEN_UP_TEXT}"
+            self.log.stop("LIMIT", text, line, word.column)
         if not word.label and word.word != "CALL":
             self._stop(word, "Only call takes an expression as label. Write the number itself.")
-        return self._steps[word.word](word)
+        self.at = self._steps[word.word](word)
+        return ()
+
+    def _load(self, label: str, line: int) -> str:
+        """Add the lines of the file that has an O-word's subprogram; return the file's name, "" if there is none."""
+        program = self.library(label.lower())
+        if program is None:
+            return ""
+        name, content = program
+        lines = lines_of(content)
+        first = self.add_called(name, len(lines), line) - 1
+        self.lines += lines
+        self.ran += bytearray(len(lines))
+        self._add_words(lines, first)
+        return name
 
     def _stop(self, word: OWord, text: str) -> NoReturn:
         self.log.stop("OWORD", text, word.row + 1, word.column)
@@ -234,11 +415,11 @@ class OWords:
             self._stop(self.words[self.subs[after]], nested)
         return end.row + 1
 
-    def _call(self, word: OWord) -> int:
+    def _call_sub(self, word: OWord) -> int:
         label = word.label or self._evaluated_label(word)
         name = quoted(f"O{label}" if label.isdigit() else f"O<{label.lower()}>")
         begun = self._begin_of(label)
-        if begun is None and (file := self.load(label, word.row + 1)):
+        if begun is None and (file := self._load(label, word.row + 1)):
             begun = self._begin_of(label)
             if begun is None:
                 self._stop(word, f"{file} is called here and has no subprogram {name}.")
@@ -355,201 +536,6 @@ class OWords:
     def _continue(self, word: OWord) -> int:
         opened = self._open(word, "WHILE", "DO")
         return self._seek(word, _ENDS[opened.word]).row
-
-
-GIVEN_UP_TEXT: Final = "cutcomp stops here and does not judge the run. Fix the loop or repeat fewer times."
-
-_LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
-
-
-def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, int]:
-    """Return where the subprograms of M98 begin: by number, the index of the first line with that O but no O-word."""
-    labels: dict[int, int] = {}
-    for index, line in enumerate(lines):
-        label = None if index in words else _LABEL.match(line)
-        if label:
-            labels.setdefault(int(label[1]), index)
-    return labels
-
-
-class Flow:
-    """The lines of a program and the index `at` of the one to run next; `values` are its parameters, if it has any.
-
-    Lines of called files follow the file's own, of which there are `main_lines`; `called_from` has for each called file
-    the line that called it first, its name, and its number of lines.
-    """
-
-    def __init__(
-        self, lines: list[str], dialect: Dialect, log: Log, machine: Machine, library: ProgramLibrary
-    ) -> None:  # fmt: skip
-        self.lines = lines
-        self.main_lines = len(lines)
-        self.called_from: list[tuple[int, str, int]] = []
-        self.library = library
-        self.dialect = dialect
-        self.log = log
-        self.at = 0
-        code = (index for index, line in enumerate(lines) if line.strip() and line.strip()[0] not in "(;%")
-        self.first_code = next(code, len(lines))
-        self.calls = [Call(len(lines))]
-        self.budget = dialect.max_repeated_blocks
-        self.ran = bytearray(len(lines))
-        self.o_words_left = MAX_O_WORDS
-        self.percents = 0
-        self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
-        words = o_words_of(lines) if dialect.parameters is ParameterStore.NGC else {}
-        self.o_words: OWords | None = None
-        if words and self.values:
-            self.o_words = OWords(words, self.values, log, self.calls, self._load, self.origin_of)
-        self.labels = _labels_of(lines, words)
-
-    def _load(self, label: str, line: int) -> str:
-        """Add the lines of the file that has an O-word's subprogram; return the file's name, "" if there is none."""
-        program = self.library(label.lower())
-        if program is None:
-            return ""
-        name, content = program
-        lines = lines_of(content)
-        first = self.add_called(name, len(lines), line) - 1
-        self.lines += lines
-        self.ran += bytearray(len(lines))
-        if self.o_words is not None:
-            self.o_words.add(o_words_of(lines, first))
-        return name
-
-    def add_called(self, name: str, count: int, line: int) -> int:
-        """Note a file that a line calls; return the number of its first line."""
-        first = self.main_lines + sum(lines for _, _, lines in self.called_from) + 1
-        self.called_from.append((self.origin_of(line)[0], name, count))
-        return first
-
-    def origin_of(self, number: int) -> tuple[int, str]:
-        """Return the main file's line that a line counts for, and its own place in a called file: `O3001.nc line 5`."""
-        left = number - self.main_lines
-        for line, name, count in self.called_from:
-            if 0 < left <= count:
-                return line, f"{name} line {left}"
-            left -= count
-        return number, ""
-
-    def blocks(self, line: int) -> Iterable[Block]:
-        """Return the blocks of a line; an O-word is run and has none."""
-        if self.dialect.syntax.strict:
-            check_length(self.lines[line - 1], line, self.log)
-        word = self.o_words.words.get(line - 1) if self.o_words is not None else None
-        if self.o_words is None or word is None:
-            return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
-        if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
-            text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
-            self.log.stop("OWORD", text, line, word.column)
-        self.o_words_left -= 1
-        if self.o_words_left < 0:
-            text = f"The program has run more than {MAX_O_WORDS} O-words. {GIVEN_UP_TEXT}"
-            self.log.stop("LIMIT", text, line, word.column)
-        self.at = self.o_words.run(word)
-        return ()
-
-    def ends_here(self, line: int, /) -> bool:
-        """True if the program ends with a line that was run."""
-        if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
-            self.percents += 1
-        return self.percents > 1 or (len(self.calls) == 1 and self.at >= self.main_lines)
-
-    def follow_call(self, block: Block) -> bool:
-        """Follow a block's M98 or M99; False if the program ends with it."""
-        if 980 in block.m:
-            self._call(block)
-        elif 990 in block.m:
-            return self._return(block)
-        elif "O" in block.words and not self._numbers() and self.first_code < self.at - 1:
-            text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
-            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
-        return True
-
-    def _numbers(self) -> set[int]:
-        """Return the numbers of the running subprograms that M98 called."""
-        return {call.number for call in self.calls if call.number is not None}
-
-    def _call(self, block: Block) -> None:
-        number = whole(block.words.get("P", -1.0))
-        column = block.column("P" if "P" in block.words else "M", None if "P" in block.words else 980)
-        if not self.dialect.subprograms:
-            self.log.stop("SUBPROGRAM", "This control has no subprograms; write the blocks out.", block.line, column)
-        if number is None or number < 0:
-            self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", block.line, column)
-        if number in self._numbers():
-            self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
-        start = self.labels.get(number)
-        if start is None:
-            text = f"There is no subprogram O{number} in this file. Put it after the end of the program."
-            self.log.stop("SUBPROGRAM", text, block.line, column)
-        times = whole(block.words.get("L", 1.0))
-        if times is None or times < 0:
-            text = "L, how often the subprogram runs, is a whole number, not below 0."
-            self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
-        if times > 0:
-            caller = self.calls[-1]
-            self.calls.append(Call(self.at, caller.label, caller.opened, number, start, times - 1))
-            self.at = start
-
-    def _return(self, block: Block) -> bool:
-        if "P" in block.words:
-            text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
-            text = f"{text} {only_on(JUMPS)}"
-            self.log.stop("BRANCH", text, block.line, block.column("P"))
-        if len(self.calls) > 1 and self.calls[-1].number is None:
-            text = "A subprogram called by its O-word ends with endsub or return, not with M99."
-            self.log.stop("OWORD", text, block.line, block.column("M", 990))
-        if len(self.calls) == 1:
-            text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
-            self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
-            return False
-        call = self.calls[-1]
-        if call.again:
-            call.again -= 1
-            self.at = call.start
-        else:
-            self.calls.pop()
-            self.at = call.back
-        return True
-
-    def count_repeat(self, line: int) -> None:
-        """Count a line that is about to run, if it ran before: a plain one as one block, any other as more."""
-        if not self.ran[line - 1]:
-            self.ran[line - 1] = True
-            return
-        text = self.lines[line - 1]
-        per_block = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
-        self.budget -= 1 if is_plain(text) else 2 + len(text) // per_block
-        if self.budget < 0:
-            text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
-            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
-
-    def finish(self, *, alarmed: bool) -> None:
-        """Report what concerns the program as a whole once the run is over, at its end or an alarm."""
-        if alarmed:
-            return
-        last = max((row for row in range(self.main_lines) if self.ran[row]), default=0)
-        after = next((row for row in range(last + 1, self.main_lines) if has_words(self.lines[row])), None)
-        if after is None:
-            return
-        # a subprogram that a condition skips needs no warning
-        closed = any(self.lines[row].strip() == "%" for row in range(last, after))
-        if closed or not self.lines[after].lstrip().upper().startswith("O") or self._is_uncalled(after):
-            self.log.tell(Severity.WARNING, "NOT_RUN", NOT_RUN_TEXT, after + 1, 1)
-
-    def _is_uncalled(self, row: int) -> bool:
-        """True if a row is a program's O and number alone, and no line has that number in a P."""
-        named = _PROGRAM_ALONE.match(self.lines[row])
-        return named is not None and not any(re.search(rf"P[ \t]*0*{named[1]}\b", line, re.I) for line in self.lines)
-
-    def end_of_file(self) -> None:
-        """Warn that the file ends inside a subprogram, or without the end that the control needs."""
-        if len(self.calls) > 1:
-            text = "The file ends inside a subprogram; end the subprogram with M99."
-            self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
-        elif self.dialect.end_needed and self.percents < 2:
-            self.log.tell(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
 
 
 MakeControl = Callable[[Log], Control]
