@@ -426,29 +426,34 @@ Setting = tuple[int | str, float]
 """A parameter's number or name, and its new value."""
 
 
-def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> tuple[str, tuple[int, ...]]:
-    """Return a line's words as plain text and the column of each; set the parameters that the line sets.
+class Word(NamedTuple):
+    """A word: its letter, its number as text, and its column on the line."""
+
+    letter: str
+    number: str
+    column: int
+
+
+def evaluated_line(line: CompactText, number: int, values: MacroParameters, log: Log) -> list[Word]:
+    """Return a line's words with the values of their expressions; set the parameters that the line sets.
 
     What cannot be evaluated stops the run.
     """
     reader = ExpressionReader(line.text, values)
-    words: list[str] = []
-    columns: list[int] = []
+    words: list[Word] = []
     settings: list[Setting] = []
     try:
         while reader.at < len(line.text):
-            _item(reader, line, words, columns, settings)
+            _item(reader, line, words, settings)
     except FaultError as fault:
         log.stop(fault.code, fault.text, number, line.column(fault.at))
     tell_unset(reader, line, number, log)
     for key, value in settings:
         values.set(key, value)
-    return " ".join(words), tuple(columns)
+    return words
 
 
-def _item(
-    reader: ExpressionReader, line: CompactText, words: list[str], columns: list[int], settings: list[Setting]
-) -> None:  # fmt: skip
+def _item(reader: ExpressionReader, line: CompactText, words: list[Word], settings: list[Setting]) -> None:
     """Read one word, or one setting of a parameter."""
     begin, text = reader.at, line.text
     first = text[begin]
@@ -465,8 +470,8 @@ def _item(
     elif "A" <= first <= "Z":
         reader.at += 1
         value = reader.value()
-        words.append(f"{first}{exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)}")
-        columns.append(line.columns[begin] + 1)
+        number = exact(value) if reader.values.kept is ParameterStore.NGC else plain(value)
+        words.append(Word(first, number, line.column(begin)))
     else:
         raise FaultError("WORD", not_a_word(text[begin:]), begin)
 

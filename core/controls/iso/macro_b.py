@@ -23,6 +23,7 @@ from core.controls.iso.expressions import (
     MacroParameters,
     Operation,
     ParameterStore,
+    Word,
     not_a_word,
     plain,
 )
@@ -357,16 +358,16 @@ def set_variables(reader: MacroReader, line: CompactText, number: int, values: V
 
 def words_of(
     line: CompactText, values: Variables, increment: float, start: int = 0
-) -> tuple[str, tuple[int, ...], tuple[str, float] | None, int]:
-    """Return a block's words as plain text with the values of its variables, words with vacant ones left out.
+) -> tuple[list[Word], tuple[str, float] | None, int]:
+    """Return a block's words with the values of their variables, words with vacant ones left out.
 
-    Return also the column of each, the block's `,R` or `,C`, and the column of its block skip, 0 without one.
+    Return also the block's `,R` or `,C`, and the column of its block skip, 0 without one.
     """
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
     if ")" in text:
         raise FaultError("PS0114", "A ) has no ( before it: a comment cannot hold another one.", text.index(")"))
-    words, columns, corner, skip = list[str](), list[int](), None, 0
+    words, corner, skip = list[Word](), None, 0
     while reader.at < len(text):
         begin, first = reader.at, text[reader.at]
         reader.at += 1
@@ -374,7 +375,7 @@ def words_of(
             continue
         if first == "/":
             reader.at += text[reader.at : reader.at + 1].isdigit()
-            skip = line.columns[begin] + 1
+            skip = line.column(begin)
         elif first == "," and text[reader.at : reader.at + 1] in ("R", "C"):
             reader.at += 1
             corner = text[begin + 1], reader.value()
@@ -386,11 +387,10 @@ def words_of(
                 number = plain(value)
                 # the point of a number that is written with one still counts
                 point = "." if "." in text[begin : reader.at] and "." not in number else ""
-                words.append(f"{first}{number}{point}")
-                columns.append(line.columns[begin] + 1)
+                words.append(Word(first, f"{number}{point}", line.column(begin)))
         else:
             raise FaultError("WORD", not_a_word(text[begin:]), begin)
-    return " ".join(words), tuple(columns), corner, skip
+    return words, corner, skip
 
 
 def _word_value(reader: MacroReader, letter: str, begin: int) -> float:

@@ -19,7 +19,7 @@ from core.controls.iso.expressions import GAP, CompactText, FaultError
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_b_machine import MacroMachine
-from core.controls.iso.reader import Block, fill_words, has_words, is_words, without_comments
+from core.controls.iso.reader import Block, fill_words, has_words, is_words, pairs_in, without_comments
 from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity
 from core.units import Unit
@@ -79,11 +79,15 @@ ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
 
 
 class Statement(NamedTuple):
-    """A row as a macro statement: its keyword (empty for a block of words), its text, and where the rest begins."""
+    """A row as a macro statement: its keyword (empty for a block of words), its text, and where the rest begins.
+
+    `plain` is the block of a row that holds only letters with numbers, as most do.
+    """
 
     keyword: str
     line: CompactText
-    at: int
+    at: int = 0
+    plain: Block | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +120,6 @@ class MacroFlow(Flow):
         self.modal_call: ModalCall | None = None
         self.no_point: list[tuple[int, int]] = []
         self.rows_run_again = 0
-        self.plain_blocks: dict[int, Block | None] = {}
         self.rows_without_movement = 0
         self.rows_without_progress = 0
         self.least_differences: dict[tuple[int, int], float] = {}
@@ -291,35 +294,19 @@ class MacroFlow(Flow):
     def blocks(self, line: int) -> Iterator[Block]:
         """Yield the blocks of words of a row, and run its macro statement if it has one."""
         row = line - 1
-        if row in self.plain_blocks or self._read_plain(row):
-            yield from self._run_block(self.plain_blocks[row], row)
-            return
-        statement = self.statements.get(row)
-        if statement is None:
-            statement = self.statements[row] = self._statement(row)
-        if not statement.keyword:
-            yield from self._words(row, statement)
-            return
+        statement = self._statement(row)
         try:
-            self.at = self._run_statement(statement, row)
+            if statement.keyword == "[":
+                statement = self._after_condition(statement, row)
+            elif statement.keyword:
+                self.at = self._run_statement(statement, row)
         except FaultError as fault:
             self._fault(fault, row, statement.line)
         except AlarmByProgramError as alarm:
             self._program_alarm(alarm.number, row)
         self._tell_unset(row)
-        if statement.keyword == "[":
-            yield from self._words(row, statement)
-
-    def _read_plain(self, row: int) -> bool:
-        """Read and keep a row that holds only letters with numbers, as most do; False for any other row."""
-        text = self.lines[row]
-        bare = without_comments(capitals(text))
-        if row in self.statements or not is_words(bare):
-            return False
-        self._note_points(bare, row)
-        block = Block(self.numbers[row], text, self.starts[row])
-        self.plain_blocks[row] = fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
-        return True
+        if not statement.keyword:
+            yield from self._run_block(self._block(row, statement), row)
 
     def _note_points(self, bare: str, row: int) -> None:
         """Note lengths without a decimal point; without an arc, K counts the repeats of a cycle."""
@@ -340,8 +327,21 @@ class MacroFlow(Flow):
             self.log.tell(Severity.WARNING, "PARAMETER", text, self.numbers[row], 1)
 
     def _statement(self, row: int) -> Statement:
-        text = self.lines[row]
-        bare = without_comments(capitals(text), GAP)
+        """Return a row as a macro statement, read once."""
+        kept = self.statements.get(row)
+        if kept is None:
+            kept = self.statements[row] = self._read(row)
+        return kept
+
+    def _read(self, row: int) -> Statement:
+        text = capitals(self.lines[row])
+        words = without_comments(text)
+        if is_words(words):
+            self._note_points(words, row)
+            block = Block(self.numbers[row], self.lines[row], self.starts[row])
+            plain = fill_words(block, pairs_in(words), self.log, self.dialect.syntax) if words.strip() else None
+            return Statement("", CompactText("", ()), plain=plain)
+        bare = without_comments(text, GAP)
         line = CompactText.of(bare, self.starts[row])
         if o_words_of([text]):
             message = "O-words are LinuxCNC's. Call subprograms with M98 and macros with G65; write IF, WHILE and GOTO."
@@ -351,9 +351,7 @@ class MacroFlow(Flow):
         keyword = _KEYWORD.match(line.text)
         if keyword:
             return Statement(keyword[1] or "[", line, keyword.end())
-        if _EXTERNAL.match(line.text):
-            return Statement("OUT", line, 0)
-        return Statement("", line, 0)
+        return Statement("OUT" if _EXTERNAL.match(line.text) else "", line)
 
     def _fault(self, fault: FaultError, row: int, line: CompactText) -> NoReturn:
         self.log.stop(fault.code, fault.text, self.numbers[row], line.column(fault.at))
@@ -384,8 +382,6 @@ class MacroFlow(Flow):
                 return self._end_loop(self._loop_number(reader), row)
             case "GO" | "GOTO":
                 return self._go_to(reader, row)
-            case "[":
-                return self._skip_unless(reader, statement, row)
         return row + 1
 
     def _set(self, reader: MacroReader, line: CompactText, row: int) -> None:
@@ -410,12 +406,12 @@ class MacroFlow(Flow):
         self._set(reader, line, row)
         return row + 1
 
-    def _skip_unless(self, reader: MacroReader, statement: Statement, row: int) -> int:
-        """Run Haas's `[condition] M99 P`: the words after the condition run only if it is true."""
+    def _after_condition(self, statement: Statement, row: int) -> Statement:
+        """Return the words of Haas's `[condition] M99 P`, none unless the condition is true."""
+        self.machine.line = self.numbers[row]
+        reader = MacroReader(statement.line.text, self.variables, statement.at)
         true = reader.brackets() != 0.0
-        rest = reader.at
-        self.statements[-1 - row] = Statement("[", statement.line, rest if true else len(statement.line.text))
-        return row + 1
+        return Statement("", statement.line, reader.at if true else len(reader.text))
 
     def _go_to(self, reader: MacroReader, row: int) -> int:
         begin = reader.at
@@ -497,12 +493,6 @@ class MacroFlow(Flow):
 
     # words
 
-    def _words(self, row: int, statement: Statement) -> Iterator[Block]:
-        """Yield the block of a row and follow its macro call."""
-        kept = self.statements.get(-1 - row)
-        line, start = (kept.line, kept.at) if kept else (statement.line, statement.at)
-        yield from self._run_block(self._block(row, line, start), row)
-
     def _run_block(self, block: Block | None, row: int) -> Iterator[Block]:
         """Yield a block to run, then start the macro that it calls or that G66 runs after it."""
         if block is None:
@@ -519,36 +509,37 @@ class MacroFlow(Flow):
         yield block
         self._after_move(block, row, moved)
 
-    def _block(self, row: int, line: CompactText, start: int) -> Block | None:
+    def _block(self, row: int, statement: Statement) -> Block | None:
+        """Return the block of words of a row, None if it has none."""
+        if statement.plain is not None:
+            return statement.plain
         number = self.machine.line = self.numbers[row]
+        line, start = statement.line, statement.at
         if line.text.startswith(":"):
             line = line._replace(text=f"O{line.text[1:]}")
         if row in self.begins and (name := re.match(r"O?<[^>]*>", line.text)):
             start = name.end()
         increment = 0.001 if self.machine.unit is Unit.MM else 0.0001
         try:
-            words, columns, corner, skip = words_of(line, self.variables, increment, start)
+            words, corner, skip = words_of(line, self.variables, increment, start)
         except FaultError as fault:
             self._fault(fault, row, line)
         self._tell_unset(row)
         if skip:
             message = "Block skip is assumed off, so this block runs."
             self.log.tell(Severity.INFO, "SKIP", message, number, skip)
-        if not columns:
+        if not words:
             return None
-        block = Block(number, words, self.starts[row], columns=columns, corner=corner)
+        block = Block(number, line.text, self.starts[row], evaluated=words, corner=corner)
         return fill_words(block, words, self.log, self.dialect.syntax)
 
     def _following(self, row: int) -> Block | None:
         """Return the next block of words, for the corner before it; None if a macro statement comes first."""
         for other in range(row + 1, self.program[1]):
-            if other in self.plain_blocks or self._read_plain(other):
-                block = self.plain_blocks[other]
-            else:
-                statement = self._statement(other)
-                if statement.keyword:
-                    return None
-                block = self._block(other, statement.line, 0)
+            statement = self._statement(other)
+            if statement.keyword:
+                return None
+            block = self._block(other, statement)
             if block is not None:
                 return block
         return None
@@ -702,7 +693,7 @@ class MacroFlow(Flow):
 def arguments_of(block: Block) -> dict[int, float]:
     """Return the variables that the words of G65 set; the last word for a variable counts."""
     arguments, seen = dict[int, float](), dict[str, int]()
-    for letter, value in block.in_order():
+    for letter, value, _ in block.written():
         number = ARGUMENT_NUMBERS.get(letter)
         if number is None:
             continue
@@ -710,7 +701,7 @@ def arguments_of(block: Block) -> dict[int, float]:
             number += 3 * seen.get(letter, 0)
             seen[letter] = seen.get(letter, 0) + 1
         if number <= 33:
-            arguments[number] = value
+            arguments[number] = float(value)
     return arguments
 
 

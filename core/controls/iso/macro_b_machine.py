@@ -423,7 +423,8 @@ class MacroMachine(Machine):
             text = "cutcomp follows G51 with one P for all axes only, and the path after it would be wrong."
             self.log.stop("BEYOND", text, block.line, block.column("G", 510))
         number = words["P"]
-        factor = number / 1000 if block.written_without_point("P") else number
+        whole_number = any(word.letter == "P" and "." not in word.number for word in block.written())
+        factor = number / 1000 if whole_number else number
         if 0.0 < factor < LEAST_FACTOR:
             text = f"P of G51 without a decimal point counts thousandths: here it is a factor of {factor:g}. "
             self.log.stop("BEYOND", f"{text}Write P1. or P1000 for 1.", block.line, block.column("P"))

@@ -7,13 +7,13 @@ but words; only a line with anything else, such as comments or errors, is examin
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.code_support import EXPRESSIONS, JUMPS, only_on
-from core.controls.iso.expressions import GAP, CompactText, MacroParameters, evaluated_line, not_a_word
+from core.controls.iso.expressions import GAP, CompactText, MacroParameters, Word, evaluated_line, not_a_word
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -77,8 +77,8 @@ class ToolData:
 class Block:
     """One block: its words' values by letter, and its G and M codes in tenths, as written.
 
-    `start` is the column, less one, at which the block begins on its line; `columns` are those of its words if the text
-    is evaluated from expressions.  `corner` is its `,R` or `,C` with the value.
+    `start` is the column, less one, at which the block begins on its line; `evaluated` are its words if they have
+    values of expressions.  `corner` is its `,R` or `,C` with the value.
     """
 
     line: int
@@ -88,20 +88,19 @@ class Block:
     g: list[int] = field(default_factory=list)
     m: list[int] = field(default_factory=list)
     data: ToolData | None = None
-    columns: tuple[int, ...] = ()
+    evaluated: Sequence[Word] = ()
     corner: tuple[str, float] | None = None
 
-    def in_order(self) -> Iterator[tuple[str, float]]:
+    def written(self) -> Sequence[Word]:
         """Return the block's words in the order written, repeated letters included."""
-        return ((letter, float(number)) for letter, number, _ in self._words_with_columns())
-
-    def written_without_point(self, letter: str) -> bool:
-        """True if the number of a letter's word has no decimal point."""
-        return any(name == letter and "." not in number for name, number, _ in self._words_with_columns())
+        if self.evaluated:
+            return self.evaluated
+        pairs = _PAIR.finditer(without_comments(capitals(self.text)))
+        return [Word(pair[1], pair[2], self.start + pair.start() + 1) for pair in pairs]
 
     def column(self, letters: str, code: int | None = None) -> int:
         """Return the column, from 1, of the first word with one of these letters and, if given, `code` in tenths."""
-        for letter, number, at in self._words_with_columns():
+        for letter, number, at in self.written():
             if letter in letters and (code is None or tenths(float(number)) == code):
                 return at
         return self.start + 1
@@ -112,16 +111,8 @@ class Block:
 
     def second(self, letter: str) -> int:
         """Return the column of the second word of a letter."""
-        columns = [at for name, _, at in self._words_with_columns() if name == letter]
+        columns = [word.column for word in self.written() if word.letter == letter]
         return columns[1] if len(columns) > 1 else self.start + 1
-
-    def _words_with_columns(self) -> Iterator[tuple[str, str, int]]:
-        if self.columns:
-            pairs = _PAIR.findall(self.text)
-            yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
-            return
-        for pair in _PAIR.finditer(without_comments(capitals(self.text))):
-            yield pair[1], pair[2], self.start + pair.start() + 1
 
 
 def tenths(value: float) -> int | None:
@@ -164,7 +155,7 @@ def read_line(
     if syntax.strict:
         _check_strictly(upper, line, log)
     if _CLEAN.fullmatch(upper):
-        return [fill_words(Block(line, text), upper, log)] if upper and not upper.isspace() else []
+        return [fill_words(Block(line, text), pairs_in(upper), log)] if upper and not upper.isspace() else []
     if syntax.semicolon_ends and ";" in upper:
         return list(_pieces(text, line, log, syntax))
     return _read_closely(Block(line, text), without_comments(upper), log, syntax, values)
@@ -230,17 +221,15 @@ def _read_closely(
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
             _fault(block, bare, log, syntax)
         block.text = bare = squeezed
-    return [fill_words(block, bare, log)]
+    return [fill_words(block, pairs_in(bare), log)]
 
 
 def _evaluated_block(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     """Return the block of a line with parameters or expressions; none if the line only sets parameters."""
     marked = without_comments(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
-    block.text, block.columns = evaluated_line(
-        CompactText.of(marked[skip:], block.start + skip), block.line, values, log
-    )
-    return [fill_words(block, block.text, log)] if block.columns else []
+    block.evaluated = evaluated_line(CompactText.of(marked[skip:], block.start + skip), block.line, values, log)
+    return [fill_words(block, block.evaluated, log)] if block.evaluated else []
 
 
 def _without_blanks(block: Block, log: Log) -> str:
@@ -253,10 +242,17 @@ def _without_blanks(block: Block, log: Log) -> str:
     return bare.replace(" ", "").replace("\t", "").replace(GAP, " ")
 
 
-def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN_SYNTAX) -> Block:
-    """Fill a block with the words of a text in capitals that has nothing else, and return it."""
+def pairs_in(upper: str) -> list[tuple[str, str]]:
+    """Return the letters and numbers of a text in capitals that has nothing else."""
+    return _PAIR.findall(upper)
+
+
+def fill_words(
+    block: Block, pairs: Iterable[tuple[str, str] | Word], log: Log, syntax: Syntax = PLAIN_SYNTAX
+) -> Block:  # fmt: skip
+    """Fill a block with letters and their numbers, and return it."""
     words = block.words
-    for letter, number in _PAIR.findall(upper):
+    for letter, number, *_ in pairs:
         if letter in "GM":
             code = tenths(float(number))
             if code is None:
