@@ -16,7 +16,7 @@ from core.controls.compensation.elements import Element, element_sweep, fits, of
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import Plane, Point3, flat, solid
-from core.geometry.piece import Point, Side
+from core.geometry.piece import Point
 from core.units import Unit
 
 
@@ -35,11 +35,6 @@ class ElementQueue(Recorder):
         self.start: Point | None = None
         self.standing: list[Element] = []
         self.elements = 0
-
-    @property
-    def side(self) -> Side:
-        """The side of the path on which the tool runs."""
-        return Side.LEFT if self.offset > 0.0 else Side.RIGHT
 
     def joint(self, first: Element, second: Element) -> Joint:
         """Return this control's joint of two elements."""
@@ -180,9 +175,11 @@ class OneMoveQueue(ElementQueue):
         """Make a straight move of a lathe tool's controlled point."""
         super().straight(element, self._controlled(end), at_start_height=at_start_height)
 
-    def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
+    def arc_about(
+        self, element: Element, end: Point, center: Point, turn: int, height: float, *, rapid: bool = False
+    ) -> None:  # fmt: skip
         """Make an arc of a lathe tool's controlled point."""
-        super().arc_about(element, self._controlled(end), self._controlled(center), turn, height)
+        super().arc_about(element, self._controlled(end), self._controlled(center), turn, height, rapid=rapid)
 
     def _controlled(self, point: Point) -> Point:
         return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
@@ -217,7 +214,7 @@ class OneMoveQueue(ElementQueue):
             text = "The entry move is {0} long; it must be longer than the radius {1}."
             self.log.stop(self.alarms.entry, text, element.line, 1, lengths=(length, abs(self.offset)))
         self._check_radius(element)
-        self.open_stretch(self.side, self.offset, element)
+        self.open_stretch(self.offset, element)
         self.note(element)
         if element.turn and self.nose != (0.0, 0.0):
             self.straight(element, element.start, at_start_height=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import dist
+from math import copysign, dist
 
 from core.controls.compensation.corner_rules import Joint
 from core.controls.compensation.elements import Element
@@ -24,6 +24,11 @@ class _OpenStretch:
     first: int
     programmed: Tape
     changes: list[Change] = field(default_factory=list)
+
+
+def side_of(offset: float) -> Side:
+    """Return the side of the path on which a tool of this signed radius runs; -0.0 is on the right."""
+    return Side.LEFT if copysign(1.0, offset) > 0.0 else Side.RIGHT
 
 
 def record_programmed(tape: Tape, element: Element, plane: Plane) -> None:
@@ -77,10 +82,12 @@ class Recorder:
             end = here
         self.arc_about(element, end, center, element.turn, element.end_height)
 
-    def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
+    def arc_about(
+        self, element: Element, end: Point, center: Point, turn: int, height: float, *, rapid: bool = False
+    ) -> None:  # fmt: skip
         """Make any arc at an element's feed."""
         target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
-        self.tape.arc(target, middle, turn, self.plane, element.feed, element.line)
+        self.tape.arc(target, middle, turn, self.plane, element.feed, element.line, rapid=rapid)
 
     def run_joint(self, joint: Joint, element: Element, offset: float) -> None:
         """Make the moves of a joint, from the end of one offset to the start of the next element's offset."""
@@ -100,19 +107,19 @@ class Recorder:
         """Return the axis position that a program reads, millimeters; uncompensated, the programmed point."""
         return programmed
 
-    def open_stretch(self, side: Side, radius: float, element: Element) -> None:
+    def open_stretch(self, offset: float, element: Element) -> None:
         """Begin a stretch of compensated moves with this element; moves already on the tape come before it."""
         self.close_stretch()
         start = Tape(solid(element.start[0], element.start[1], element.start_height, self.plane))
-        self._open = _OpenStretch(side, abs(radius), self.plane, len(self.tape) - 1, start)
+        self._open = _OpenStretch(side_of(offset), abs(offset), self.plane, len(self.tape) - 1, start)
 
     @property
     def stretch_open(self) -> bool:
         """True while compensated moves are being collected."""
         return self._open is not None
 
-    def change_stretch(self, side: Side, radius: float, before: int, across: int) -> None:
-        """Give the stretch this side and radius from the element noted last on.
+    def change_stretch(self, offset: float, before: int, across: int) -> None:
+        """Give the stretch this signed radius from the element noted last on.
 
         `before` moves with the old ones are yet to be made up to there, and then `across` moves to the new ones.
         """
@@ -120,14 +127,14 @@ class Recorder:
         if stretch is None:
             return
         row = len(self.tape) - 1 + before
-        now = stretch.changes[-1] if stretch.changes else stretch
-        if (now.side, now.radius) != (side, abs(radius)):
-            stretch.changes.append(Change(len(stretch.programmed) - 1, row, row + across, side, abs(radius)))
+        now, side, radius = stretch.changes[-1] if stretch.changes else stretch, side_of(offset), abs(offset)
+        if (now.side, now.radius) != (side, radius):
+            stretch.changes.append(Change(len(stretch.programmed) - 1, row, row + across, side, radius))
 
-    def begin_stretch(self, side: Side, radius: float) -> None:
-        """Give the stretch this side and radius from its first element on."""
+    def begin_stretch(self, offset: float) -> None:
+        """Give the stretch this signed radius from its first element on."""
         if self._open is not None:
-            self._open.side, self._open.radius = side, abs(radius)
+            self._open.side, self._open.radius = side_of(offset), abs(offset)
 
     def note(self, element: Element) -> None:
         """Record an element programmed under compensation."""

@@ -26,6 +26,12 @@ from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
 
+_LENGTH: Final = 10
+_LENGTH_WEAR: Final = 11
+_RADIUS: Final = 12
+_RADIUS_WEAR: Final = 13
+"""The L of G10 that writes each memory of tool offsets."""
+
 EXTENDED_SYSTEM: Final = 100_000
 """The key of work offset G54.1 P is this plus its P."""
 
@@ -47,52 +53,33 @@ _ARCS: Final = frozenset({20, 30})
 _CLOCKS: Final = (3001, 3002, 3011, 3012)
 _POSITIONS: Final = frozenset((5001, 5002, 5003, 5041, 5042, 5043))
 _NO_EFFECT: Final = (3003, 3004, 3006, 3007)
-_GROUPS: Final[Mapping[int, str]] = MappingProxyType(
+_GROUPS: Final[Mapping[int, tuple[str, int]]] = MappingProxyType(
     {
-        4001: "motion",
-        4002: "plane",
-        4003: "distance",
-        4004: "stroke",
-        4005: "feed",
-        4006: "units",
-        4007: "compensation",
-        4008: "length",
-        4009: "cycle",
-        4010: "retract",
-        4011: "scaling",
-        4012: "macro",
-        4013: "spindle",
-        4014: "system",
-        4015: "path",
-        4016: "rotation",
-        4017: "polar",
-        4022: "mirror",
+        4001: ("motion", 0),
+        4002: ("plane", 170),
+        4003: ("distance", 900),
+        4004: ("stroke", 230),
+        4005: ("feed", 940),
+        4006: ("units", 210),
+        4007: ("compensation", 400),
+        4008: ("length", 490),
+        4009: ("cycle", 800),
+        4010: ("retract", 980),
+        4011: ("scaling", 500),
+        4012: ("macro", 670),
+        4013: ("spindle", 970),
+        4014: ("system", 540),
+        4015: ("path", 640),
+        4016: ("rotation", 690),
+        4017: ("polar", 150),
+        4022: ("mirror", 501),
     }
 )
-"""The code group of each variable that reads a group's code in force."""
+"""The code group whose code in force a variable reads, and the code in force at the start."""
 
-_AT_START: Final[Mapping[str, int]] = MappingProxyType(
-    {"motion": 0, "plane": 170, "distance": 900, "feed": 940, "compensation": 400, "length": 490, "cycle": 800}
-    | {"retract": 980, "scaling": 500, "macro": 670, "spindle": 970, "system": 540, "path": 640, "rotation": 690}
-    | {"polar": 150, "mirror": 501, "stroke": 230}
-)
 _LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
     {4102: "B", 4107: "D", 4109: "F", 4111: "H", 4113: "M", 4114: "N", 4115: "O", 4119: "S", 4120: "T"}
 )
-
-
-@dataclass(slots=True)
-class Offsets:
-    """The offset memory as the program wrote it, in millimeters by number: radii of D, lengths of H, and their wear.
-
-    `separate`: D has a memory apart from that of H, always or once the program writes to it; until then they share one.
-    """
-
-    radii: dict[int, float]
-    radius_wear: dict[int, float]
-    lengths: dict[int, float]
-    length_wear: dict[int, float]
-    separate: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +137,8 @@ class Transform:
 class MacroMachine(Machine):
     """Runs the blocks of a Fanuc or Haas program.
 
+    `memories` have the offsets as the program wrote them, in millimeters by number, for each L of G10.  `separate`: D
+    has a memory apart from that of H, always or once the program writes to it; until then they share one.
     `unknown` are the axes whose position is unknown; `in_force` has the code of each group; `last_words` the values
     last programmed, for variables that read them; `line` is the line whose expressions are evaluated.
     `start_unknown`: the block's move starts at a machine position.  `polar` is the radius and angle last programmed
@@ -159,10 +148,13 @@ class MacroMachine(Machine):
 
     def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
         super().__init__(dialect, control, tools, log)
-        self.offsets = Offsets({}, {}, {}, {}, separate=dialect.diameters_apart)
+        self.memories: dict[int, dict[int, float]] = {
+            kind: {} for kind in (_LENGTH, _LENGTH_WEAR, _RADIUS, _RADIUS_WEAR)
+        }
+        self.separate = dialect.diameters_apart
         self.transform = Transform()
         self.unknown: set[int] = set()
-        self.in_force = dict(_AT_START)
+        self.in_force = dict(_GROUPS.values()) | {"units": 200 if dialect.unit is Unit.IN else 210}
         self.last_words: dict[str, float] = {}
         self.polar: tuple[float, float] | None = None
         self.current = Block(1, "")
@@ -187,7 +179,7 @@ class MacroMachine(Machine):
                 self.log.stop("CODE", text, block.line, block.column("G", number))
         codes = super()._grouped(block)
         for code in codes:
-            if code.group in self.in_force or code.group == "units":
+            if code.group in self.in_force:
                 self.in_force[code.group] = code.value
             if code.group == "motion":
                 self.in_force["cycle"] = 800
@@ -195,12 +187,11 @@ class MacroMachine(Machine):
 
     # points
 
-    def target(self, words: Mapping[str, float]) -> Point3:
+    def target(self, words: Mapping[str, float], start: Point3 | None = None) -> Point3:
         """Return where a block's axis words lead, in millimeters in work coordinates."""
-        corner, self.corner_point = self.corner_point, None
-        if corner is not None:
-            # the tool is where the rounding ended, but the program is at the corner
-            return self._target_from(corner, words)
+        if start is None:
+            # after a corner the tool is where its rounding ended, but the program is at the corner
+            start, self.corner_point = self.corner_point or self.position, None
         for axis, letter in enumerate("XYZ"):
             if letter in words and axis in self.unknown:
                 if self.incremental and words[letter]:
@@ -210,28 +201,16 @@ class MacroMachine(Machine):
                 self.start_unknown = True
                 self.start_height_unknown |= axis == 2
         if self.polar is not None:
-            return self.transform.applied(self._polar_target(words))
+            return self.transform.applied(self._polar_target(words, start))
         if not self.transform:
-            return super().target(words)
-        position, self.position = self.position, self.transform.undone(self.position)
-        try:
-            return self.transform.applied(super().target(words))
-        finally:
-            self.position = position
+            return super().target(words, start)
+        return self.transform.applied(super().target(words, self.transform.undone(start)))
 
-    def _target_from(self, start: Point3, words: Mapping[str, float]) -> Point3:
-        """Return where axis words lead from a point."""
-        position, self.position = self.position, start
-        try:
-            return self.target(words)
-        finally:
-            self.position = position
-
-    def _polar_target(self, words: Mapping[str, float]) -> Point3:
+    def _polar_target(self, words: Mapping[str, float], start: Point3) -> Point3:
         """Return the programmed point under G16: the plane's first axis is a radius, its second an angle in degrees."""
         assert self.polar is not None
         first, second, third = ("XYZ"[axis] for axis in self.plane.axes)
-        here, origin = flat(self.transform.undone(self.position), self.plane), flat(self.shift, self.plane)
+        here, origin = flat(self.transform.undone(start), self.plane), flat(self.shift, self.plane)
         radius, angle = self.polar
         radius = words[first] * self.scale if first in words else radius
         if second in words:
@@ -275,7 +254,7 @@ class MacroMachine(Machine):
         incremental = self.incremental
         self.incremental = 910 in following.g or (incremental and 900 not in following.g)
         polar = self.polar
-        beyond = self._target_from(end, following.words)
+        beyond = self.target(following.words, end)
         self.incremental, self.polar = incremental, polar
         self._cut_corner(block, end, beyond)
 
@@ -332,10 +311,7 @@ class MacroMachine(Machine):
             words["R"] *= self.transform.factor
         elif self.transform:
             self._transform_center(words)
-            turn = -turn if self.transform.flips(self.plane) else turn
-        if "R" in words and self.transform.flips(self.plane):
-            turn = -turn
-        super()._arc(replace(block, words=words), turn)
+        super()._arc(replace(block, words=words), -turn if self.transform.flips(self.plane) else turn)
 
     def _ends_where_it_starts(self, words: Mapping[str, float]) -> bool:
         polar = self.polar
@@ -509,8 +485,8 @@ class MacroMachine(Machine):
             self.log.stop("FN-PARAMETER", text, block.line, block.column("L"))
         if number is None or number < 0:
             self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.line, block.column("GP"))
-        if kind in (1, 10, 11, 12, 13):
-            self._set_offset(kind, number, block)
+        if kind == 1 or kind in self.memories:
+            self._set_offset(_LENGTH if kind == 1 else kind, number, block)
         elif kind == 2 and number <= 6:
             self._set_work_offset(530 + 10 * number if number else EXTERNAL, block)
         elif kind == 20 and 1 <= number <= 300:
@@ -531,13 +507,13 @@ class MacroMachine(Machine):
         if "R" not in block.words:
             self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
         self._write_offset(kind, number, block.words["R"] * self.scale / self._radii_in(kind), add=self.incremental)
-        if kind not in (12, 13) and not self.offsets.separate:
+        if kind not in (_RADIUS, _RADIUS_WEAR) and not self.separate:
             text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
             self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
 
     def _radii_in(self, kind: int) -> float:
         """Return how many radii a value of this L is; warn once if it is 2, a diameter."""
-        if kind not in (12, 13) or not self.dialect.diameters_apart:
+        if kind not in (_RADIUS, _RADIUS_WEAR) or not self.dialect.diameters_apart:
             return 1.0
         if not self.log.has("HAAS-DIAMETER"):
             text = "D is taken as a diameter (setting 40 DIAMETER). With RADIUS the control uses twice this offset."
@@ -546,27 +522,25 @@ class MacroMachine(Machine):
 
     def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
         """Write a value in millimeters, or add it, to the memory of an L, and to that of D while they share one."""
-        offsets = self.offsets
-        if kind in (12, 13):
-            offsets.separate = True
-        memories = [self._memory(kind)]
-        if kind in (1, 10, 11) and not offsets.separate:
-            wear = kind == 11 and number in offsets.radii
-            memories.append(offsets.radius_wear if wear else offsets.radii)
+        if kind in (_RADIUS, _RADIUS_WEAR):
+            self.separate = True
+        radii, kinds = self.memories[_RADIUS], [kind]
+        if not self.separate:
+            kinds.append(_RADIUS_WEAR if kind == _LENGTH_WEAR and number in radii else _RADIUS)
         before = self._geometry_radius(number) or 0.0
-        for memory in memories:
-            known = memory.get(number, before if memory is offsets.radii else 0.0)
+        for memory in (self.memories[each] for each in kinds):
+            known = memory.get(number, before if memory is radii else 0.0)
             memory[number] = value + (known if add else 0.0)
 
     def offset_radius(self, number: int) -> float | None:
         """Return the radius of a D in millimeters, wear included; None if neither program nor table has it."""
         radius = self._geometry_radius(number)
-        wear = self.offsets.radius_wear.get(number, 0.0)
+        wear = self.memories[_RADIUS_WEAR].get(number, 0.0)
         return wear if radius is None and wear else None if radius is None else radius + wear
 
     def _geometry_radius(self, number: int) -> float | None:
         """Return the radius of a D without its wear: the program's, else that of the tool in the table."""
-        radius, tool = self.offsets.radii.get(number), self.tools.get(number)
+        radius, tool = self.memories[_RADIUS].get(number), self.tools.get(number)
         return tool.diameter_mm(self.unit) / 2 if radius is None and tool is not None else radius
 
     # variables
@@ -579,13 +553,14 @@ class MacroMachine(Machine):
         if self._is_offset(key):
             return self._offset_variable(key)
         if key in _GROUPS:
-            return self._code_in_force(key)
+            code = self.in_force[_GROUPS[key][0]]
+            return float(code - EXTENDED_SYSTEM) if code > EXTENDED_SYSTEM else code / 10
         if key in _LAST_WORDS:
             return self.last_words.get(_LAST_WORDS[key], VACANT)
         if key in _CLOCKS or 1000 <= key <= 1135:
             self._tell_unknown_value(key)
             return 0.0
-        if key in _NO_EFFECT or 3000 <= key <= 3999:
+        if 3000 <= key <= 3999:
             return 0.0
         if key in _POSITIONS:
             return self._position_variable(key)
@@ -610,11 +585,6 @@ class MacroMachine(Machine):
     def _in_work(self, point: Point3, axis: int) -> float:
         return from_mm(point[axis] - self.shift[axis], self.unit)
 
-    def _code_in_force(self, key: int) -> float:
-        group = _GROUPS[key]
-        code = self.in_force.get(group, 200 if self.unit is Unit.IN else 210)
-        return (code - EXTENDED_SYSTEM) * 1.0 if code > EXTENDED_SYSTEM else code / 10
-
     def _is_offset(self, key: int) -> bool:
         """True if a variable reads the offset memory."""
         if self.dialect.diameters_apart:
@@ -637,19 +607,13 @@ class MacroMachine(Machine):
             return (10, key - 2200) if key > 2200 else (11, key - 2000)
         return {10: 11, 11: 10, 12: 13, 13: 12}[key // 1000], key % 1000
 
-    def _memory(self, kind: int) -> dict[int, float]:
-        """Return the memory that an L of G10 writes."""
-        offsets = self.offsets
-        kinds = {11: offsets.length_wear, 12: offsets.radii, 13: offsets.radius_wear}
-        return kinds.get(kind, offsets.lengths)
-
     def _offset_variable(self, key: int) -> float:
         kind, number = self._offset_of(key)
-        memory, tool = self._memory(kind), self.tools.get(number)
+        memory, tool = self.memories[kind], self.tools.get(number)
         value = memory.get(number, 0.0)
-        if kind == 12:
+        if kind == _RADIUS:
             value = self._geometry_radius(number) or 0.0
-        elif kind == 10 and number not in memory:
+        elif kind == _LENGTH and number not in memory:
             value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
         return from_mm(value * self._radii_in(kind), self.unit)
 

@@ -124,10 +124,10 @@ class ModalState:
         self.length_offset = ZERO
         self.ended = False
 
-    def target(self, words: Mapping[str, float]) -> Point3:
-        """Return where a block's axis words lead, in millimeters."""
-        (x, y, z), scale = self.position, self.scale
-        base = self.position if self.incremental else self.shift
+    def target(self, words: Mapping[str, float], start: Point3 | None = None) -> Point3:
+        """Return where a block's axis words lead from the position or another point, in millimeters."""
+        x, y, z = here = self.position if start is None else start
+        base, scale = here if self.incremental else self.shift, self.scale
         if "X" in words:
             x = base[0] + words["X"] * scale
         if "Y" in words:

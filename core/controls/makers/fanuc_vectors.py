@@ -40,7 +40,7 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import solid
 from core.finding import Severity
-from core.geometry.piece import Point, Side
+from core.geometry.piece import Point
 
 TANGENT: Final = radians(0.05)
 """Inside corners under this angle whose offsets do not meet count as tangent: centers are rounded to three digits."""
@@ -124,7 +124,7 @@ class VectorQueue(Recorder):
             self._no_arc(element, self.alarms.arc)
         self.active, self.motionless, self.before = True, 0, None
         if not self.stretch_open:
-            self.open_stretch(Side.LEFT if self.coming > 0.0 else Side.RIGHT, self.coming, element)
+            self.open_stretch(self.coming, element)
         self.note(element)
         self.held = Held(element, [self.here], self.coming, startup=True)
 
@@ -229,12 +229,11 @@ class VectorQueue(Recorder):
         last = self.held
         self.note(element)
         if last is not None and last.startup:
-            self.begin_stretch(Side.LEFT if last.offset > 0.0 else Side.RIGHT, last.offset)
+            self.begin_stretch(last.offset)
         elif last is not None and self.stretch_open:
             # a smaller radius applies from the slanting element on, a larger one only after it
-            offset = min((last.offset, self.coming), key=abs)
-            side = Side.LEFT if self.coming > 0.0 else Side.RIGHT
-            self.change_stretch(side, offset, 0, len(vectors) - 1)
+            radius = min(abs(last.offset), abs(self.coming))
+            self.change_stretch(copysign(radius, self.coming), 0, len(vectors) - 1)
         self.held = Held(element, vectors, self.coming, center=center)
 
     # how elements run
@@ -258,15 +257,11 @@ class VectorQueue(Recorder):
         for point in between:
             self._line(held.element, point, at_start_height=True)
         if held.center is not None:
-            self._round(held.element, start, held.center, -1 if held.offset > 0.0 else 1)
+            # a rapid goes around the corner as a rapid
+            element, turn = held.element, -1 if held.offset > 0.0 else 1
+            self.arc_about(element, start, held.center, turn, element.start_height, rapid=element.rapid)
         else:
             self._line(held.element, start, at_start_height=True)
-
-    def _round(self, element: Element, end: Point, center: Point, turn: int) -> None:
-        """Make the arc around a corner, as a rapid if the element after it is one."""
-        height = element.start_height
-        target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
-        self.tape.arc(target, middle, turn, self.plane, element.feed, element.line, rapid=element.rapid)
 
     def _run_element(self, held: Held, end: Point) -> None:
         element, start = held.element, held.vectors[-1]

@@ -151,12 +151,6 @@ class NineSeries(ElementQueue, Control):
         self.machine.compare_offset(radius, f"D{self.number}", block.line, block.column("DG"))
         return radius
 
-    @property
-    def _tool_side(self) -> Side:
-        """The side on which the tool runs: a negative radius flips the programmed side, radius 0 keeps it."""
-        sign = self.coming or (self.written_side.sign if self.written_side else 0)
-        return Side.LEFT if sign > 0.0 else Side.RIGHT
-
     def own_code(self, code: int, _: Block) -> None:
         """G39 and G39.1: round sharp outside corners by lines or by an arc."""
         self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
@@ -164,9 +158,9 @@ class NineSeries(ElementQueue, Control):
     def _continue_stretch(self, joint: Joint) -> None:
         """Give the stretch the next side and radius from this joint on; right after the entry, from its start on."""
         if self.elements == 1:
-            self.begin_stretch(self._tool_side, self.coming)
+            self.begin_stretch(self.coming)
         else:
-            self.change_stretch(self._tool_side, self.coming, 1 + len(self.standing), joint.moves)
+            self.change_stretch(self.coming, 1 + len(self.standing), joint.moves)
 
     def _tell_assumed(self, rule: str, text: str, line: int) -> None:
         """Report once that the path depends on a value that the machine builder sets."""
@@ -245,7 +239,7 @@ class NineSeries(ElementQueue, Control):
             if element.turn:
                 self._circular_start(element.line, 1)
             if not self.stretch_open:
-                self.open_stretch(self._tool_side, self.coming, element)
+                self.open_stretch(self.coming, element)
         elif not fits(element, self.coming):
             text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
             self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))

@@ -9,7 +9,7 @@ cutcomp assumes that the rest follows LinuxCNC, as the manual does not say.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import acos, atan2, cos, hypot, pi, sin
+from math import acos, atan2, copysign, cos, hypot, pi, sin
 from types import MappingProxyType
 from typing import Final, NoReturn
 
@@ -201,13 +201,13 @@ class NistEntry(ElementQueue, RosettaCnc):
     def enter(self, element: Element) -> None:
         """Run the first move with the tool along the tangent from the move's end to the tool at its start."""
         (sx, sy), (px, py) = element.start, element.end
-        length, radius, sign = hypot(px - sx, py - sy), abs(self.offset), self.side.sign
+        length, radius, sign = hypot(px - sx, py - sy), abs(self.offset), copysign(1.0, self.offset)
         if element.turn:
             self._refuse_arc(element, "An arc as first move must touch the tool where it stands; write a line")
         if length <= radius:
             text = "The first move is {0} long and must be longer than the radius {1}. cutcomp takes this from NIST."
             self.log.stop("C8", text, element.line, 1, lengths=(length, radius))
-        self.open_stretch(self.side, self.offset, element)
+        self.open_stretch(self.offset, element)
         self.note(element)
         angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
         way = angle - pi / 2 * sign
@@ -245,7 +245,7 @@ class EasyEntry(NistEntry):
         if self.held is None:
             if element.turn:
                 self._refuse_arc(element, "The first move must be straight")
-            self.open_stretch(self.side, self.offset, element)
+            self.open_stretch(self.offset, element)
             self.note(element)
             self.held = element
         elif not element.moves:

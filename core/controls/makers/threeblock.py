@@ -217,7 +217,7 @@ class ThreeBlock(ElementQueue, Control):
         if element.turn:
             text = "The block after G41 or G42 is the approach; it must be straight."
             self.log.stop("B6-APPR", text, element.line, 1)
-        self.open_stretch(self.side, self.offset, element)
+        self.open_stretch(self.offset, element)
 
     def _collinear(self, element: Element) -> None:
         held = self.held
