@@ -186,7 +186,6 @@ EQUAL: Final = 1e-4
 """How far apart two values may be and still be equal."""
 
 _WHOLE: Final = 1e-4
-_DEEPEST: Final = 50
 _NUMBER: Final = re.compile(r"(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)")
 _OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/&|^]")
 _NAME: Final = re.compile(r"<([^<>#=]++(?:\[[^\]]*+\])?[^<>#=]*+)>")
@@ -227,7 +226,7 @@ _RANKS: Final[Mapping[str, tuple[int, Operation]]] = {
     "^": (0, lambda left, right: float(int(left) ^ int(right))),
 }
 
-_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
+FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
     "ABS": abs,
     "ACOS": lambda value: degrees(acos(value)),
     "ASIN": lambda value: degrees(asin(value)),
@@ -247,10 +246,12 @@ class ExpressionReader:
     """Reads values from a text in capitals without blanks; `at` is its position in the text.
 
     `unset` has the numbers of the parameters read that nothing had set, and where they are read.  `ranks`: operators of
-    a higher rank are applied first.
+    a higher rank are applied first.  `max_nested`: how deep values may nest, as in ####1.
     """
 
     ranks = _RANKS
+    max_nested = 50
+    nested_rule = "MACRO"
 
     def __init__(self, text: str, values: MacroParameters, at: int = 0) -> None:
         self.text = text
@@ -265,10 +266,15 @@ class ExpressionReader:
         while text[self.at : self.at + 1] in ("+", "-"):
             sign = -sign if text[self.at] == "-" else sign
             self.at += 1
+        return sign * self._nested()
+
+    def _nested(self) -> float:
+        """Return a value without signs, unless values lie inside each other too deep."""
         self._depth += 1
-        if self._depth > _DEEPEST:
-            raise FaultError("MACRO", "Too many brackets or signs # lie inside each other; use parameters.", self.at)
-        value = sign * self._bare()
+        if self._depth > self.max_nested:
+            text = "Too many brackets or signs # lie inside each other; use parameters."
+            raise FaultError(self.nested_rule, text, self.at)
+        value = self._bare()
         self._depth -= 1
         return value
 
@@ -342,7 +348,7 @@ class ExpressionReader:
         value = self.values.number(key, begin)
         if value is None:
             self.unset.append((key, begin))
-        return value or 0.0
+        return 0.0 if value is None else value
 
     def key(self) -> int | str:
         """Return the number or the name after a #."""
@@ -372,9 +378,9 @@ class ExpressionReader:
             return self._exists()
         if name == "ATAN":
             return self._atan(begin)
-        if name not in _FUNCTIONS:
+        if name not in FUNCTIONS:
             raise FaultError("MACRO", f"This control has no function {name}.", begin)
-        return self._computed(begin, name, _FUNCTIONS[name], self.brackets())
+        return self._computed(begin, name, FUNCTIONS[name], self.brackets())
 
     def _atan(self, begin: int) -> float:
         first = self.brackets()

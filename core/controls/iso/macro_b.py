@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from math import acos, asin, atan, atan2, ceil, cos, degrees, exp, floor, fmod, radians, sin, sqrt, tan
-from math import log as natural_log
+from math import asin, atan, atan2, ceil, degrees, floor, fmod
 from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
 from core.controls.iso.expressions import (
+    FUNCTIONS,
     GAP,
     CompactText,
     ExpressionReader,
@@ -35,9 +35,6 @@ EQUAL: Final = 1e-8
 
 MAX_BRACKETS: Final = 5
 """How deep brackets may nest, those of functions included."""
-
-MAX_NESTED: Final = 40
-"""How deep factors may nest, as in ####1."""
 
 LOCALS: Final = 33
 ARGUMENTS: Final = 26
@@ -85,7 +82,7 @@ class Variables(MacroParameters):
         self.vacant_arguments = False
         self.unset: list[int] = []
 
-    def number(self, index: int, at: int) -> float | None:
+    def number(self, index: int, at: int) -> float:
         """Return a variable's value, a `Vacant` if nothing has set it."""
         if index == 0:
             return VACANT
@@ -183,19 +180,12 @@ def _rounded(value: float) -> float:
 
 _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
     {
-        "SIN": lambda value: sin(radians(value)),
-        "COS": lambda value: cos(radians(value)),
-        "TAN": lambda value: tan(radians(value)),
+        **FUNCTIONS,
         "ASIN": lambda value: degrees(asin(value)) % 360.0,
-        "ACOS": lambda value: degrees(acos(value)),
         "ATAN": lambda value: degrees(atan(value)),
-        "SQRT": sqrt,
-        "ABS": abs,
         "ROUND": _rounded,
         "FIX": lambda value: float(floor(value) if value >= 0.0 else ceil(value)),
         "FUP": lambda value: float(ceil(value) if value >= 0.0 else floor(value)),
-        "LN": natural_log,
-        "EXP": exp,
         "BIN": from_bcd,
         "BCD": to_bcd,
         "ADP": float,
@@ -215,6 +205,8 @@ class MacroReader(ExpressionReader):
 
     increment = 0.0
     ranks = _RANKS
+    max_nested = 40
+    nested_rule = "PS0118"
 
     def __init__(self, text: str, values: Variables, at: int = 0) -> None:
         super().__init__(text, values, at)
@@ -235,11 +227,7 @@ class MacroReader(ExpressionReader):
             self.at += 1
             if second in ("+", "-"):
                 raise FaultError("PS0006", "Two signs stand before a value. Keep one.", self.at)
-        self._depth += 1
-        if self._depth > MAX_NESTED:
-            raise FaultError("PS0118", "Too many signs # stand in a row. Use variables.", self.at)
-        value = self._bare()
-        self._depth -= 1
+        value = self._nested()
         if negative:
             self.note_use(value)
         return -value if negative else value
@@ -247,13 +235,6 @@ class MacroReader(ExpressionReader):
     def note_use(self, *values: float | None) -> None:
         """Note common variables that nothing has set and whose values matter here."""
         self.variables.unset += [value.number for value in values if isinstance(value, Vacant) and value.number]
-
-    def _parameter(self) -> float:
-        begin, key = self.at, self.key()
-        if isinstance(key, str):
-            return self.values.named(key, begin)
-        value = self.values.number(key, begin)
-        return VACANT if value is None else value
 
     def brackets(self) -> float:
         """Return the value of an expression in square brackets; refuse brackets nested too deep."""

@@ -557,15 +557,15 @@ class MacroFlow(Flow):
     def follow_call(self, block: Block) -> bool:
         """Follow a block's M98, M97 or M99; False if the program ends with it."""
         if 980 in block.m or (970 in block.m and self.dialect.m97_calls):
-            self._call_subprogram(block)
+            self._call(block)
             return True
         for code in (960, 1980):
             if code in block.m and "P" in block.words:
                 text = f"cutcomp does not follow M{code // 10} P, which may run other blocks. Check them by themselves."
                 self.log.stop("BEYOND", text, block.line, block.column("M", code))
-        return self._return_from(block) if 990 in block.m else True
+        return self._return(block) if 990 in block.m else True
 
-    def _call_subprogram(self, block: Block) -> None:
+    def _call(self, block: Block) -> None:
         row, column = self.at - 1, block.column("M", 980)
         if "P" not in block.words:
             self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
@@ -577,11 +577,7 @@ class MacroFlow(Flow):
         if sum(not call.macro for call in self.calls[1:]) >= MAX_CALLS:
             self.log.stop("PS0077", f"Subprograms run more than {MAX_CALLS} deep.", block.line, column)
         if 970 in block.m:
-            try:
-                start = self._row_of(float(number), row, 0)
-            except FaultError as fault:
-                self.log.stop(fault.code, fault.text, block.line, column)
-            self._push(start, max(round(times), 1), None)
+            self._push(self._target(number, block, column), max(round(times), 1), None)
             return
         self._begin_call(number, max(round(times), 1), block, row, None)
 
@@ -636,37 +632,28 @@ class MacroFlow(Flow):
         self.labels[number] = begin
         return begin
 
-    def _return_from(self, block: Block) -> bool:
+    def _return(self, block: Block) -> bool:
         """Follow M99, with P to a block of the calling program; False if it ends the run."""
-        target = round(block.words["P"]) if "P" in block.words else None
-        call = self.calls[-1]
-        if len(self.calls) == 1:
-            if target is not None:
-                self.at = self._target(target, block)
-                return True
-            text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
-            self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
-            return False
-        if call.again and target is None:
-            call.again -= 1
-            self.rows_without_progress = 0
-            call.loops = []
-            self.at = call.start
-            return True
-        if call.macro:
-            self.variables.leave()
-        self.calls.pop()
-        self.at = call.back
-        self.program = self._range_of(call.back - 1)
+        call, target = self.calls[-1], block.words.get("P")
+        if target is None and (call.again or len(self.calls) == 1):
+            self.rows_without_progress, call.loops = 0, []
+            return super()._return(block)
+        if len(self.calls) > 1:
+            if call.macro:
+                self.variables.leave()
+            self.calls.pop()
+            self.at = call.back
+            self.program = self._range_of(call.back - 1)
         if target is not None:
-            self.at = self._target(target, block)
+            self.at = self._target(round(target), block, block.column("P"))
         return True
 
-    def _target(self, number: int, block: Block) -> int:
+    def _target(self, number: int, block: Block, column: int) -> int:
+        """Return the row of a sequence number that a call or a return names."""
         try:
             return self._row_of(float(number), self.at - 1, 0)
         except FaultError as fault:
-            self.log.stop(fault.code, fault.text, block.line, block.column("P"))
+            self.log.stop(fault.code, fault.text, block.line, column)
 
     def finish(self, *, alarmed: bool) -> None:
         """Report what concerns the program as a whole once the run is over, at its end or an alarm."""

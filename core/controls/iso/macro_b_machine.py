@@ -550,8 +550,8 @@ class MacroMachine(Machine):
         if not isinstance(key, int):
             return None
         self._refuse_unknown_memory(key)
-        if self._is_offset(key):
-            return self._offset_variable(key)
+        if (offset := self._offset_place(key)) is not None:
+            return self._offset_variable(*offset)
         if key in _GROUPS:
             code = self.in_force[_GROUPS[key][0]]
             return float(code - EXTENDED_SYSTEM) if code > EXTENDED_SYSTEM else code / 10
@@ -585,12 +585,6 @@ class MacroMachine(Machine):
     def _in_work(self, point: Point3, axis: int) -> float:
         return from_mm(point[axis] - self.shift[axis], self.unit)
 
-    def _is_offset(self, key: int) -> bool:
-        """True if a variable reads the offset memory."""
-        if self.dialect.diameters_apart:
-            return 2001 <= key <= 2800
-        return 2001 <= key <= 2400 or 10_001 <= key <= 13_999
-
     def _refuse_unknown_memory(self, key: int) -> None:
         """Refuse a variable whose meaning depends on the control's model or its parameters."""
         if self.dialect.diameters_apart and key >= 10_000:
@@ -599,16 +593,17 @@ class MacroMachine(Machine):
             text = f"#{key} is a D only at parameter 6004#5 = 1, which is not followed. Use #13001 and up."
             raise FaultError("BEYOND", text, 0)
 
-    def _offset_of(self, key: int) -> tuple[int, int]:
-        """Return the L of G10 that writes a variable's memory, and the offset's number in it."""
+    def _offset_place(self, key: int) -> tuple[int, int] | None:
+        """Return the L of G10 that writes a variable's memory, and the offset's number in it; None for any other."""
         if self.dialect.diameters_apart:
-            return (10, 11, 12, 13)[(key - 2001) // 200], (key - 2001) % 200 + 1
-        if key < 10_000:
-            return (10, key - 2200) if key > 2200 else (11, key - 2000)
-        return {10: 11, 11: 10, 12: 13, 13: 12}[key // 1000], key % 1000
+            row, index = divmod(key - 2001, 200)
+            return (_LENGTH + row, index + 1) if 0 <= row < 4 else None
+        if 2001 <= key <= 2400:
+            return (_LENGTH, key - 2200) if key > 2200 else (_LENGTH_WEAR, key - 2000)
+        kinds = {10: _LENGTH_WEAR, 11: _LENGTH, 12: _RADIUS_WEAR, 13: _RADIUS}
+        return (kinds[key // 1000], key % 1000) if 10_001 <= key <= 13_999 else None
 
-    def _offset_variable(self, key: int) -> float:
-        kind, number = self._offset_of(key)
+    def _offset_variable(self, kind: int, number: int) -> float:
         memory, tool = self.memories[kind], self.tools.get(number)
         value = memory.get(number, 0.0)
         if kind == _RADIUS:
@@ -629,17 +624,16 @@ class MacroMachine(Machine):
         """Set a system variable; False if a program cannot."""
         millimeters = to_mm(value, self.unit)
         self._refuse_unknown_memory(key)
-        if self._is_offset(key):
-            kind, number = self._offset_of(key)
-            self._write_offset(kind, number, millimeters / self._radii_in(kind))
+        if (offset := self._offset_place(key)) is not None:
+            self._write_offset(*offset, millimeters / self._radii_in(offset[0]))
             return True
         if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
             return True
         if (place := _work_offset_place(key)) is None:
             return False
-        offset = list(self.origin.systems.get(place[0], ZERO))
-        offset[place[1]] = millimeters
-        self.set_system(place[0], (offset[0], offset[1], offset[2]))
+        origin = list(self.origin.systems.get(place[0], ZERO))
+        origin[place[1]] = millimeters
+        self.set_system(place[0], (origin[0], origin[1], origin[2]))
         return True
 
 

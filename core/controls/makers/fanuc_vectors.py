@@ -150,12 +150,17 @@ class VectorQueue(Recorder):
             return
         start = copysign(held.offset, self.coming)
         self._check_new_offset(element, start)
-        joint, arc = self._corner(held, element, start)
+        joint = self._corner(held, element, start)
         vectors = _points(joint, element)
         self._release(held, vectors)
         self._follow(element, vectors, joint.center if len(vectors) > 1 else None)
-        if arc:
-            self._check_inside(element)
+        least = -POINT_ARC if self.vector_rules.point_arcs else POINT_ARC
+        if self.vector_rules.checks and element.turn and offset_radius(element, start) < least:
+            # the alarm comes as soon as the arc is read
+            what = "smaller" if self.vector_rules.point_arcs else "no larger"
+            text = f"The arc radius {{0}} is {what} than the cutter radius {{1}}. Use a smaller cutter."
+            lengths = (element.radius, abs(self.coming))
+            self.log.stop(self.alarms.crossing, text, element.line, 1, lengths=lengths)
 
     def _check_center(self, element: Element) -> None:
         ends = (element.start, element.end) if element.turn else ()
@@ -178,23 +183,20 @@ class VectorQueue(Recorder):
         self.before = None
         self.held = Held(element, vectors, self.coming)
 
-    def _corner(self, held: Held, element: Element, start: float) -> tuple[Joint, bool]:
-        """Return the joint of two elements, and True if the second is an arc the tool does not fit into."""
+    def _corner(self, held: Held, element: Element, start: float) -> Joint:
         first, offset = held.element, held.offset
         rounded, self.round_corner = self.round_corner, None
-        least = -POINT_ARC if self.vector_rules.point_arcs else POINT_ARC
-        tight = element.turn != 0 and offset_radius(element, start) < least
         if rounded is not None:
-            return self._rounded(first, element, offset, rounded), tight
+            return self._rounded(first, element, offset, rounded)
         if held.startup and not element_moves(first):
-            return Joint(offset_start(element, start), offset_start(element, start)), tight
+            return Joint(offset_start(element, start), offset_start(element, start))
         if held.startup:
-            return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a), tight
+            return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
         if start != offset:
             text = "The side changes here. cutcomp takes the way across from other makers' manuals."
             self.log.tell(Severity.INFO, "FN-G1", text, element.line, 1)
-            return offset_change_joint(first, element, offset, start), tight
-        return self._joined(first, element, offset), tight
+            return offset_change_joint(first, element, offset, start)
+        return self._joined(first, element, offset)
 
     def _joined(self, first: Element, second: Element, offset: float) -> Joint:
         """Return the joint of a corner with the same radius before and after it."""
@@ -307,14 +309,6 @@ class VectorQueue(Recorder):
         what = "inside this arc" if element.turn else "along this move"
         text = f"The tool does not fit {what}: its path would run backwards. Use a smaller cutter."
         self.log.stop(self.alarms.crossing, text, element.line, 1, at=element.end)
-
-    def _check_inside(self, element: Element) -> None:
-        """Stop with an alarm at an arc smaller than the tool, as soon as the arc is read."""
-        if self.vector_rules.checks:
-            least = "smaller" if self.vector_rules.point_arcs else "no larger"
-            text = f"The arc radius {{0}} is {least} than the cutter radius {{1}}. Use a smaller cutter."
-            lengths = (element.radius, abs(self.coming))
-            self.log.stop(self.alarms.crossing, text, element.line, 1, lengths=lengths)
 
     # square ends and the cancel
 
