@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Final, NoReturn
 
 from core.controls.iso.modal_state import INVERSE, ModalState
-from core.controls.iso.reader import Block, whole
+from core.controls.iso.reader import Block, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 
@@ -135,11 +135,9 @@ def _check_first(state: ModalState, code: int, block: Block) -> None:
 def _repeats(state: ModalState, block: Block) -> int:
     letters = state.dialect.repeat_letters
     letter = next((letter for letter in letters if letter in block.words), letters[0])
-    number, least = whole(block.words.get(letter, 1.0)), 0 if state.dialect.fanuc_cycles else 1
-    if number is None or not least <= number <= MAX_REPEATS:
-        text = f"{letter}, how often the cycle runs, is a whole number from {least} to {MAX_REPEATS}."
-        _stop(state, text, block, letter)
-    return number
+    least = 0 if state.dialect.fanuc_cycles else 1
+    text = f"{letter}, how often the cycle runs, is a whole number from {least} to {MAX_REPEATS}."
+    return whole_word(block, letter, state.log, "CYCLE", text, least, MAX_REPEATS, default=1.0)
 
 
 def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[DrillMove]:

@@ -75,7 +75,6 @@ def execute(
 
 
 def _run(flow: Flow, machine: Machine, progress: Progress) -> None:
-    """Run lines until the program ends."""
     run_lines = 0
     while flow.at < len(flow.lines):
         line = flow.at = flow.at + 1

@@ -23,7 +23,16 @@ from core.controls.iso.expressions import (
     tell_unset,
 )
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.reader import Block, check_length, has_words, is_plain, read_line, whole, without_comments
+from core.controls.iso.reader import (
+    Block,
+    check_length,
+    has_words,
+    is_plain,
+    read_line,
+    whole,
+    whole_word,
+    without_comments,
+)
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
@@ -210,10 +219,8 @@ class Flow:
         if start is None:
             text = f"There is no subprogram O{number} in this file. Put it after the end of the program."
             self.log.stop("SUBPROGRAM", text, block.line, column)
-        times = whole(block.words.get("L", 1.0))
-        if times is None or times < 0:
-            text = "L, how often the subprogram runs, is a whole number, not below 0."
-            self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
+        text = "L, how often the subprogram runs, is a whole number, not below 0."
+        times = whole_word(block, "L", self.log, "SUBPROGRAM", text, default=1.0)
         if times > 0:
             caller = self.calls[-1]
             self.calls.append(Call(self.at, caller.label, caller.opened, number, start, times - 1))

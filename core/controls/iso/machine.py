@@ -18,7 +18,7 @@ from core.controls.iso.arcs import IN_PLANE, NoArc, center_by_radius, given_cent
 from core.controls.iso.code_support import CODES, OFFSETS_ANYWHERE, TOOL_DATA, lathe_cycle, only_on
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.modal_state import G54, PER_MINUTE, TAKEN_AS_ZERO, ZERO, ModalState, system_code
-from core.controls.iso.reader import Block, whole
+from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, without_rounding
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -257,7 +257,10 @@ class Machine(ModalState):
             case CodeAction.SYSTEM:
                 self._select_system(code.value, block)
             case CodeAction.UNSHIFT:
-                self._unshift(code.value)
+                # G92.1 forgets the shift of G52 and G92, G92.2 suspends it, G92.3 restores it
+                stored = ZERO if code.value == 921 else self.origin.stored
+                local = stored if code.value == 923 else ZERO
+                self.set_origin(replace(self.origin, local=local, stored=stored))
             case CodeAction.LENGTH:
                 self._take_length(code.value, block)
             case CodeAction.OF_THIS_CONTROL:
@@ -268,7 +271,6 @@ class Machine(ModalState):
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:
-        """Set the unit by G20, G21, G70 or G71."""
         self.unit = self.control.unit = Unit.MM if code in _METRIC else Unit.IN
         self.scale = 1.0 if self.unit is Unit.MM else 25.4
         self.unit_said = True
@@ -405,7 +407,6 @@ class Machine(ModalState):
         return f"{round(millimeters / self.scale, 5) + 0.0:.5f}".rstrip("0")
 
     def _drill(self, block: Block) -> None:
-        """Run a block of the drilling cycle in force."""
         if self.control.active:
             text = "A drilling cycle does not go with compensation; write G40 before it, or G80 and another motion."
             self.log.stop(self.dialect.cycle_rule, text, block.line, block.column("GXYZ"))
@@ -419,7 +420,8 @@ class Machine(ModalState):
                 local = self.axis_words(block, self.origin.local)
                 self.set_origin(replace(self.origin, local=local, stored=local))
             case CodeAction.PRESET:
-                self._preset(block)
+                local = self._reading_as_written(block, self.origin.base, self.origin.local)
+                self.set_origin(replace(self.origin, local=local, stored=local))
             case CodeAction.DATA:
                 self._set_data(block)
             case CodeAction.HOME:
@@ -440,22 +442,12 @@ class Machine(ModalState):
         x, y, z = self.length_offset if code == _G43_2 else ZERO
         self.set_length_offset((x, y, z + (tool.length_mm(self.unit) if tool else 0.0)))
 
-    def _unshift(self, code: int) -> None:
-        """Forget the shift of G52 and G92 (G92.1), suspend it (G92.2), or restore it (G92.3)."""
-        stored = ZERO if code == 921 else self.origin.stored
-        self.set_origin(replace(self.origin, local=stored if code == 923 else ZERO, stored=stored))
-
     def _select_system(self, code: int, block: Block) -> None:
         """Select a work offset; one that the program did not set is taken as zero, and except for G54 reported."""
         if code not in self.origin.systems and code != G54:
             text = f"The offset of G{code / 10:g} {TAKEN_AS_ZERO}"
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
         self.set_origin(replace(self.origin, system=code))
-
-    def _preset(self, block: Block) -> None:
-        """Run G92: move the origin so that the current position reads as written."""
-        local = self._reading_as_written(block, self.origin.base, self.origin.local)
-        self.set_origin(replace(self.origin, local=local, stored=local))
 
     def _reading_as_written(self, block: Block, rest: Point3, old: Point3) -> Point3:
         """Return the offset that makes the position read as written on the rest of the origin; old for other axes."""
@@ -498,10 +490,8 @@ class Machine(ModalState):
         tool = None if number is None else self.tools.get(number)
         if tool is None:
             self.log.stop("TOOL", missing_tool(number), block.line, block.column("PL"))
-        orientation = whole(block.words.get("Q", float(tool.orientation)))
-        if orientation is None or not 0 <= orientation <= 9:
-            text = "Q, the orientation of a lathe tool, is a whole number from 0 to 9."
-            self.log.stop("DATA", text, block.line, block.column("Q"))
+        text = "Q, the orientation of a lathe tool, is a whole number from 0 to 9."
+        orientation = whole_word(block, "Q", self.log, "DATA", text, 0, 9, default=tool.orientation)
         tool = replace(tool, orientation=orientation)
         if "R" in block.words:
             tool = replace(tool, diameter=2.0 * block.words["R"], unit=self.unit)

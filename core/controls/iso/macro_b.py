@@ -164,16 +164,6 @@ _RANKS: Final[Mapping[str, tuple[int, Operation]]] = MappingProxyType(
 )
 
 
-def from_bcd(value: float) -> float:
-    """Return BIN of a value: the number whose decimal digits are the value's groups of four bits."""
-    return float(int(f"{round(value):x}"))
-
-
-def to_bcd(value: float) -> float:
-    """Return BCD of a value: the number whose groups of four bits are the value's decimal digits."""
-    return float(int(str(round(value)), 16))
-
-
 def _rounded(value: float) -> float:
     return float(floor(value + 0.5) if value >= 0.0 else -floor(0.5 - value))
 
@@ -186,18 +176,14 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
         "ROUND": _rounded,
         "FIX": lambda value: float(floor(value) if value >= 0.0 else ceil(value)),
         "FUP": lambda value: float(ceil(value) if value >= 0.0 else floor(value)),
-        "BIN": from_bcd,
-        "BCD": to_bcd,
+        # a number's decimal digits are the value's groups of four bits, and the reverse
+        "BIN": lambda value: float(int(f"{round(value):x}")),
+        "BCD": lambda value: float(int(str(round(value)), 16)),
         "ADP": float,
         "POW": float,
     }
 )
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
-
-
-def _full_name(short: str) -> str | None:
-    """Return the function whose name begins with some letters, of which two are enough; None if there is none."""
-    return next((name for name in _FUNCTIONS if name.startswith(short)), None)
 
 
 class MacroReader(ExpressionReader):
@@ -269,7 +255,8 @@ class MacroReader(ExpressionReader):
         begin, function = self.at, _FUNCTION.match(self.text, self.at)
         if function is None:
             raise FaultError("PS0114", f"A value is missing{self._before()}.", begin)
-        name = _full_name(function[1])
+        # two letters of a name are enough
+        name = next((known for known in _FUNCTIONS if known.startswith(function[1])), None)
         if name is None:
             raise FaultError("PS0114", f"This control has no function {function[1]}.", begin)
         self.at = function.end(1)

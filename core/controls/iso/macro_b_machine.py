@@ -21,7 +21,7 @@ from core.controls.iso.expressions import FaultError
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro_b import VACANT
 from core.controls.iso.modal_state import EXTERNAL, TAKEN_AS_ZERO, ZERO
-from core.controls.iso.reader import Block, whole
+from core.controls.iso.reader import Block, whole, whole_word
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 from core.units import Unit, from_mm, to_mm
@@ -462,10 +462,9 @@ class MacroMachine(Machine):
         if code in HAAS_SYSTEMS:
             name, number = f"G{code // 10}", HAAS_SYSTEMS.index(code) + 1
         elif code in (541, 1540) or (self.dialect.g54_takes_p and p_is_of_g54(block, self.mode)):
-            given = whole(block.words.get("P", 1.0))
-            if given is None or not 1 <= given <= 300:
-                self.log.stop("PS0030", "P is the number of a work offset, 1 to 300.", block.line, block.column("P"))
-            name, number = f"G54.1 P{given}", given
+            text = "P is the number of a work offset, 1 to 300."
+            number = whole_word(block, "P", self.log, "PS0030", text, 1, 300, default=1.0)
+            name = f"G54.1 P{number}"
         else:
             super()._select_system(code, block)
             return
@@ -576,14 +575,12 @@ class MacroMachine(Machine):
             return f"Where {'XYZ'[axis]} stands after the move to the machine's point is not known. Move it first."
         if of_center and self.control.active:
             return "The next move decides where the center stands under compensation. Read #5001 to #5003 instead."
-        return self._in_work(self.control.tape.last if of_center else self.transform.undone(self.position), axis)
+        point = self.control.tape.last if of_center else self.transform.undone(self.position)
+        return from_mm(point[axis] - self.shift[axis], self.unit)
 
     def _tell_unknown_value(self, key: int) -> None:
         text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
         self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.line, 1)
-
-    def _in_work(self, point: Point3, axis: int) -> float:
-        return from_mm(point[axis] - self.shift[axis], self.unit)
 
     def _refuse_unknown_memory(self, key: int) -> None:
         """Refuse a variable whose meaning depends on the control's model or its parameters."""

@@ -13,7 +13,7 @@ from typing import Final
 from core.controls.control_run import Log
 from core.controls.control_tools import CutterTool, ToolTable, missing_tool
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.reader import Block, ToolData, whole
+from core.controls.iso.reader import Block, ToolData, whole_word
 from core.controls.moves import Plane, Point3
 from core.finding import Finding, Severity
 from core.tolerance import GOUGE
@@ -207,10 +207,7 @@ class ModalState:
             return block.data.number
         if "T" not in block.words:
             return None
-        number = whole(block.words["T"])
-        if number is None or number < 0:
-            self.log.stop("NUMBER", "T must be a whole number, 0 or more.", block.line, block.column("T"))
-        return number
+        return whole_word(block, "T", self.log, "NUMBER", "T must be a whole number, 0 or more.")
 
     def select_tool(self, number: int, block: Block) -> None:
         """Select the tool of a T word, and enter its tool data, if there are any."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from typing import Final
 
 from core.controls.control_run import Log
@@ -127,6 +128,16 @@ def whole(value: float) -> int | None:
     """Return a value as a whole number, None if it is not one."""
     number = round(value)
     return number if abs(number - value) < INTEGER_TOLERANCE else None
+
+
+def whole_word(
+    block: Block, letter: str, log: Log, rule: str, text: str, least: int = 0, most: float = inf, default: float = -1.0
+) -> int:  # fmt: skip
+    """Return the value of a word that must be a whole number within limits; any other stops the run."""
+    number = whole(block.words.get(letter, default))
+    if number is None or not least <= number <= most:
+        log.stop(rule, text, block.line, block.column(letter))
+    return number
 
 
 def is_plain(line: str) -> bool:

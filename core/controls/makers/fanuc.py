@@ -21,7 +21,7 @@ from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
 from core.controls.iso.modal_state import OUTLINE_JUDGED
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
 from core.finding import Severity
@@ -177,10 +177,7 @@ class Fanuc(VectorQueue, Control):
                 self.log.stop("FN-TRANSFORM", text, block.line, column)
 
     def _take_number(self, block: Block) -> None:
-        number = whole(block.words["D"])
-        if number is None or number < 0:
-            self.log.stop("PS0007", "D is an offset number, a whole number.", block.line, block.column("D"))
-        self.number = number
+        self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if self.active and number == 0:
             self._cancel_in(block, None)
         elif self.side is not None or not SWITCHES.isdisjoint(block.g):
@@ -220,17 +217,14 @@ class Fanuc(VectorQueue, Control):
             return
         self.coming = self.radius * side.sign
         if side is not old:
-            self._check_side_change(block)
+            if self.held is not None and self.held.startup:
+                text = "The side cannot change right after the start-up. Write a move first."
+                self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
         elif self._moves_in_plane(block):
             text = "G41 or G42 is in force already; cutcomp assumes that it has no effect in a block that moves."
             self.log.tell(Severity.INFO, "FN-G2", text, block.line, block.side_column())
         else:
             self.end_square()
-
-    def _check_side_change(self, block: Block) -> None:
-        if self.held is not None and self.held.startup:
-            text = "The side cannot change right after the start-up. Write a move first."
-            self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
 
     def _shift_on(self, block: Block) -> None:
         """Type C: let a block without movement move the tool square to the next element."""
@@ -277,7 +271,6 @@ class Fanuc(VectorQueue, Control):
             self.close_stretch()
 
     def _moves_in_plane(self, block: Block) -> bool:
-        """True if a block has a move in the plane."""
         codes = self.machine.dialect.codes
         if any(code in codes and codes[code].action in NON_MODAL_ACTIONS for code in block.g):
             return False
@@ -348,7 +341,6 @@ class Fanuc(VectorQueue, Control):
         self.across(element)
 
     def _tell_parameters(self, line: int) -> None:
-        """Report once which parameters are assumed."""
         if not self.log.has("FN-PARAM"):
             self.log.tell(Severity.INFO, "FN-PARAM", self.assumed_parameters(), line, 1)
 
@@ -363,7 +355,9 @@ class Fanuc(VectorQueue, Control):
     def _count(self) -> None:
         """Count the last block if it did not move in the plane, and act on too many such blocks."""
         block = self.block
-        if block is None or not self.active or self.in_plane or self.held is None or _is_bare(block):
+        if block is None or not self.active or self.in_plane or self.held is None:
+            return
+        if not block.g and not block.m and {"N", "O"}.issuperset(block.words):
             return
         self.calls_counted = not _CALLS.isdisjoint(block.m) or (self.calls_counted and self.motionless > 0)
         self.motionless += 1
@@ -415,11 +409,6 @@ class Fanuc(VectorQueue, Control):
         """Report a program that ends under compensation."""
         text = "The program ends under compensation. Write G40 and a move away from the part."
         self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
-
-
-def _is_bare(block: Block) -> bool:
-    """True if a block has only its own number or the program's."""
-    return not block.g and not block.m and {"N", "O"}.issuperset(block.words)
 
 
 RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(

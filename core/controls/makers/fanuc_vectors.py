@@ -188,7 +188,7 @@ class VectorQueue(Recorder):
         rounded, self.round_corner = self.round_corner, None
         if rounded is not None:
             return self._rounded(first, element, offset, rounded)
-        if held.startup and not element_moves(first):
+        if held.startup and not first.moves:
             return Joint(offset_start(element, start), offset_start(element, start))
         if held.startup:
             return entry_joint(first, element, start, self.rules.outside, direct=self.vector_rules.type_a)
@@ -254,7 +254,6 @@ class VectorQueue(Recorder):
             self.straight(standing, self.here)
 
     def _run_around(self, held: Held) -> None:
-        """Move around the corner at an element's start."""
         *between, start = held.vectors[1:] or held.vectors
         for point in between:
             self._line(held.element, point, at_start_height=True)
@@ -369,11 +368,6 @@ class VectorQueue(Recorder):
             self._run(before, offset_end(before.element, before.offset))
         for element in (last.element, *last.standing):
             self.straight(element, last.element.end)
-
-
-def element_moves(element: Element) -> bool:
-    """True if an element has a direction."""
-    return element.turn != 0 or element.start_direction != (0.0, 0.0)
 
 
 def _points(joint: Joint, element: Element | None) -> list[Point]:

@@ -21,7 +21,7 @@ from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import OUTLINE_JUDGED, system_code
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole, whole_word
 from core.controls.moves import Plane, flat, solid
 from core.finding import Severity
 from core.geometry.piece import Side
@@ -279,7 +279,8 @@ class LinuxCnc(OneMoveQueue, Control):
         number = self.machine.tool
         if "D" in block.words:
             # D0 is the tool in the spindle
-            number = self._tool_number(block) or self.machine.tool
+            text = "D is a tool number: a whole number, not below 0; a diameter goes with G41.1."
+            number = whole_word(block, "D", self.log, "N-DNEGATIVE", text) or self.machine.tool
         tool = self.machine.tools.get(number)
         if tool is None:
             if number == 0 or "D" not in block.words:
@@ -291,13 +292,6 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "The tool is a lathe tool and needs the plane G18."
             self.log.stop("N-ORIENTATION", text, block.line, block.side_column())
         return tool.diameter_mm(self.machine.unit) / 2, tool.orientation
-
-    def _tool_number(self, block: Block) -> int:
-        number = whole(block.words["D"])
-        if number is None or number < 0:
-            text = "D is a tool number: a whole number, not below 0; a diameter goes with G41.1."
-            self.log.stop("N-DNEGATIVE", text, block.line, block.column("D"))
-        return number
 
     def _orientation(self, block: Block) -> int:
         if "L" in block.words and self.machine.plane is not Plane.ZX:

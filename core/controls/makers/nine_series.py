@@ -33,7 +33,7 @@ from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect,
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import OUTLINE_JUDGED
-from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -125,11 +125,7 @@ class NineSeries(ElementQueue, Control):
             self.log.stop("PLANE", text, block.line, block.side_column())
 
     def _take_number(self, block: Block) -> None:
-        number = whole(block.words["D"])
-        if number is None or number < 0:
-            text = "D is an offset number, a whole number."
-            self.log.stop("NUMBER", text, block.line, block.column("D"))
-        self.number = number
+        self.number = number = whole_word(block, "D", self.log, "NUMBER", "D is an offset number, a whole number.")
         if number == 0 and (self.active or not SWITCHES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
             self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))

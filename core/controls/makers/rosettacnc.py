@@ -23,7 +23,7 @@ from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
 from core.controls.iso.modal_state import OUTLINE_JUDGED
-from core.controls.iso.reader import SWITCHES, Block, whole
+from core.controls.iso.reader import SWITCHES, Block, whole_word
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -91,9 +91,8 @@ class RosettaCnc(Control):
     def _orientation(self, block: Block) -> None:
         if "L" not in block.words:
             return
-        column, number = block.column("L"), whole(block.words["L"])
-        if number is None or not 0 <= number <= 9:
-            self.log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
+        column, text = block.column("L"), "L, the orientation of a lathe tool, is 0 to 9."
+        number = whole_word(block, "L", self.log, "C4", text, 0, 9)
         if self.plane is not Plane.ZX:
             self.log.stop("C5", "L goes with the plane G18 only. Remove it.", block.line, column)
         self._nose(number, block, column)
@@ -107,11 +106,7 @@ class RosettaCnc(Control):
         machine, log = self.machine, self.log
         number = machine.tool
         if "D" in block.words:
-            wanted = whole(block.words["D"])
-            if wanted is None or wanted <= 0:
-                text = "D is a tool number, 1 or more; a diameter goes with G41.1."
-                log.stop("C1", text, block.line, block.column("D"))
-            number = wanted
+            number = whole_word(block, "D", log, "C1", "D is a tool number, 1 or more; a diameter goes with G41.1.", 1)
         tool = machine.tools.get(number)
         if tool is None and number:
             column = block.column("D") if "D" in block.words else block.side_column()

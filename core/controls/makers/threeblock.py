@@ -78,7 +78,9 @@ class ThreeBlock(ElementQueue, Control):
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
             self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
-        if "D" in block.words and not self._same_tool(block):
+        # D in a block with G41 or G42 may name the tool that is called, as on other controls
+        same_tool = not SWITCHES.isdisjoint(block.g) and self.machine.tool in (0, block.words.get("D"))
+        if "D" in block.words and not same_tool:
             text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
             self.log.stop("CODE", f"{text} {only_on(OFFSETS_ANYWHERE)}", block.line, block.column("D"))
         if "R" in block.words:
@@ -98,10 +100,6 @@ class ThreeBlock(ElementQueue, Control):
         if 990 in block.g:
             text = "The control drops this G99 under compensation and puts its own between tangent moves."
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
-
-    def _same_tool(self, block: Block) -> bool:
-        """True if D in a block with G41 or G42 names the tool that is called, as on other controls."""
-        return not SWITCHES.isdisjoint(block.g) and self.machine.tool in (0, block.words["D"])
 
     def wrong_plane(self, block: Block) -> NoReturn:
         """Stop the run: compensation works in the XY plane only."""
