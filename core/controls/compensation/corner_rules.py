@@ -169,37 +169,31 @@ def _index_by_side(first: Element, second: Element, offset: float) -> int:
 
 
 def _outside(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
-    end, start = offset_end(first, offset), offset_start(second, offset)
-    angle = turn_angle(first, second)
-    if rules.outside is Outside.ARC:
-        straight = rules.rapid_straight and second.rapid
-        return Joint(end, start, (start,)) if straight else Joint(end, start, center=second.start)
-    if abs(angle) <= RIGHT_ANGLE:
-        point = miter(first.end, first.end_direction, angle, offset)
-        return _joint_over(first, second, (end, point, point, start))
-    lines_only = not first.turn and not second.turn
-    if rules.outside is Outside.MITER_OR_ANY_ARC or (rules.outside is Outside.MITER_OR_ARC and lines_only):
-        return Joint(end, start, center=second.start)
-    leaving, coming = _extended(first, second, offset)
-    return _joint_over(first, second, (end, leaving, coming, start))
-
-
-def _extended(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
-    """Return Q1 and Q2."""
-    end, start, reach = offset_end(first, offset), offset_start(second, offset), abs(offset)
-    return point_along(end, first.end_direction, reach), point_along(start, second.start_direction, -reach)
-
-
-def _joint_over(first: Element, second: Element, points: tuple[Point, Point, Point, Point]) -> Joint:
-    """Return the joint over E1, the end of the first one's extension, the start of the second one's, and E2.
-
-    A line itself is extended; an arc ends at its offset point, and its extension is a block of its own.
-    """
-    end, leaving, coming, start = points
+    """Return the joint of an outside corner; a line itself is extended, an arc by a block of its own."""
+    if rules.outside is Outside.ARC and rules.rapid_straight and second.rapid:
+        start = offset_start(second, offset)
+        return Joint(offset_end(first, offset), start, (start,))
+    around = _around(first, second, offset, rules.outside)
+    if around.center is not None:
+        return around
+    leaving, coming = around.through[0], around.through[-1]
     through = () if not first.turn else (leaving,)
     if second.turn and coming != leaving:
         through = (*through, coming)
-    return Joint(leaving if not first.turn else end, start if second.turn else coming, through)
+    return Joint(leaving if not first.turn else around.end, around.start if second.turn else coming, through)
+
+
+def _around(first: Element, second: Element, offset: float, rule: Outside) -> Joint:
+    """Return the joint from E1 to E2 around an outside corner: by an arc, over M, or over Q1 and Q2."""
+    end, start, angle = offset_end(first, offset), offset_start(second, offset), turn_angle(first, second)
+    if rule is not Outside.ARC and abs(angle) <= RIGHT_ANGLE:
+        return Joint(end, start, (miter(first.end, first.end_direction, angle, offset),))
+    lines_only = not first.turn and not second.turn
+    if rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and lines_only):
+        return Joint(end, start, center=second.start)
+    reach = abs(offset)
+    extended = point_along(end, first.end_direction, reach), point_along(start, second.start_direction, -reach)
+    return Joint(end, start, extended)
 
 
 def entry_joint(entering: Element, first: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
@@ -211,7 +205,7 @@ def entry_joint(entering: Element, first: Element, offset: float, rule: Outside,
     start = offset_start(first, offset)
     if direct or inward_turn(entering, first, offset) >= 0.0:
         return Joint(start, start)
-    return _around_lead(entering, first, offset, rule, first)._replace(start=start)
+    return _around_lead(entering, first, offset, rule)._replace(start=start)
 
 
 def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
@@ -219,19 +213,15 @@ def exit_joint(last: Element, leaving: Element, offset: float, rule: Outside) ->
     end = offset_end(last, offset)
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
-    return _around_lead(last, leaving, offset, rule, last)._replace(end=end)
+    return _around_lead(last, leaving, offset, rule)._replace(end=end)
 
 
-def _around_lead(first: Element, second: Element, offset: float, rule: Outside, element: Element) -> Joint:
-    """Return the joint around the outside corner at an entry or exit; unless by arc, M alone up to a right angle."""
-    angle = turn_angle(first, second)
-    if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
-        point = miter(first.end, first.end_direction, angle, offset)
-        return Joint(point, point)
-    end, start = offset_end(first, offset), offset_start(second, offset)
-    if rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn):
-        return Joint(end, start, center=second.start)
-    return Joint(end, start, _extended(first, second, offset))
+def _around_lead(first: Element, second: Element, offset: float, rule: Outside) -> Joint:
+    """Return the joint around the outside corner at an entry or exit: where M is enough, it goes over M alone."""
+    around = _around(first, second, offset, rule)
+    if len(around.through) != 1:
+        return around
+    return Joint(around.through[0], around.through[0])
 
 
 def offset_change_joint(first: Element, second: Element, old: float, new: float) -> Joint:
