@@ -11,7 +11,9 @@ from typing import Final
 import numpy as np
 
 from core.controls.control_run import Stretch
-from core.geometry.path import Flags, Floats, Path, lengths, pieces_of
+from core.geometry.distance import distance, foot
+from core.geometry.path import Floats, Path, Rows, coordinates
+from core.geometry.piece_arrays import at, direction, piece_arrays
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
@@ -143,11 +145,11 @@ def _split_at_start(path: Path) -> tuple[Path, Path] | None:
     directions = path.start_directions
     for lead in range(min(MAX_LEAD_MOVES, len(path) - 2), -1, -1):
         point = path.points[lead]
-        over = _runs_over(path, point, directions[lead])
-        rows = [row for row in over.nonzero()[0].tolist() if row > lead]
-        if rows:
-            at_point = np.repeat(point[None], len(rows), axis=0)
-            return _split(path, rows, _feet(path, rows, point)), _split(path, rows, at_point)
+        rows, places = _running_over(path, point, directions[lead])
+        later = rows > lead
+        if later.any():
+            rows, places = rows[later], places[later]
+            return _split(path, rows, places), _split(path, rows, np.repeat(point[None], len(rows), axis=0))
     return None
 
 
@@ -161,59 +163,33 @@ def _split_at_corner(path: Path) -> Path | None:
     for directed, is_reversed in ((path, False), (path.reversed(), True)):
         row = len(directed) - 1
         lines = not directed.turns[0] and not directed.turns[row]
-        if lines and _runs_over(directed, directed.points[1], directed.end_directions[row])[row]:
-            split = _split(directed, [row], directed.points[1:2])
+        if lines and row in _running_over(directed, directed.points[1], directed.end_directions[row])[0]:
+            split = _split(directed, np.array([row]), directed.points[1:2])
             return split.reversed() if is_reversed else split
     return None
 
 
-def _runs_over(path: Path, point: Floats, way: Floats) -> Flags:
-    """Return (n,) whether a piece runs over a point, in direction `way`, with both ends away from the point.
+def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]:
+    """Return the rows (m,) of pieces that run over a point, and the places (m, 2) where they are nearest to it.
 
-    A full circle does not: it closes by itself.
+    They run in direction `way`, with both ends away from the point.  A full circle does not: it closes by itself.
     """
-    steps, along, radial = point - path.starts, path.start_directions, point - path.centers
-    size, arcs = np.hypot(radial[:, 0], radial[:, 1]), path.turns != 0
-    reach = np.where(arcs, _arc_lengths_to(path, point), (steps * along).sum(axis=1))
-    off = np.where(arcs, size - _radii_after(path, reach), steps[:, 0] * along[:, 1] - steps[:, 1] * along[:, 0])
-    tangent = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * (path.turns / np.where(size == 0.0, 1.0, size))[:, None]
-    straight_on = np.where(arcs[:, None], tangent, along) @ way > cos(BLEND)
-    inside = (reach > CLOSED) & (reach < path.lengths - CLOSED) & (path.starts != path.ends).any(axis=1)
-    over: Flags = inside & (np.abs(off) <= CLOSED) & straight_on
-    return over
+    with np.errstate(all="ignore"):
+        pieces = piece_arrays(path)
+        points = np.full(len(pieces), complex(*point))
+        share = foot(pieces, points)
+        near = distance(pieces, points) <= CLOSED
+        straight_on = (direction(pieces, share) * np.conj(complex(*way))).real > cos(BLEND)
+    reach, ends_apart = share * pieces.length, (path.starts != path.ends).any(axis=1)[pieces.rows]
+    over = near & straight_on & (reach > CLOSED) & (reach < pieces.length - CLOSED) & ends_apart
+    return pieces.rows[over], coordinates(at(pieces, share)[over])
 
 
-def _radii_after(path: Path, reach: Floats) -> Floats:
-    """Return the (n,) radii of arcs after lengths: the ends of a rounded arc have two radii."""
-    arms = path.ends - path.centers
-    share = reach / np.where(path.lengths == 0.0, 1.0, path.lengths)
-    radii: Floats = path.radii + share * (np.hypot(arms[:, 0], arms[:, 1]) - path.radii)
-    return radii
-
-
-def _arc_lengths_to(path: Path, point: Floats) -> Floats:
-    """Return the (n,) lengths of arcs up to the ray through a point; 0 for lines."""
-    pieces = pieces_of(path)
-    ray = np.full(len(path), complex(*point))
-    return lengths(pieces._replace(end=np.where(pieces.turn == 0, pieces.start, ray)))
-
-
-def _feet(path: Path, rows: list[int], point: Floats) -> Floats:
-    """Return the (m, 2) points of the pieces in these rows that are nearest to a point near each of them."""
-    along, starts, centers = path.start_directions[rows], path.starts[rows], path.centers[rows]
-    on_lines = starts + ((point - starts) * along).sum(axis=1)[:, None] * along
-    radial = point - centers
-    size = np.hypot(radial[:, 0], radial[:, 1])
-    radii = _radii_after(path, _arc_lengths_to(path, point))[rows]
-    on_arcs = centers + radial * (radii / np.where(size == 0.0, 1.0, size))[:, None]
-    return np.where(path.turns[rows, None] == 0, on_lines, on_arcs)
-
-
-def _split(path: Path, rows: list[int], at: Floats) -> Path:
-    """Return the path with pieces split in two at points (m, 2); both halves keep the piece's number."""
-    after = [row + 1 for row in rows]
-    centers = np.where(path.turns[rows, None] == 0, at, path.centers[rows])
-    points, centers = np.insert(path.points, after, at, axis=0), np.insert(path.centers, after, centers, axis=0)
+def _split(path: Path, rows: Rows, places: Floats) -> Path:
+    """Return the path with pieces split in two at places (m, 2); both halves keep the piece's number."""
+    after = rows + 1
+    centers = np.where(path.turns[rows, None] == 0, places, path.centers[rows])
+    points, centers = np.insert(path.points, after, places, axis=0), np.insert(path.centers, after, centers, axis=0)
     turns, numbers = np.insert(path.turns, after, path.turns[rows]), np.insert(path.numbers, after, path.numbers[rows])
     return Path.of(points, centers, turns, numbers)
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.geometry.path import Path, Rows
 from core.tolerance import GOUGE, LARGEST, ON_PATH
@@ -55,22 +54,9 @@ def without_repeats(path: Path) -> Path:
 
 def _piece_names(path: Path) -> Rows:
     """Return (n,) the same number for pieces that are one piece to ON_PATH."""
-    at = _alike(path.points)
-    swept = np.round(path.sweeps, SWEEP_DECIMALS)
-    columns = (at[:-1], at[1:], _alike(path.centers), path.turns, swept)
-    order = np.lexsort(columns)
-    new = np.zeros(len(path), np.bool_)
-    for column in columns:
-        new[1:] |= column[order[1:]] != column[order[:-1]]
-    names = np.empty(len(path), np.intp)
-    names[order] = new.cumsum()
-    return names
-
-
-def _alike(points: NDArray[np.float64]) -> Rows:
-    """Return (n,) the same number for points that are one place to ON_PATH."""
-    grid = np.round(points / ON_PATH)
-    return np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)[1].reshape(-1)
+    grids = [np.round(points / ON_PATH) for points in (path.starts, path.ends, path.centers)]
+    columns = np.column_stack((*grids, path.turns, np.round(path.sweeps, SWEEP_DECIMALS)))
+    return np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1)
 
 
 def _periods(names: Rows) -> list[int]:
