@@ -19,7 +19,7 @@ from core.controls.write.contour_pass import PassWithLeads, WrittenLine
 from core.controls.write.iso_program import Frame, tools_of, write_iso
 from core.controls.write.iso_style import FREE_ENTRY, STYLES
 from core.controls.write.klartext_program import KLARTEXT_DECIMALS, write_klartext_contours
-from core.controls.write.rewritten_stretch import NotTranslated, RewrittenStretch, stretch_to_rewrite, with_leads
+from core.controls.write.rewritten_stretch import NotTranslated, rewritten_stretch
 from core.units import to_mm
 
 MAX_TOOLS: Final = 24
@@ -28,14 +28,12 @@ MAX_TOOLS: Final = 24
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TranslatedProgram:
-    """The text for the other control; for each line the program's line (0 for none), and whether it only leads.
+    """The text for the other control, the table of tools that it needs, and its last decimal place in millimeters.
 
-    `tools` is the table that the text needs, `digit` its last decimal place in millimeters.
+    A line's segment is the program's line that it comes from, negative for an arc that only leads to it.
     """
 
     lines: tuple[WrittenLine, ...]
-    sources: tuple[int, ...]
-    leads: tuple[bool, ...]
     tools: ToolTable
     digit: float
 
@@ -47,52 +45,20 @@ def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | 
     sizes = list(dict.fromkeys(stretch.radius for stretch in source.stretches))
     if len(sizes) > MAX_TOOLS:
         return NotTranslated(f"its contours need more than {MAX_TOOLS} tools")
-    style = STYLES.get(control)
-    programmed: list[RewrittenStretch] = []
+    style, unit = STYLES.get(control), source.unit
     runs: list[PassWithLeads] = []
     for stretch in source.stretches:
-        elements = stretch_to_rewrite(source, stretch, sizes.index(stretch.radius) + 1)
-        if isinstance(elements, NotTranslated):
-            return elements
-        run_led = with_leads(elements, style or FREE_ENTRY, blends=style is not None)
+        tool = sizes.index(stretch.radius) + 1
+        run_led = rewritten_stretch(source, stretch, tool, style or FREE_ENTRY, blends=style is not None)
         if isinstance(run_led, NotTranslated):
             return run_led
-        programmed.append(elements)
         runs.append(run_led)
-    return _written(source, control, programmed, runs)
-
-
-def _written(
-    source: ControlRun, control: str, programmed: list[RewrittenStretch], runs: list[PassWithLeads]
-) -> TranslatedProgram:
-    style, unit = STYLES.get(control), source.unit
     if style is None:
         lines, tools, decimals = write_klartext_contours(runs, unit), ToolTable(), KLARTEXT_DECIMALS[unit]
     else:
         lines, decimals = write_iso(runs, style, Frame(unit)), style.digits(unit)
         tools = tools_of([run_led.contour_pass for run_led in runs], style)
-    sources, leads = _sources(lines, programmed)
-    return TranslatedProgram(lines, sources, leads, tools, to_mm(10.0**-decimals, unit))
-
-
-def _sources(
-    lines: tuple[WrittenLine, ...], programmed: list[RewrittenStretch]
-) -> tuple[tuple[int, ...], tuple[bool, ...]]:
-    """Return for each line the program's line, and whether it is a lead; a run ends with its lead-out line."""
-    sources, leads = [], []
-    run_index, inside = 0, False
-    for line in lines:
-        if line.segment is None:
-            sources.append(0)
-            leads.append(True)
-            continue
-        numbers = programmed[run_index].lines
-        sources.append(numbers[min(max(int(line.segment), 1), len(numbers)) - 1])
-        leads.append(line.lead or not 1 <= line.segment <= len(numbers))
-        if line.lead and inside:
-            run_index += 1
-        inside = inside != line.lead
-    return tuple(sources), tuple(leads)
+    return TranslatedProgram(lines, tools, to_mm(10.0**-decimals, unit))
 
 
 def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float] | NotTranslated:
@@ -111,16 +77,26 @@ def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float]
 
 def _by_source_lines(made: ControlRun, program: TranslatedProgram) -> ControlRun:
     """Return the run with the lines of the program that the contours come from."""
-    sources, leads = np.array([0, *program.sources], np.int32), np.array([True, *program.leads])
+    segments = [int(line.segment or 0) for line in program.lines]
+    sources = np.array([0, *map(abs, segments)], np.int32)
+    leads = np.array(
+        [True, *(line.lead or segment <= 0 for line, segment in zip(program.lines, segments, strict=True))]
+    )
+
+    def source(line: int) -> int:
+        """Return the program's line that a line of the text comes from or follows; before any, the first one."""
+        rows = np.flatnonzero(sources)
+        return int(sources[rows[max(int(np.searchsorted(rows, line, side="right")) - 1, 0)]])
+
     findings = tuple(
-        replace(finding, line=_source(program, finding.line), column=None) if finding.line else finding
+        replace(finding, line=source(finding.line), column=None) if finding.line else finding
         for finding in made.findings
     )
     return replace(
         made,
         moves=replace(made.moves, lines=np.where(leads, 0, sources).astype(np.int32)[made.moves.lines]),
         findings=findings,
-        stopped_at=None if made.stopped_at is None else _source(program, made.stopped_at),
+        stopped_at=None if made.stopped_at is None else source(made.stopped_at),
         stretches=tuple(_stretch(stretch, sources, leads) for stretch in made.stretches),
     )
 
@@ -133,9 +109,3 @@ def _stretch(stretch: Stretch, sources: NDArray[np.int32], leads: NDArray[np.boo
     entry, end = (int(inner[0]) - 1, int(inner[-1])) if len(inner) else (last, last)
     programmed = replace(stretch.programmed, lines=sources[lines])
     return replace(stretch, programmed=programmed, entry=entry, exit=last - end, led_in=True, led_out=True)
-
-
-def _source(program: TranslatedProgram, line: int) -> int:
-    """Return the program's line that a line of the text comes from or follows; before any, the first one."""
-    before = [source for source in program.sources[:line] if source]
-    return before[-1] if before else next(source for source in program.sources if source)

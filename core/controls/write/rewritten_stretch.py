@@ -1,6 +1,7 @@
 """A rewritten stretch is a compensated stretch of a run as a pass for another control, with leads that cut nothing.
 
-Elements are numbered from 1 in their order; the lead-in has number 0, the lead-out one more than the last element.
+Elements have the numbers of their lines in the program; arcs that lead in and out have the negative numbers of the
+elements next to them.
 """
 
 from __future__ import annotations
@@ -18,8 +19,7 @@ from core.controls.moves import Plane
 from core.controls.write.contour_pass import ContourPass, PassWithLeads, PathEnd, ProgrammedElements, element_of
 from core.controls.write.iso_style import IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
-from core.geometry.path import Path
-from core.geometry.piece import Arc, Piece, Point, Turn
+from core.geometry.piece import Arc, Piece, Point, Side, Turn
 from core.tolerance import JOINED
 
 BLEND_RADII: Final = (0.0, 1.0, 0.5, 0.25, 0.1)
@@ -39,27 +39,13 @@ class NotTranslated:
     text: str
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class RewrittenStretch:
-    """A stretch's programmed elements, their lines in the program, its surface, and how to run it."""
+def rewritten_stretch(
+    source: ControlRun, stretch: Stretch, tool: int, style: IsoStyle, *, blends: bool
+) -> PassWithLeads | NotTranslated:
+    """Return a stretch of a run with a tool's number in a control's style, or why it cannot be written for it.
 
-    shape: ProgrammedElements
-    lines: tuple[int, ...]
-    stretch: Stretch
-    contour_pass: ContourPass
-    surface: Path
-
-    def end(self, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
-        """Return the path's start (`sense` 1) or end (-1), with a quarter arc of radius `blend`, or none for 0."""
-        radius, off = self.stretch.radius, offset_point((0.0, 0.0), way, self.stretch.side.sign)
-        at = point_along(point_along(corner, off, radius + blend), way, -sense * blend)
-        if not blend:
-            return PathEnd(at, corner, way, off, 0.0)
-        return PathEnd(at, point_along(at, way, -sense * radius), way, off, blend)
-
-
-def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> RewrittenStretch | NotTranslated:
-    """Return a stretch of a run with a tool's number, or why it cannot be written for another control."""
+    It has the first leads that cut nothing; `blends` allows quarter arcs.
+    """
     moves = stretch.programmed
     line = int(moves.lines[min(1, len(moves) - 1)])
     if stretch.plane is not Plane.XY:
@@ -74,10 +60,10 @@ def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> Rewri
     if len(uneven):
         return NotTranslated(f"the tool axis moves under compensation at line {int(moves.lines[rows[uneven[0]]])}")
     whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
-    shape = ProgrammedElements(tuple(map(element_of, whole)), tuple(map(float, range(1, len(rows) + 1))))
-    surface = whole.part(*contour_of(whole))
-    lines = tuple(moves.lines[rows].tolist())
-    return RewrittenStretch(shape, lines, stretch, _contour_pass(source, stretch, rows, tool), surface)
+    shape = ProgrammedElements(tuple(map(element_of, whole)), tuple(whole.numbers.tolist()))
+    surface = ProtectedContour(whole.part(*contour_of(whole)), stretch.side, stretch.radius)
+    shape = merged(shape) if style.merged else shape
+    return _with_leads(shape, stretch, _contour_pass(source, stretch, rows, tool), surface, style, blends=blends)
 
 
 def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
@@ -95,36 +81,51 @@ def _contour_pass(source: ControlRun, stretch: Stretch, rows: NDArray[np.intp], 
     moves = stretch.programmed
     depth = float(moves.points[rows[0], 2])
     up = max(float(source.moves.points[:, 2].max()), depth + MIN_LIFT)
-    given = [float(feed) or DEFAULT_FEED for feed in moves.feeds[rows].tolist()]
-    feeds = dict(enumerate((given[0], *given, given[-1])))
+    given = [
+        (line, feed or DEFAULT_FEED)
+        for line, feed in zip(moves.lines[rows].tolist(), moves.feeds[rows].tolist(), strict=True)
+    ]
+    feeds = dict(given) | {-line: feed for line, feed in (given[0], given[-1])}
     return ContourPass(
         tool=tool, diameter=2 * stretch.radius, stock=0.0, speed=1000.0, feeds=feeds, plunge_feed=DEFAULT_FEED,
         travel=up, near=up, depth=depth, leave=up,
     )  # fmt: skip
 
 
-def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> PassWithLeads | NotTranslated:
-    """Return the stretch with the first leads that cut nothing, in a control's style; `blends` allows quarter arcs."""
-    stretch, radius, turn = source.stretch, source.stretch.radius, Turn(source.stretch.side.sign)
-    shape = merged(source.shape) if style.merged else source.shape
-    first, last = shape.elements[0], shape.elements[-1]
-    surface = ProtectedContour(source.surface, stretch.side, radius)
+def _with_leads(
+    shape: ProgrammedElements,
+    stretch: Stretch,
+    contour_pass: ContourPass,
+    surface: ProtectedContour,
+    style: IsoStyle,
+    *,
+    blends: bool,
+) -> PassWithLeads | NotTranslated:
+    """Return the elements with the first leads that cut nothing."""
+    radius, first, last = stretch.radius, shape.elements[0], shape.elements[-1]
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
-        begin = source.end(first.start, first.start_direction, blend * radius, 1)
-        finish = source.end(last.end, last.end_direction, blend * radius, -1)
-        leads = clear_leads(begin, finish, style, radius, surface, _blend(begin, turn, 1), _blend(finish, turn, -1))
+        begin = _path_end(stretch, first.start, first.start_direction, blend * radius, 1)
+        finish = _path_end(stretch, last.end, last.end_direction, blend * radius, -1)
+        into, off = _blend(begin, stretch.side, 1), _blend(finish, stretch.side, -1)
+        leads = clear_leads(begin, finish, style, radius, surface, into, off)
         if not isinstance(leads, float):
-            shape = with_blends(shape, begin, finish, radius, (0.0, max(shape.segments) + 1.0))
-            return PassWithLeads(
-                source.contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1], source.contour_pass.tool
-            )
-    return NotTranslated(f"at line {source.lines[0]} there is no room for a straight move into the cut and out of it")
+            shape = with_blends(shape, begin, finish, radius, (-shape.segments[0], -shape.segments[-1]))
+            return PassWithLeads(contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1], contour_pass.tool)
+    text = f"at line {int(shape.segments[0])} there is no room for a straight move into the cut and out of it"
+    return NotTranslated(text)
 
 
-def _blend(end: PathEnd, turn: Turn, sense: int) -> tuple[Piece, ...]:
+def _path_end(stretch: Stretch, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
+    """Return the path's start (`sense` 1) or end (-1), with a quarter arc of radius `blend`, or none for 0."""
+    off = offset_point((0.0, 0.0), way, stretch.side.sign)
+    at = point_along(point_along(corner, off, stretch.radius + blend), way, -sense * blend)
+    return PathEnd(at, point_along(at, way, -sense * stretch.radius) if blend else corner, way, off, blend)
+
+
+def _blend(end: PathEnd, side: Side, sense: int) -> tuple[Piece, ...]:
     """Return the quarter arc between a straight lead and the tool's path, at its start (`sense` 1) or end (-1)."""
     if not end.blend:
         return ()
     center = point_along(end.at, end.way, sense * end.blend)
     first, last = (end.at, point_along(center, end.off, -end.blend))[::sense]
-    return (Arc(first, last, center, turn),)
+    return (Arc(first, last, center, Turn(side.sign)),)
