@@ -23,7 +23,7 @@ from shapely.geometry.base import BaseGeometry
 
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.iso.modal_state import TAKEN_AS_ZERO
-from core.controls.moves import Moves, Plane
+from core.controls.moves import Moves, Plane, runs_of
 from core.controls.rapids_at_depth import CutContour
 from core.controls.repeated_passes import PathKey, path_key
 from core.finding import Severity
@@ -31,7 +31,7 @@ from core.geometry.chords import chords_of
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Floats, Path
 from core.progress import Progress, silent
-from core.tolerance import GOUGE, ON_PATH
+from core.tolerance import GOUGE
 from core.verify.judge import judge
 from core.verify.surface import Leads
 from core.verify.verdict import Gouge
@@ -83,12 +83,8 @@ class _Pass:
 
     def low(self, top: float) -> Iterator[Path]:
         """Yield the parts of the moves that are no higher than `top`."""
-        low = self.moves.points[:, 2] <= top + ON_PATH
-        low[1:] &= low[:-1]
-        low[:1] = False
-        rows = np.flatnonzero(low)
-        for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
-            path = self.moves.part(int(part[0]) - 1, int(part[-1]) + 1).path()
+        for rows in runs_of(self.moves.low(top)):
+            path = self.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
             if len(path):
                 yield path
 

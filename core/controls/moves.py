@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Flags, Floats, Path
-from core.tolerance import JOINED
+from core.geometry.path import EMPTY, Flags, Floats, Path, Rows
+from core.tolerance import JOINED, ON_PATH
 
 Point3 = tuple[float, float, float]
 
@@ -88,8 +88,8 @@ class Moves:
     lines: NDArray[np.int32]
 
     def __post_init__(self) -> None:
-        for array in (self.points, self.centers, self.turns, self.planes, self.rapid, self.feeds, self.lines):
-            array.flags.writeable = False
+        for name in self.__slots__:
+            getattr(self, name).flags.writeable = False
 
     def __len__(self) -> int:
         return len(self.turns)
@@ -107,16 +107,14 @@ class Moves:
 
     def part(self, first: int, last: int) -> Moves:
         """Return rows first ... last - 1; row `first` becomes the start point."""
-        rows = slice(first, last)
-        return Moves(
-            self.points[rows],
-            self.centers[rows],
-            self.turns[rows],
-            self.planes[rows],
-            self.rapid[rows],
-            self.feeds[rows],
-            self.lines[rows],
-        )
+        return Moves(*(getattr(self, name)[first:last] for name in self.__slots__))
+
+    def low(self, top: float) -> Flags:
+        """Return (n,) flags of the rows that start and end no higher than `top`; the start point is none."""
+        low: Flags = self.points[:, 2] <= top + ON_PATH
+        low[1:] &= low[:-1]
+        low[:1] = False
+        return low
 
     def moving_in(self, plane: Plane) -> Flags:
         """Return (n,) flags of the rows that move in a plane."""
@@ -139,6 +137,12 @@ class Moves:
         centers = self.centers[1:][moving][:, [first, second]]
         centers = np.where(turns[:, None] == 0, points[:-1], centers)
         return Path.of(points, centers, turns, self.lines[1:][moving].astype(np.float64))
+
+
+def runs_of(flags: Flags) -> list[Rows]:
+    """Return the rows that have a flag, in groups of consecutive ones."""
+    rows = np.flatnonzero(flags)
+    return np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []
 
 
 WIDTH: Final = 11

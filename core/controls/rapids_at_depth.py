@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.moves import Move, Moves, Plane
+from core.controls.moves import Move, Moves, Plane, runs_of
 from core.controls.moves_above import surface_rows
 from core.geometry.nearby import near_pairs
-from core.geometry.path import Path, Rows
+from core.geometry.path import Flags, Path
 from core.tolerance import ON_PATH
 from core.verify.judge import judge
 from core.verify.verdict import Gouge
@@ -51,11 +51,9 @@ def rapid_walls(stretch: Stretch) -> tuple[Move, ...]:
     """Return a stretch's rapids in XY that count as its contour and are no higher than its highest cut."""
     if stretch.plane is not Plane.XY:
         return ()
-    programmed, top = stretch.programmed, highest_cut(stretch)
-    low = programmed.points[:, 2] <= top + ON_PATH
-    low[1:] &= low[:-1]
-    rows = np.flatnonzero(surface_rows(stretch) & programmed.rapid & low)
-    return tuple(programmed[row] for row in rows.tolist())
+    programmed = stretch.programmed
+    low = programmed.low(highest_cut(stretch))
+    return tuple(programmed[row] for row in np.flatnonzero(surface_rows(stretch) & programmed.rapid & low).tolist())
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,10 +74,9 @@ def moves_through(run: ControlRun, contours: Sequence[CutContour]) -> tuple[Unco
     contours = [contour for contour in contours if contour.stretch.plane is Plane.XY and len(contour.path)]
     if not contours:
         return ()
-    low = _low_rapids(run, max(contour.top for contour in contours))
     ends = np.array([stretch.last for stretch in run.stretches])
     cuts = list[UncompensatedCut]()
-    for rows in np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if len(low) else ():
+    for rows in runs_of(_low_rapids(run, max(contour.top for contour in contours))):
         moves = run.moves.part(int(rows[0]) - 1, int(rows[-1]) + 1)
         before = max(int(np.searchsorted(ends, rows[0], side="right")) - 1, 0)
         cuts += _cuts(moves, run.stretches[before].radius, contours, rapid=True)
@@ -118,20 +115,19 @@ def _feeds_beside(run: ControlRun) -> Iterator[tuple[Stretch, int, int]]:
             yield stretch, stretch.last - 1, last + 1
 
 
-def _low_rapids(run: ControlRun, top: float) -> Rows:
-    """Return the rows of rapids in the plane outside the stretches that are no higher than `top`.
+def _low_rapids(run: ControlRun, top: float) -> Flags:
+    """Return (n,) flags of the rapids in the plane outside the stretches that are no higher than `top`.
 
     The tool's height is not known before the program moves it up or down, nor at a machine position.
     """
     moves, heights = run.moves, run.moves.points[:, 2]
-    low = (heights <= top + ON_PATH) & np.logical_or.accumulate(heights != heights[0])
-    low[1:] &= low[:-1]
-    low &= moves.rapid & moves.moving_in(Plane.XY)
+    placed = np.logical_or.accumulate(heights != heights[0])
+    low = moves.low(top) & moves.rapid & moves.moving_in(Plane.XY)
+    low[1:] &= placed[:-1]
     low[list(run.unplaced)] = False
     for stretch in run.stretches:
         low[stretch.first + 1 : stretch.last] = False
-    rows: Rows = np.flatnonzero(low)
-    return rows
+    return low
 
 
 def _cuts(moves: Moves, radius: float, contours: Sequence[CutContour], *, rapid: bool) -> list[UncompensatedCut]:
