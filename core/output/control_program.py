@@ -69,57 +69,39 @@ def control_program(
     written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    style, notes = STYLES.get(control), _for_the_operator(jobs, cuts, unit, control)
+    style, notes = STYLES.get(control), [*_for_the_operator(jobs, cuts, unit, control)]
     if style is not None and not style.comments and part.strip():
         text = f"PART NAME {printable(part)} is not in the file: {shown_name(control)} has no comments."
-        notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
+        notes.append(Finding("PART_NAME", Severity.INFO, text, field="name"))
     return Posted(written.text, notes=(*notes, *written.notes))
 
 
-def _for_the_operator(
-    jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str
-) -> tuple[Finding, ...]:
-    """Return what the operator has to look after at the control."""
-    return (*_left_out(cuts), *_no_work_offset(jobs, control), *_no_coolant(jobs, control), *_inch_feed(unit, control))
-
-
-def _left_out(cuts: Sequence[PassToWrite]) -> tuple[Finding, ...]:
-    """Warn that a smaller tool may cut another contour: segments deleted by the look-ahead are not written."""
-    diameters = [cut.diameter for cut in cuts if isinstance(cut, CompensatedPass) and len(cut.compensated.deleted)]
-    if not diameters:
-        return ()
-    text = (
-        "The segments that the look-ahead deleted are not in this program: with a tool smaller than {0} it may "
-        "cut another contour. Post it again for such a tool."
-    )
-    return (Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(diameters),)),)
-
-
-def _inch_feed(unit: Unit, control: str) -> tuple[Finding, ...]:
-    """Warn that Klartext controls differ in the unit of F in a program in inches."""
-    if unit is not Unit.IN or not is_klartext(control):
-        return ()
-    text = "F is in inches per minute. A control that takes tenths of an inch per minute feeds ten times too slowly."
-    return (Finding("FEED_UNIT", Severity.WARNING, text),)
-
-
-def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
-    """Warn if the control has no word for the jobs' work offset."""
+def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[Finding]:
+    """Yield what the operator has to look after at the control."""
+    if deleted := _with_deleted_segments(cuts):
+        text = (
+            "The segments that the look-ahead deleted are not in this program: with a tool smaller than {0} it may "
+            "cut another contour. Post it again for such a tool."
+        )
+        yield Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(cut.diameter for cut in deleted),))
     style = STYLES.get(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
         name = shown_name(control)
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
-        return (Finding("WORK_OFFSET", Severity.WARNING, text),)
-    return ()
+        yield Finding("WORK_OFFSET", Severity.WARNING, text)
+    # not every control knows M7 and M8
+    if coolants := dict.fromkeys(str(job.coolant) for job in jobs if job.coolant is not Coolant.OFF):
+        text = f"COOLANT {' and '.join(coolants)} is not written for {control}; switch it on at the control."
+        yield Finding("COOLANT", Severity.WARNING, text)
+    if unit is Unit.IN and is_klartext(control):
+        text = (
+            "F is in inches per minute. A control that takes tenths of an inch per minute feeds ten times too slowly."
+        )
+        yield Finding("FEED_UNIT", Severity.WARNING, text)
 
 
-def _no_coolant(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
-    """Warn that coolant is not written: not every control knows M7 and M8."""
-    wanted = dict.fromkeys(str(job.coolant) for job in jobs if job.coolant is not Coolant.OFF)
-    if not wanted:
-        return ()
-    text = f"COOLANT {' and '.join(wanted)} is not written for {control}; switch it on at the control."
-    return (Finding("COOLANT", Severity.WARNING, text),)
+def _with_deleted_segments(cuts: Sequence[PassToWrite]) -> list[CompensatedPass]:
+    return [cut for cut in cuts if isinstance(cut, CompensatedPass) and len(cut.compensated.deleted)]
 
 
 def _header(
@@ -132,7 +114,7 @@ def _header(
     """Yield the sentences of the header below its titles."""
     compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
-    contour = "THE CONTOUR WITHOUT ITS DELETED SEGMENTS" if _left_out(cuts) else "THE CONTOUR AS TYPED"
+    contour = "THE CONTOUR WITHOUT ITS DELETED SEGMENTS" if _with_deleted_segments(cuts) else "THE CONTOUR AS TYPED"
     yield f"WRITTEN BY CUTCOMP FOR {shown_name(control)}: {contour}, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     table = "" if is_klartext(control) else ": THE CONTROL'S TABLE MUST SAY THE SAME"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import dist, hypot, isfinite
+from math import hypot, isfinite
 
 from core.geometry.piece import Arc, Line, Turn
 from core.output.passes import Job, Motion, at_one_safe_z, passes
@@ -27,32 +27,29 @@ class Times:
         """Minutes of both together."""
         return self.cut + self.rapid
 
-    def __add__(self, other: Times) -> Times:
-        return Times(self.cut + other.cut, self.rapid + other.rapid)
-
 
 def block_times(job: Job, rapid_rate: float) -> Times:
     """Return the times of a job that can be posted; `rapid_rate` in millimeters per minute."""
-    runs = [a_pass.motions for a_pass in passes(job)]
-    if not runs:
-        return Times()
-    high = Motion(runs[0][0].x, runs[0][0].y, job.safe_z), Motion(runs[-1][-1].x, runs[-1][-1].y, job.safe_z)
-    between = [(before[-1], after[0]) for before, after in pairwise(runs)]
-    joints = [(high[0], runs[0][0]), *between, (runs[-1][-1], high[1])]
-    moves = [pair for run in runs for pair in pairwise(run)]
-    rapid = [_travel(before, Motion(after.x, after.y, after.z)) for before, after in joints]
-    rapid += [_travel(before, after) for before, after in moves if after.feed is None]
-    cut = (_travel(before, after) / after.feed for before, after in moves if after.feed)
-    return Times(sum(cut), sum(rapid) / rapid_rate if rapid_rate > 0.0 else 0.0)
+    return _times(_motions(job), rapid_rate)
 
 
 def program_times(jobs: Sequence[Job], rapid_rate: float) -> Times:
     """Return the times of jobs posted together: of each block, and of the rapids between blocks at SAFE Z."""
-    level = at_one_safe_z(jobs)
-    runs = [[motion for a_pass in passes(job) for motion in a_pass.motions] for job in level]
-    across = (dist((left[-1].x, left[-1].y), (met[0].x, met[0].y)) for left, met in pairwise(filter(None, runs)))
-    rapid = sum(across) / rapid_rate if rapid_rate > 0.0 else 0.0
-    return sum((block_times(job, rapid_rate) for job in level), Times(rapid=rapid))
+    return _times([motion for job in at_one_safe_z(jobs) for motion in _motions(job)], rapid_rate)
+
+
+def _motions(job: Job) -> list[Motion]:
+    """Return the motions of a job, from SAFE Z down to its first plunge point and back up from its last point."""
+    motions = [motion for a_pass in passes(job) for motion in a_pass.motions]
+    ends = [Motion(end.x, end.y, job.safe_z) for end in (*motions[:1], *motions[-1:])]
+    return [*ends[:1], *motions, *ends[1:]]
+
+
+def _times(motions: Sequence[Motion], rapid_rate: float) -> Times:
+    moves = list(pairwise(motions))
+    rapid = sum(_travel(*move) for move in moves if move[1].feed is None)
+    cut = sum(_travel(*move) / move[1].feed for move in moves if move[1].feed)
+    return Times(cut, rapid / rapid_rate if rapid_rate > 0.0 else 0.0)
 
 
 def _travel(before: Motion, motion: Motion) -> float:
