@@ -6,7 +6,7 @@ waits until the next one is known.  The path starts and ends square to the conto
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum, auto
 from math import hypot, pi, tau
 from typing import Final, NamedTuple, NoReturn
@@ -100,19 +100,18 @@ class ProgrammedStep(NamedTuple):
 
 @dataclass(slots=True)
 class Record:
-    """Center moves on `tape`, the compensated `stretches` of them, and the open stretch's surface on `programmed`.
+    """Center moves on `tape`, and the compensated `stretches` of them.
 
-    `share` is the fraction of the tool radius that the run uses.
+    `steps` are those of the open stretch so far, the one that turns compensation on first; it begins at row `first` of
+    the tape, at the point `start`.  `share` is the fraction of the tool radius that the run uses.
     """
 
     share: float = 1.0
     tape: Tape = field(default_factory=Tape)
     stretches: list[Stretch] = field(default_factory=list)
-    programmed: Tape | None = None
-    entry: ProgrammedStep | None = None
+    steps: list[ProgrammedStep] = field(default_factory=list)
     first: int = 0
-    leaving: int = 0
-    led_out: bool = False
+    start: Point3 = (0.0, 0.0, 0.0)
 
     def at(self, step: ProgrammedStep) -> Point3:
         """Return the position of the center, in the coordinates of the step's plane."""
@@ -147,28 +146,34 @@ class Record:
 
     def open(self, step: ProgrammedStep) -> None:
         """Compensation begins: make the next moves a stretch."""
-        self.programmed, self.entry = Tape(self.tape.last), step
-        self.first, self.leaving = len(self.tape) - 1, 0
-        self.note(step)
+        self.steps, self.first, self.start = [step], len(self.tape) - 1, self.tape.last
 
-    def note(self, step: ProgrammedStep) -> None:
-        """Put the step's element on the tape of what is programmed."""
-        if self.programmed is None:
-            return
-        record_programmed(self.programmed, step.element, step.plane)
-        self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
-        self.led_out = step.role is Role.DEPARTURE
+    def note(self, *steps: ProgrammedStep) -> None:
+        """Add steps to the open stretch, if any."""
+        if self.steps:
+            self.steps += steps
 
     def close(self) -> None:
         """Compensation ends: keep the stretch, unless it has no offset or no moves yet."""
-        entry, programmed = self.entry, self.programmed
-        self.entry, self.programmed = None, None
-        if entry is None or programmed is None or not entry.offset or len(self.tape) <= self.first + 1:
+        steps, self.steps = self.steps, []
+        if not steps or not steps[0].offset or len(self.tape) <= self.first + 1:
             return
-        side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
-        radius, moves, last = abs(entry.offset) / self.share, programmed.moves(), len(self.tape)
-        stretch = Stretch(side, radius, entry.plane, moves, 1, self.leaving, self.first, last)
-        self.stretches.append(replace(stretch, led_in=entry.role is Role.APPROACH, led_out=self.led_out))
+        programmed, entry, last = Tape(self.start), steps[0], steps[-1].role
+        for step in steps:
+            record_programmed(programmed, step.element, step.plane)
+        stretch = Stretch(
+            Side.LEFT if entry.offset > 0.0 else Side.RIGHT,
+            abs(entry.offset) / self.share,
+            entry.plane,
+            programmed.moves(),
+            entry=1,
+            exit=int(last in (Role.EXIT, Role.DEPARTURE)),
+            first=self.first,
+            last=len(self.tape),
+            led_in=entry.role is Role.APPROACH,
+            led_out=last is Role.DEPARTURE,
+        )
+        self.stretches.append(stretch)
 
 
 @dataclass(slots=True)
@@ -368,13 +373,13 @@ class CenterPathRecorder:
         if isinstance(path, Unreached):
             if path.before:
                 self._run_along(steps, path.before, path.before.runs)
-                self._note_all(steps[: path.row])
+                self.record.note(*steps[: path.row])
             self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
         for row in path.left_out:
             self._tell(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
         runs, last = (path.runs[:-1], path.runs[-2:-1]) if goes_on else (path.runs, ())
         self._run_along(steps, path, runs)
-        self._note_all(steps[:-1] if goes_on else steps)
+        self.record.note(*(steps[:-1] if goes_on else steps))
         if goes_on:
             self.held, self.begin = steps[-1], last[0].end if last else path.start
 
@@ -389,10 +394,6 @@ class CenterPathRecorder:
                 self.record.arc(run.end, height, run.center, run.turn, step, None if run.corner else step.arc_feed)
             else:
                 self.record.line(run.end, height, step)
-
-    def _note_all(self, steps: list[ProgrammedStep]) -> None:
-        for step in steps:
-            self.record.note(step)
 
     def _tell(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
         self.log.tell(severity, code, text, step.element.line, step.element.column, lengths=lengths)
