@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import degrees, hypot, tau
+from math import degrees, dist, tau
 from typing import Final
 
 from core.controls.compensation.elements import sweep
@@ -22,6 +22,8 @@ from core.controls.write.contour_pass import (
     UncompensatedPass,
     WrittenLine,
     blend_of,
+    path_begin,
+    path_finish,
     programmed_elements,
 )
 from core.finding import Finding
@@ -31,7 +33,7 @@ from core.units import Unit, from_mm, to_mm
 KLARTEXT_DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
 """Decimals that the control accepts."""
 
-_Run = tuple[CompensatedPass, ProgrammedElements] | UncompensatedPass | PassWithLeads
+_Run = PassWithLeads | UncompensatedPass
 
 
 def write_klartext(
@@ -46,14 +48,15 @@ def write_klartext(
         shape = programmed_elements(cut.compensated)
         if isinstance(shape, Finding):
             return shape
-        runs.append((cut, shape))
-    lines = _Writer(unit).program(runs, cuts, name, remarks)
+        start, out = path_begin(cut.compensated).at, path_finish(cut.compensated).at
+        runs.append(PassWithLeads(cut, cut.compensated.side, shape, start, shape.elements[0].start, out, cut.tool))
+    lines = _Writer(unit).program(runs, name, remarks)
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
 def write_klartext_contours(runs: Sequence[PassWithLeads], unit: Unit) -> tuple[WrittenLine, ...]:
     """Return the lines of a program that enters and leaves contours square to them, with APPR LN and DEP LN."""
-    return tuple(_Writer(unit).program(runs, [run.contour_pass for run in runs], "CONTOUR", ()))
+    return tuple(_Writer(unit).program(runs, "CONTOUR", ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,38 +65,21 @@ class _Writer:
 
     unit: Unit
 
-    def program(
-        self, runs: Sequence[_Run], passes: Sequence[ContourPass], name: str, remarks: Sequence[str]
-    ) -> Iterator[WrittenLine]:
+    def program(self, runs: Sequence[_Run], name: str, remarks: Sequence[str]) -> Iterator[WrittenLine]:
         """Yield all lines from BEGIN PGM to END PGM: remarks after a semicolon, every tool's TOOL DEF, the runs."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield WrittenLine(f"BEGIN {frame}")
         yield from (WrittenLine(f"; {remark}") for remark in remarks)
+        passes = [run.contour_pass if isinstance(run, PassWithLeads) else run for run in runs]
         for number, diameter in {contour_pass.tool: contour_pass.diameter for contour_pass in passes}.items():
             yield WrittenLine(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
         before: ContourPass | None = None
         for run, contour_pass in zip(runs, passes, strict=True):
             yield from self.tool(contour_pass, before)
-            if isinstance(run, PassWithLeads):
-                yield from self.led(run)
-            else:
-                yield from self.plain(run) if isinstance(run, UncompensatedPass) else self.cut(*run)
+            yield from self.cut(run) if isinstance(run, PassWithLeads) else self.plain(run)
             before = contour_pass
         yield WrittenLine("M30")
         yield WrittenLine(f"END {frame}")
-
-    def led(self, run: PassWithLeads) -> Iterator[WrittenLine]:
-        """Yield a run with straight leads: down away from the contour, square to it, along, square away, up."""
-        cut, shape = run.contour_pass, run.shape
-        (x, y), (cx, cy) = run.start, run.to
-        length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
-        word, feed = "RL" if run.side is Side.LEFT else "RR", self.feed(cut.feeds[int(shape.segments[0])])
-        yield WrittenLine(f"L {self.place(run.start)} R0 FMAX")
-        yield WrittenLine(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
-        yield WrittenLine(f"APPR LN {self.place(run.to)} LEN{length} {word} F{feed}", shape.segments[0], lead=True)
-        yield from self.elements(cut, shape)
-        yield WrittenLine(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
-        yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
 
     def elements(self, cut: ContourPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
         """Yield the elements of a run with their feeds; an arc takes two lines."""
@@ -113,21 +99,31 @@ class _Writer:
             yield WrittenLine(f"TOOL CALL {cut.tool} Z S{round(cut.speed)}{stock}")
         yield WrittenLine(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
 
-    def cut(self, cut: CompensatedPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
+    def cut(self, run: PassWithLeads) -> Iterator[WrittenLine]:
         """Yield one run: down, in, along, out, up."""
-        whole = cut.compensated.whole
-        (x, y), (bx, by) = whole.points[0].tolist(), whole.points[-1].tolist()
-        yield WrittenLine(f"L {self.place((x, y))} R0 FMAX")
+        cut = run.contour_pass
+        into, off = self.leads(run)
+        yield WrittenLine(f"L {self.place(run.start)} R0 FMAX")
         yield WrittenLine(f"L Z{self.length(cut.near)} R0 FMAX")
         yield WrittenLine(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
-        first, last = shape.segments[0], shape.segments[-1]
-        word, blend = "RL" if cut.compensated.side is Side.LEFT else "RR", blend_of(cut.compensated)
-        start, radius = self.place(shape.elements[0].start), f"CCA+90 R{self.length(blend)}"
-        feed = self.feed(cut.feeds[int(first)])
-        yield WrittenLine(f"APPR CT {start} {radius} {word} F{feed}" if blend else f"L {start} {word}", first)
-        yield from self.elements(cut, shape)
-        yield WrittenLine(f"DEP CT {radius}" if blend else f"L {self.place((bx, by))} R0", last)
+        yield into
+        yield from self.elements(cut, run.shape)
+        yield off
         yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
+
+    def leads(self, run: PassWithLeads) -> tuple[WrittenLine, WrittenLine]:
+        """Return the moves into a contour and out of it: its own, or straight ones square to it."""
+        cut, first, last = run.contour_pass, run.shape.segments[0], run.shape.segments[-1]
+        word, feed = "RL" if run.side is Side.LEFT else "RR", f"F{self.feed(cut.feeds[int(first)])}"
+        start = self.place(run.to)
+        if not isinstance(cut, CompensatedPass):
+            length = self.length(dist(run.start, run.to) - cut.diameter / 2)
+            into, off = f"APPR LN {start} LEN{length} {word} {feed}", f"DEP LN LEN{length}"
+            return WrittenLine(into, first, lead=True), WrittenLine(off, last, lead=True)
+        if blend := blend_of(cut.compensated):
+            into = f"APPR CT {start} CCA+90 R{self.length(blend)} {word} {feed}"
+            return WrittenLine(into, first), WrittenLine(f"DEP CT CCA+90 R{self.length(blend)}", last)
+        return WrittenLine(f"L {start} {word}", first), WrittenLine(f"L {self.place(run.out)} R0", last)
 
     def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
         """Yield one run without compensation, move by move."""
