@@ -16,12 +16,13 @@ from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import Final
 
+from core.controls.write.contour_pass import CenterMove
 from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
 from core.finding import Finding
 from core.geometry.piece import Arc, Turn
 from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE, overridable_errors, posting_errors
-from core.output.passes import Cutter, Job, Motion, Pass, at_one_safe_z, clear_height, passes
+from core.output.passes import Cutter, Job, Pass, at_one_safe_z, clear_height, passes
 from core.program.model import Coolant
 from core.units import Unit, located_sentence
 
@@ -64,7 +65,7 @@ class _Step:
     center: str = ""
 
 
-def _nc_lines(motions: Iterable[Motion], place: ToolPosition, grid: Grid) -> tuple[list[str], ToolPosition]:
+def _nc_lines(motions: Iterable[CenterMove], place: ToolPosition, grid: Grid) -> tuple[list[str], ToolPosition]:
     """Return the motions as text, starting at `place`, and the tool's position after them.
 
     A rapid never moves Z together with X and Y: up comes before, down after.  A motion that is no move as written
@@ -79,16 +80,16 @@ def _nc_lines(motions: Iterable[Motion], place: ToolPosition, grid: Grid) -> tup
     return texts, place
 
 
-def _steps(motion: Motion, place: ToolPosition, grid: Grid) -> Iterator[_Step]:
+def _steps(motion: CenterMove, place: ToolPosition, grid: Grid) -> Iterator[_Step]:
     if motion.feed is None:
         return _rapid(motion, place)
     feed = feed_text(motion.feed, grid)
-    if motion.turn is Turn.NONE:
+    if not motion.turn:
         return iter((_Step("G1", ToolPosition(motion.x, motion.y, motion.z, feed)),))
     return _arc(motion, place, feed, grid)
 
 
-def _rapid(motion: Motion, place: ToolPosition) -> Iterator[_Step]:
+def _rapid(motion: CenterMove, place: ToolPosition) -> Iterator[_Step]:
     """Yield the rapid's steps: up, across, down."""
     high = motion.z if place.z is None else max(motion.z, place.z)
     yield _Step("G0", replace(place, z=high))
@@ -96,12 +97,12 @@ def _rapid(motion: Motion, place: ToolPosition) -> Iterator[_Step]:
     yield _Step("G0", ToolPosition(motion.x, motion.y, motion.z, place.feed))
 
 
-def _arc(motion: Motion, place: ToolPosition, feed: str, grid: Grid) -> Iterator[_Step]:
+def _arc(motion: CenterMove, place: ToolPosition, feed: str, grid: Grid) -> Iterator[_Step]:
     assert place.x is not None
     assert place.y is not None
     assert place.z is not None
-    arc = Arc((place.x, place.y), (motion.x, motion.y), motion.center, motion.turn)
-    word = "G3" if motion.turn is Turn.CCW else "G2"
+    arc = Arc((place.x, place.y), (motion.x, motion.y), motion.center, Turn(motion.turn))
+    word = "G3" if motion.turn > 0 else "G2"
     for part in arc_parts(arc, grid):
         z = motion.z if part.share == 1.0 else place.z + part.share * (motion.z - place.z)
         target = ToolPosition(*part.end, z, feed)

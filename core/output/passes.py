@@ -27,9 +27,10 @@ from typing import Final
 import numpy as np
 
 from core.advice.path_findings import ZStep
+from core.controls.write.contour_pass import CenterMove
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Floats, Path, joined
-from core.geometry.piece import Line, Piece, Point, Turn
+from core.geometry.piece import Line, Piece, Point
 from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
 
@@ -132,27 +133,6 @@ class Job:
         return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """One move from the tool's position to (x, y, z).
-
-    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `center` in the XY plane, and z
-    changes evenly with the angle; an arc that ends where it began in XY is one full turn.
-    """
-
-    x: float
-    y: float
-    z: float
-    feed: float | None = None
-    turn: Turn = Turn.NONE
-    center: Point = (0.0, 0.0)
-
-    @property
-    def rapid(self) -> bool:
-        """True without a feed: the move is as fast as the machine can."""
-        return self.feed is None
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Pass:
     """One run at one depth, from above its plunge point to above its end.
@@ -172,7 +152,7 @@ class Pass:
     count: int
     stock: float
     finishing: bool
-    motions: tuple[Motion, ...]
+    motions: tuple[CenterMove, ...]
 
 
 def level_floor(job: Job) -> bool:
@@ -344,7 +324,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
                 *_down(job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)),
                 *_milled(job, run, floor, level),
             )
-            up = Motion(motions[-1].x, motions[-1].y, safe if done == last else clear_height(job))
+            up = CenterMove(motions[-1].x, motions[-1].y, safe if done == last else clear_height(job))
             yield Pass(
                 block=job.block,
                 cutter=stage.cutter,
@@ -360,25 +340,25 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
             )
 
 
-def _down(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[Motion]:
+def _down(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[CenterMove]:
     """Yield rapids to the plunge point and the clearance, then a feed to `depth`; `before` is the last depth there."""
     assert run.plunge_point is not None
     x, y = run.plunge_point
     near = clear_height(job) if before is None else min(before + job.peck_clearance, clear_height(job))
-    yield Motion(x, y, height)
+    yield CenterMove(x, y, height)
     if near < height:
-        yield Motion(x, y, near)
-    yield Motion(x, y, depth, job.plunge_feed)
+        yield CenterMove(x, y, near)
+    yield CenterMove(x, y, depth, job.plunge_feed)
 
 
-def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[Motion]:
+def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[CenterMove]:
     """Yield the run at `level`, lifted where the floor is higher."""
     whole = run.whole
     feeds = _feeds(job, run)
     z = max(level, float(floors[0, 0]))
     for piece, feed, (low, high) in zip(whole, feeds, floors.tolist(), strict=True):
         if abs(max(low, level) - z) > JOINED:
-            yield Motion(*piece.start, max(low, level), job.plunge_feed if max(low, level) < z else feed)
+            yield CenterMove(*piece.start, max(low, level), job.plunge_feed if max(low, level) < z else feed)
         yield from _piece_at_level(piece, feed, (low, high), level)
         z = max(high, level)
 
@@ -390,7 +370,7 @@ def _feeds(job: Job, run: CenterPath) -> list[float]:
     return [path[0]] * len(run.lead_in) + path + [path[-1]] * len(run.lead_out)
 
 
-def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level: float) -> Iterator[Motion]:
+def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level: float) -> Iterator[CenterMove]:
     """Yield one piece over a floor from `floor[0]` to `floor[1]`, never below `level`; split where they meet."""
     low, high = floor
     if (low - level) * (high - level) < 0.0:
@@ -399,7 +379,5 @@ def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level
     yield _motion(piece, feed, piece.end, max(high, level))
 
 
-def _motion(piece: Piece, feed: float, end: Point, z: float) -> Motion:
-    if isinstance(piece, Line):
-        return Motion(*end, z, feed)
-    return Motion(*end, z, feed, piece.turn, piece.center)
+def _motion(piece: Piece, feed: float, end: Point, z: float) -> CenterMove:
+    return CenterMove(*end, z, feed) if isinstance(piece, Line) else CenterMove(*end, z, feed, piece.turn, piece.center)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot, isfinite
 
+from core.controls.write.contour_pass import CenterMove
 from core.geometry.piece import Arc, Line, Turn
-from core.output.passes import Job, Motion, at_one_safe_z, passes
+from core.output.passes import Job, at_one_safe_z, passes
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,25 +39,24 @@ def program_times(jobs: Sequence[Job], rapid_rate: float) -> Times:
     return _times([motion for job in at_one_safe_z(jobs) for motion in _motions(job)], rapid_rate)
 
 
-def _motions(job: Job) -> list[Motion]:
+def _motions(job: Job) -> list[CenterMove]:
     """Return the motions of a job, from SAFE Z down to its first plunge point and back up from its last point."""
     motions = [motion for a_pass in passes(job) for motion in a_pass.motions]
-    ends = [Motion(end.x, end.y, job.safe_z) for end in (*motions[:1], *motions[-1:])]
+    ends = [CenterMove(end.x, end.y, job.safe_z) for end in (*motions[:1], *motions[-1:])]
     return [*ends[:1], *motions, *ends[1:]]
 
 
-def _times(motions: Sequence[Motion], rapid_rate: float) -> Times:
+def _times(motions: Sequence[CenterMove], rapid_rate: float) -> Times:
     moves = list(pairwise(motions))
     rapid = sum(_travel(*move) for move in moves if move[1].feed is None)
     cut = sum(_travel(*move) / move[1].feed for move in moves if move[1].feed)
     return Times(cut, rapid / rapid_rate if rapid_rate > 0.0 else 0.0)
 
 
-def _travel(before: Motion, motion: Motion) -> float:
+def _travel(before: CenterMove, motion: CenterMove) -> float:
     """Return the length of a move in millimeters."""
     ends = (before.x, before.y), (motion.x, motion.y)
-    straight = motion.turn is Turn.NONE
-    piece = Line(*ends) if straight else Arc(*ends, motion.center, motion.turn)
+    piece = Arc(*ends, motion.center, Turn(motion.turn)) if motion.turn else Line(*ends)
     return hypot(piece.length, motion.z - before.z)
 
 

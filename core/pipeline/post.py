@@ -9,10 +9,10 @@ from core.comp.compensated import Compensated
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
-from core.geometry.piece import Arc
+from core.geometry.piece import Arc, Turn
 from core.output.control_program import control_program, control_program_errors
 from core.output.nc import Posted, Refusal, center_path_program
-from core.output.passes import Job, Motion, Pass, passes
+from core.output.passes import Job, Pass, passes
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import jobs
 from core.program.model import PathChoice
@@ -70,7 +70,7 @@ def _uncompensated(a_pass: Pass, job: Job) -> UncompensatedPass:
     )
 
 
-def _travels(motions: Sequence[Motion]) -> Iterator[CenterMove]:
+def _travels(motions: Sequence[CenterMove]) -> Iterator[CenterMove]:
     """Yield the moves; an arc whose end is next to its start becomes a line, or two halves, not a full circle.
 
     The digits of most controls cannot tell such an end from the start.
@@ -78,14 +78,14 @@ def _travels(motions: Sequence[Motion]) -> Iterator[CenterMove]:
     before = motions[0]
     for motion in motions:
         start, end = (before.x, before.y), (motion.x, motion.y)
-        turn, center, z = int(motion.turn), motion.center, (before.z + motion.z) / 2
+        turn, center, z = motion.turn, motion.center, (before.z + motion.z) / 2
         if turn and start != end and max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
-            sweep = Arc(start, end, center, motion.turn).sweep
+            sweep = Arc(start, end, center, Turn(turn)).sweep
             if abs(sweep) < pi:
                 turn = 0
             else:
                 yield CenterMove(*rotated(start, center, sweep / 2), z, motion.feed, turn, center)
-        yield CenterMove(*end, motion.z, motion.feed, turn, center)
+        yield motion._replace(turn=turn)
         before = motion
 
 

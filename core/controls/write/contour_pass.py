@@ -34,14 +34,23 @@ MAX_GAP: Final = 0.001
 
 
 class CenterMove(NamedTuple):
-    """A move of the tool's center as it must be made: end, feed (None at rapid), and an arc's turn and center."""
+    """A move of the tool's center to (x, y, z), a rapid without a `feed`.
+
+    `turn` 0 is a straight move; else the tool turns about `center` in the XY plane, and z changes evenly with the
+    angle; an arc that ends where it began in XY is one full turn.
+    """
 
     x: float
     y: float
     z: float
-    feed: float | None
-    turn: int
-    center: Point
+    feed: float | None = None
+    turn: int = 0
+    center: Point = (0.0, 0.0)
+
+    @property
+    def rapid(self) -> bool:
+        """True without a feed: the move is as fast as the machine can."""
+        return self.feed is None
 
 
 class WrittenLine(NamedTuple):

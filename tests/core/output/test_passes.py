@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.controls.write.contour_pass import CenterMove
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
 from core.output.passes import (
@@ -12,7 +13,6 @@ from core.output.passes import (
     Cutter,
     Floor,
     Job,
-    Motion,
     Pass,
     heights,
     levels,
@@ -27,8 +27,8 @@ OUTER = polyline((0, 0.1), (1.9, 0.1), (1.9, 1))
 RING = polyline((0, 0), (1, 0), (1, 1), (0, 1), (0, 0))
 
 
-def shown(motion: Motion) -> tuple[str, float, float, float]:
-    word = "G0" if motion.rapid else "G1" if motion.turn is Turn.NONE else "G3" if motion.turn is Turn.CCW else "G2"
+def shown(motion: CenterMove) -> tuple[str, float, float, float]:
+    word = "G0" if motion.rapid else "G1" if motion.turn == Turn.NONE else "G3" if motion.turn == Turn.CCW else "G2"
     return word, *(round(value / INCH, 9) + 0.0 for value in (motion.x, motion.y, motion.z))  # type: ignore[return-value]  # four of them
 
 

@@ -11,9 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from core.controls.write.contour_pass import CenterMove
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.output.nc import Posted, center_path_program
-from core.output.passes import CenterPath, Cutter, Job, Motion, passes
+from core.output.passes import CenterPath, Cutter, Job, passes
 from core.units import Unit
 from tests import rs274
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -34,7 +35,7 @@ def expected(one: Job, unit: Unit) -> list[tuple[float, ...]]:
     return found[:1] + [row for before, row in pairwise(found) if row[:3] != before[:3] or row[5]]
 
 
-def _row(motion: Motion, scale: float) -> tuple[float, ...]:
+def _row(motion: CenterMove, scale: float) -> tuple[float, ...]:
     center = motion.center if motion.turn is not Turn.NONE else (0.0, 0.0)
     return (*(value / scale for value in (motion.x, motion.y, motion.z, *center)), float(motion.turn))
 
