@@ -11,8 +11,8 @@ There is no % line: LinuxCNC needs none, and a lone one would end the file.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from textwrap import wrap
 from typing import Final
 
@@ -46,82 +46,56 @@ def comments(text: str) -> Iterator[str]:
         yield f"(* {line})" if ACTIVE.match(line) else f"({line})"
 
 
-@dataclass(frozen=True, slots=True)
-class ToolPosition:
-    """The tool's position in millimeters, and the feed in force as text; an axis not known yet is None."""
+Place = tuple[float | None, float | None, float | None]
+"""X, Y and Z in millimeters; None for an axis whose position is not known yet."""
 
-    x: float | None = None
-    y: float | None = None
-    z: float | None = None
+
+@dataclass(slots=True)
+class _MoveWriter:
+    """Writes motions as text, with the tool's position and the feed in force, as text, before the next one."""
+
+    grid: Grid
+    place: Place = (None, None, None)
     feed: str = ""
 
+    def motion(self, motion: CenterMove) -> Iterator[str]:
+        """Yield the lines of a motion.
 
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """One future line: its G word, its end, and for an arc its I and J."""
+        A rapid never moves Z together with X and Y: up comes before, down after.
+        """
+        x, y, z = self.place
+        if motion.feed is None:
+            high = motion.z if z is None else max(motion.z, z)
+            for end in ((x, y, high), (motion.x, motion.y, high), (motion.x, motion.y, motion.z)):
+                yield from self.move("G0", end, self.feed)
+            return
+        feed = feed_text(motion.feed, self.grid)
+        if not motion.turn:
+            yield from self.move("G1", (motion.x, motion.y, motion.z), feed)
+            return
+        assert x is not None
+        assert y is not None
+        assert z is not None
+        arc = Arc((x, y), (motion.x, motion.y), motion.center, Turn(motion.turn))
+        for part in arc_parts(arc, self.grid):
+            end = (*part.end, motion.z if part.share == 1.0 else z + part.share * (motion.z - z))
+            if part.center is None:
+                yield from self.move("G1", end, feed)
+            else:
+                i, j = (self.grid.text(steps, FINER) for steps in part.center)
+                yield from self.move("G3" if motion.turn > 0 else "G2", end, feed, f" I{i} J{j}")
 
-    word: str
-    target: ToolPosition
-    center: str = ""
-
-
-def _nc_lines(motions: Iterable[CenterMove], place: ToolPosition, grid: Grid) -> tuple[list[str], ToolPosition]:
-    """Return the motions as text, starting at `place`, and the tool's position after them.
-
-    A rapid never moves Z together with X and Y: up comes before, down after.  A motion that is no move as written
-    is left out.
-    """
-    texts: list[str] = []
-    for motion in motions:
-        for step in _steps(motion, place, grid):
-            text = _line(step, place, grid)
-            place = step.target if text else replace(step.target, feed=place.feed)
-            texts += [text] if text else []
-    return texts, place
-
-
-def _steps(motion: CenterMove, place: ToolPosition, grid: Grid) -> Iterator[_Step]:
-    if motion.feed is None:
-        return _rapid(motion, place)
-    feed = feed_text(motion.feed, grid)
-    if not motion.turn:
-        return iter((_Step("G1", ToolPosition(motion.x, motion.y, motion.z, feed)),))
-    return _arc(motion, place, feed, grid)
-
-
-def _rapid(motion: CenterMove, place: ToolPosition) -> Iterator[_Step]:
-    """Yield the rapid's steps: up, across, down."""
-    high = motion.z if place.z is None else max(motion.z, place.z)
-    yield _Step("G0", replace(place, z=high))
-    yield _Step("G0", ToolPosition(motion.x, motion.y, high, place.feed))
-    yield _Step("G0", ToolPosition(motion.x, motion.y, motion.z, place.feed))
-
-
-def _arc(motion: CenterMove, place: ToolPosition, feed: str, grid: Grid) -> Iterator[_Step]:
-    assert place.x is not None
-    assert place.y is not None
-    assert place.z is not None
-    arc = Arc((place.x, place.y), (motion.x, motion.y), motion.center, Turn(motion.turn))
-    word = "G3" if motion.turn > 0 else "G2"
-    for part in arc_parts(arc, grid):
-        z = motion.z if part.share == 1.0 else place.z + part.share * (motion.z - place.z)
-        target = ToolPosition(*part.end, z, feed)
-        if part.center is None:
-            yield _Step("G1", target)
-        else:
-            i, j = (grid.text(steps, FINER) for steps in part.center)
-            yield _Step(word, target, f" I{i} J{j}")
-
-
-def _line(step: _Step, place: ToolPosition, grid: Grid) -> str:
-    """Return the step as text, empty if nothing moves."""
-    target, axes = step.target, ""
-    for name, old, new in (("X", place.x, target.x), ("Y", place.y, target.y), ("Z", place.z, target.z)):
-        moved = new is not None and (old is None or grid.steps(old) != grid.steps(new))
-        if new is not None and (moved or (step.center and name != "Z")):
-            axes += f" {name}{grid.text(grid.steps(new))}"
-    feed = f" F{target.feed}" if target.feed != place.feed else ""
-    return f"{step.word}{axes}{step.center}{feed}" if axes else ""
+    def move(self, word: str, end: Place, feed: str, center: str = "") -> Iterator[str]:
+        """Yield the line of one G word, with an arc's I and J; none if nothing moves as written."""
+        axes = ""
+        for name, old, new in zip("XYZ", self.place, end, strict=True):
+            moved = new is not None and (old is None or self.grid.steps(old) != self.grid.steps(new))
+            if new is not None and (moved or (center and name != "Z")):
+                axes += f" {name}{self.grid.text(self.grid.steps(new))}"
+        self.place = end
+        if axes:
+            yield f"{word}{axes}{center}{f' F{feed}' if feed != self.feed else ''}"
+            self.feed = feed
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,21 +203,21 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     inch = grid.unit is Unit.IN
     yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
     yield f"G64 P{CORNER_TOLERANCE[grid.unit]}"
-    place, tool, speed, coolant = ToolPosition(), None, 0.0, Coolant.OFF
+    writer, tool, speed, coolant = _MoveWriter(grid), None, 0.0, Coolant.OFF
     for job in jobs:
         for a_pass in passes(job):
             changed = a_pass.cutter.number != tool
             if changed:
                 yield from _coolant_change(coolant, Coolant.OFF)
                 yield from _tool_change(a_pass, first=tool is None)
-                tool, speed, place, coolant = a_pass.cutter.number, a_pass.speed, ToolPosition(), Coolant.OFF
+                writer, tool, speed, coolant = _MoveWriter(grid), a_pass.cutter.number, a_pass.speed, Coolant.OFF
             elif a_pass.speed != speed:
                 yield f"S{speed_text(a_pass.speed)}"
                 speed = a_pass.speed
             yield from _coolant_change(coolant, job.coolant)
             coolant = job.coolant
             yield from comments(_title(a_pass, grid.unit))
-            lines, place = _nc_lines(a_pass.motions, place, grid)
+            lines = [line for motion in a_pass.motions for line in writer.motion(motion)]
             yield from _with_length(lines, a_pass.cutter.number) if changed else lines
     yield from _coolant_change(coolant, Coolant.OFF)
     yield "M5"

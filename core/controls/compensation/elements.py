@@ -92,6 +92,15 @@ def offset_end(element: Element, offset: float) -> Point:
     return offset_point(element.end, element.end_direction, offset)
 
 
+def element_point(element: Element, point: Point, offset: float) -> Point:
+    """Return the point of an element that belongs to a point of its offset, the inverse of `offset_point`."""
+    if not element.turn:
+        return offset_point(point, element.start_direction, -offset)
+    share = element.radius / offset_radius(element, offset)
+    (x, y), (cx, cy) = point, element.center
+    return cx + (x - cx) * share, cy + (y - cy) * share
+
+
 def turn_angle(first: Element, second: Element) -> float:
     """Return the angle from the end of one element to the start of the next, radians, positive to the left."""
     (ax, ay), (bx, by) = first.end_direction, second.start_direction

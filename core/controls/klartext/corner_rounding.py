@@ -88,12 +88,12 @@ def rounding(first: Element, second: Element, radius: float) -> Blended | str:
     center = elements.meeting(ending, second, offset)
     if center is None:
         return "No arc of this radius touches both blocks. Write a smaller R."
-    start, end = _touch(ending, center, offset), _touch(second, center, offset)
+    start, end = (elements.element_point(element, center, offset) for element in (ending, second))
     if not _lies_on(first, start) or not _lies_on(second, end):
         return "The rounding is longer than the blocks it joins. Write a smaller R."
     turn = 1 if angle > 0.0 else -1
     arc = arc_element(start, end, center, turn, first.end_height, first.end_height, first.feed, first.line)
-    return _cut_end(first, start), arc, _cut_start(second, end)
+    return _cut(first, first.start, start), arc, _cut(second, end, second.end)
 
 
 def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
@@ -107,20 +107,11 @@ def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
     if not _lies_on(first, start) or not _lies_on(second, end):
         return "The chamfer is longer than the blocks it joins. Write a shorter one."
     between = line_element(start, end, first.end_height, first.end_height, first.rapid, first.feed, first.line)
-    return _cut_end(first, start), between, _cut_start(second, end)
+    return _cut(first, first.start, start), between, _cut(second, end, second.end)
 
 
 def _level(first: Element, second: Element) -> bool:
     return first.start_height == first.end_height == second.start_height == second.end_height
-
-
-def _touch(element: Element, center: Point, offset: float) -> Point:
-    """Return where a circle about `center`, `offset` to the left of the element, touches it."""
-    if not element.turn:
-        return elements.offset_point(center, element.start_direction, -offset)
-    (x, y), (cx, cy) = center, element.center
-    share = element.radius / hypot(x - cx, y - cy)
-    return cx + (x - cx) * share, cy + (y - cy) * share
 
 
 def _lies_on(element: Element, point: Point) -> bool:
@@ -131,13 +122,9 @@ def _lies_on(element: Element, point: Point) -> bool:
     return elements.sweep(element.start, point, element.center, element.turn) <= elements.element_sweep(element)
 
 
-def _cut_end(element: Element, end: Point) -> Element:
+def _cut(element: Element, start: Point, end: Point) -> Element:
+    """Return an element between two of its points."""
     if not element.turn:
-        return element._replace(end=end)
-    return element._replace(end=end, end_direction=elements.tangent(end, element.center, element.turn))
-
-
-def _cut_start(element: Element, start: Point) -> Element:
-    if not element.turn:
-        return element._replace(start=start, center=start)
-    return element._replace(start=start, start_direction=elements.tangent(start, element.center, element.turn))
+        return element._replace(start=start, end=end, center=start)
+    first, last = (elements.tangent(at, element.center, element.turn) for at in (start, end))
+    return element._replace(start=start, end=end, start_direction=first, end_direction=last)

@@ -16,11 +16,11 @@ from core.comp.compensated import Compensated
 from core.controls.compensation.elements import (
     Element,
     arc_element,
+    element_point,
     element_sweep,
     line_element,
     meeting,
     offset_point,
-    offset_radius,
     point_along,
 )
 from core.finding import Finding, Severity
@@ -114,7 +114,7 @@ class ProgrammedElements:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PassWithLeads:
-    """A pass with its leads: the elements, the points where it starts and ends, and its offset number.
+    """A pass with its leads: the elements, and the points where it starts and ends.
 
     The entry ends at the programmed point `to`.
     """
@@ -125,7 +125,6 @@ class PassWithLeads:
     start: Point
     to: Point
     out: Point
-    offset_number: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,8 +170,8 @@ def programmed_elements(compensated: Compensated) -> ProgrammedElements | Findin
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
     again = overlap(compensated)
     first_point, last_point = _point(compensated.path, 0), _point(again if len(again) else compensated.path, -1)
-    elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_point, offset)))
-    elements[-1] = _whole(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_point, offset)))
+    elements[0] = _whole(elements[0], elements[0]._replace(start=element_point(elements[0], first_point, offset)))
+    elements[-1] = _whole(elements[-1], elements[-1]._replace(end=element_point(elements[-1], last_point, offset)))
     return ProgrammedElements(tuple(map(_rebuilt, elements)), tuple(numbers))
 
 
@@ -222,15 +221,6 @@ def _rebuilt(element: Element) -> Element:
     if element.turn and not (short and element_sweep(element) < pi):
         return arc_element(element.start, element.end, element.center, element.turn)
     return line_element(element.start, element.end)
-
-
-def _surface(element: Element, point: Point, offset: float) -> Point:
-    """Return the point of an element that belongs to a point of its offset."""
-    if not element.turn:
-        return offset_point(point, element.start_direction, -offset)
-    share = element.radius / offset_radius(element, offset)
-    (x, y), (cx, cy) = point, element.center
-    return cx + (x - cx) * share, cy + (y - cy) * share
 
 
 def path_begin(compensated: Compensated) -> PathEnd:
