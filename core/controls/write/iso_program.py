@@ -6,7 +6,7 @@ straight line onto the blend, and leaves the same way; without a blend the line 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Final
@@ -34,11 +34,10 @@ CORNER_TOLERANCE: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Settings for the whole program: unit, work offset (54 to 59), corner code of a 9/Series (G39 or G39.1)."""
+    """Settings for the whole program: unit and work offset (54 to 59)."""
 
     unit: Unit
     work_offset: int = 54
-    corners: str = ""
 
 
 def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, float], int]:
@@ -70,44 +69,37 @@ def write_iso(
     cuts: Sequence[PassWithLeads | UncompensatedPass], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
 ) -> tuple[WrittenLine, ...]:
     """Return the lines of the program; `remarks` are ready comment lines, which follow the style's head."""
-    return tuple(_Writer(style, frame).program(cuts, remarks))
+    passes = [run if isinstance(run, UncompensatedPass) else run.contour_pass for run in cuts]
+    writer = _Writer(style, frame, offsets(passes, style))
+    unit = style.inch if frame.unit is Unit.IN else style.metric
+    offset, rounding = f"G{frame.work_offset}", CORNER_TOLERANCE[frame.unit]
+    texts = [*style.head, *(remarks if style.comments else ())]
+    texts += [safe.format(unit=unit, offset=offset, rounding=rounding) for safe in style.safe]
+    if style.corner_code:
+        texts.append(style.corner_code)
+    lines = [WrittenLine(text) for text in texts]
+    before: ContourPass | None = None
+    for run, contour_pass in zip(cuts, passes, strict=True):
+        lines += writer.tool(contour_pass, before)
+        lines += writer.plain(run) if isinstance(run, UncompensatedPass) else writer.cut(run)
+        before = contour_pass
+    return (*lines, *map(WrittenLine, ("M5", "M30", *style.tail)))
 
 
 class _Writer:
-    """Writes words in one style.
+    """Writes words in one style, with `offsets` by tool and stock.
 
     `feed`, `height` and `at` are the modal state, as text; `tool_length` has the words for the next rapid in Z.
     """
 
-    def __init__(self, style: IsoStyle, frame: Frame) -> None:
+    def __init__(self, style: IsoStyle, frame: Frame, offsets: Mapping[tuple[int, float], int]) -> None:
         self.style = style
-        self.frame = frame
+        self.unit = frame.unit
+        self.offsets = offsets
         self.feed = ""
         self.height = ""
         self.at: tuple[str, str] = ("", "")
         self.tool_length: tuple[str, ...] = ()
-
-    def program(
-        self, cuts: Sequence[PassWithLeads | UncompensatedPass], remarks: Sequence[str]
-    ) -> Iterator[WrittenLine]:
-        """Yield all lines, from the first one to the end."""
-        yield from (WrittenLine(text) for text in self.style.head)
-        yield from (WrittenLine(remark) for remark in remarks if self.style.comments)
-        unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
-        offset = f"G{self.frame.work_offset}"
-        for safe in self.style.safe:
-            yield WrittenLine(safe.format(unit=unit, offset=offset, rounding=CORNER_TOLERANCE[self.frame.unit]))
-        if self.frame.corners:
-            yield WrittenLine(self.frame.corners)
-        before: ContourPass | None = None
-        for run in cuts:
-            contour_pass = run if isinstance(run, UncompensatedPass) else run.contour_pass
-            yield from self.tool(contour_pass, before)
-            yield from self.plain(run) if isinstance(run, UncompensatedPass) else self.cut(run)
-            before = contour_pass
-        yield WrittenLine("M5")
-        yield WrittenLine("M30")
-        yield from (WrittenLine(text) for text in self.style.tail)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
         """Yield the changes of tool, tool data and speed; F is written again after one, where a run may restart."""
@@ -147,7 +139,6 @@ class _Writer:
         yield from self.rapid(cut.leave)
 
     def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
-        """Yield one run without compensation, move by move."""
         yield from self.rapid(run.travel)
         first, *rest = run.travels
         yield self.words("G0", *self.place((first.x, first.y)))._replace(travel=first)
@@ -175,7 +166,6 @@ class _Writer:
             yield self.words("G0", *length, text)
 
     def code(self, run: PassWithLeads) -> str:
-        """Return G41 with the tool on the left, else G42."""
         return "G41" if run.side is Side.LEFT else "G42"
 
     def switch(self, run: PassWithLeads) -> tuple[str, ...]:
@@ -183,9 +173,9 @@ class _Writer:
         code, cut = self.code(run), run.contour_pass
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
-        if cut.stock and self.style.radius is Radius.REDUCED:
-            return code, f"D{run.offset_number}", f"I{self.length(-cut.stock)}"
-        return code, f"D{run.offset_number}"
+        offset = f"D{self.offsets[cut.tool, cut.stock]}"
+        reduced = cut.stock and self.style.radius is Radius.REDUCED
+        return (code, offset, f"I{self.length(-cut.stock)}") if reduced else (code, offset)
 
     def element(self, element: Element, feed: float, segment: float) -> Iterator[WrittenLine]:
         """Yield one element; skip it if it makes no move as written."""
@@ -199,11 +189,10 @@ class _Writer:
 
     def center(self, center: Point, start: tuple[str, str]) -> tuple[str, str]:
         """Return I and J, from the origin or from the start as written."""
-        unit = self.frame.unit
-        x, y = (from_mm(value, unit) for value in center)
+        x, y = (from_mm(value, self.unit) for value in center)
         if not self.style.absolute:
             x, y = x - float(start[0][1:]), y - float(start[1][1:])
-        digits = self.style.digits(unit)
+        digits = self.style.digits(self.unit)
         return f"I{number_text(x, Unit.MM, digits)}", f"J{number_text(y, Unit.MM, digits)}"
 
     def place(self, point: Point) -> tuple[str, str]:
@@ -212,19 +201,17 @@ class _Writer:
         return self.at
 
     def length(self, value: float) -> str:
-        """Return a length in millimeters as text in program units, with its decimal point."""
-        return number_text(value, self.frame.unit, self.style.digits(self.frame.unit))
+        return number_text(value, self.unit, self.style.digits(self.unit))
 
     def feed_word(self, feed: float) -> tuple[str, ...]:
         """Return the F word if the feed changes."""
-        text = f"F{number_text(feed, self.frame.unit, 3)}"
+        text = f"F{number_text(feed, self.unit, 3)}"
         if text == self.feed:
             return ()
         self.feed = text
         return (text,)
 
     def words(self, *words: str, segment: float | None = None) -> WrittenLine:
-        """Return words as a line."""
         return WrittenLine((" " if self.style.spaced else "").join(words), segment)
 
 

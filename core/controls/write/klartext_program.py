@@ -49,7 +49,7 @@ def write_klartext(
         if isinstance(shape, Finding):
             return shape
         start, out = path_begin(cut.compensated).at, path_finish(cut.compensated).at
-        runs.append(PassWithLeads(cut, cut.compensated.side, shape, start, shape.elements[0].start, out, cut.tool))
+        runs.append(PassWithLeads(cut, cut.compensated.side, shape, start, shape.elements[0].start, out))
     lines = _Writer(unit).program(runs, name, remarks)
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
@@ -126,7 +126,6 @@ class _Writer:
         return WrittenLine(f"L {start} {word}", first), WrittenLine(f"L {self.place(run.out)} R0", last)
 
     def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
-        """Yield one run without compensation, move by move."""
         x, y, z = self.at((0.0, 0.0), run.travel)
         for travel in run.travels:
             start, (x, y, z) = (x, y, z), self.at((travel.x, travel.y), travel.z)
@@ -147,7 +146,6 @@ class _Writer:
                 yield WrittenLine(f"CP IPA{sense}{angle:.6f} {z} DR{sense} R0 {feed}", travel=travel)
 
     def at(self, point: Point, height: float) -> tuple[str, str, str]:
-        """Return X, Y and Z as words."""
         return f"X{self.length(point[0])}", f"Y{self.length(point[1])}", f"Z{self.length(height)}"
 
     def turned(self, start: tuple[str, str, str], end: tuple[str, str], travel: CenterMove) -> float:
@@ -156,7 +154,6 @@ class _Writer:
         return degrees(sweep((sx, sy), (ex, ey), travel.center, travel.turn) or tau)
 
     def place(self, point: Point) -> str:
-        """Return X and Y as words."""
         return f"X{self.length(point[0])} Y{self.length(point[1])}"
 
     def length(self, value: float) -> str:
@@ -165,5 +162,4 @@ class _Writer:
         return "+0" if text in ("+0", "-0", "+", "-") else text
 
     def feed(self, value: float) -> str:
-        """Return a feed as text."""
         return f"{from_mm(value, self.unit):.3f}".rstrip("0").rstrip(".")

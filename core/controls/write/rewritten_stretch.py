@@ -110,7 +110,7 @@ def _with_leads(
         leads = clear_leads(begin, finish, style, radius, surface, into, off)
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (-shape.segments[0], -shape.segments[-1]))
-            return PassWithLeads(contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1], contour_pass.tool)
+            return PassWithLeads(contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1])
     text = f"at line {int(shape.segments[0])} there is no room for a straight move into the cut and out of it"
     return NotTranslated(text)
 

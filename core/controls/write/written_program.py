@@ -20,7 +20,7 @@ from core.controls.write.contour_pass import (
     path_finish,
     programmed_elements,
 )
-from core.controls.write.iso_program import Frame, offsets, tools_of
+from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import Intended, read_back
@@ -74,34 +74,32 @@ def _klartext(
 
 def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
     style = STYLES[control]
-    numbers = offsets(cuts, style)
     led: dict[Compensated, PassWithLeads | Finding] = {}
     for cut in cuts:
         if isinstance(cut, CompensatedPass) and cut.compensated not in led:
-            result = _with_clear_leads(cut, style, numbers[cut.tool, cut.stock])
+            result = _with_clear_leads(cut, style)
             led[cut.compensated] = replace(result, block=cut.block) if isinstance(result, Finding) else result
     refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
     if refusals:
         return NotWritten(refusals)
-    runs = [cut if isinstance(cut, UncompensatedPass) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
-    frame, tools = replace(frame, corners=style.corner_code), tools_of(cuts, style)
+    runs = [cut if isinstance(cut, UncompensatedPass) else _run(cut, led) for cut in cuts]
     digit = to_mm(10.0 ** -style.digits(frame.unit), frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended:
         lines = iso_program.write_iso(runs, style, frame, remarks(notes))
-        return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=True)
+        return Intended(control, lines, tuple(cuts), tools_of(cuts, style), frame.unit, digit, leads=True)
 
     return _confirmed(write)
 
 
-def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding], offset: int) -> PassWithLeads:
+def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding]) -> PassWithLeads:
     """Return a cut with the leads that all cuts of its contour share."""
     run = led[cut.compensated]
     assert isinstance(run, PassWithLeads)
-    return replace(run, contour_pass=cut, offset_number=offset)
+    return replace(run, contour_pass=cut)
 
 
-def _with_clear_leads(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:
+def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | Finding:
     """Return the cut with the longest leads that cut nothing, or why there is none."""
     compensated, radius = cut.compensated, cut.compensated.radius
     first, last = path_begin(compensated), path_finish(compensated)
@@ -118,7 +116,7 @@ def _with_clear_leads(cut: CompensatedPass, style: IsoStyle, offset: int) -> Pas
         return shape
     ends = shape.segments[0], shape.segments[-1]
     shape = with_blends(merged(shape) if style.merged else shape, first, last, radius, ends)
-    return PassWithLeads(cut, compensated.side, shape, leads[0], first.corner, leads[1], offset)
+    return PassWithLeads(cut, compensated.side, shape, leads[0], first.corner, leads[1])
 
 
 def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
