@@ -29,7 +29,7 @@ import numpy as np
 from core.advice.path_findings import ZStep
 from core.controls.write.contour_pass import CenterMove
 from core.finding import Finding, Severity
-from core.geometry.path import EMPTY, Floats, Path, joined
+from core.geometry.path import EMPTY, Floats, Path, Pieces, joined, pieces_of, swept
 from core.geometry.piece import Line, Piece, Point
 from core.program.model import Coolant
 from core.tolerance import CLOSED, JOINED, LAST_PASS
@@ -193,53 +193,32 @@ def z_steps(job: Job) -> list[ZStep]:
     return steps
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Floors:
-    """The programmed contour: its floors and the row of each segment by number, and the arcs' angles."""
-
-    surface: Path
-    floors: dict[int, Floor]
-    rows: dict[int, int]
-    sweeps: Floats
-
-
 def _floor_heights(job: Job, path: Path) -> Floats:
-    rows = {int(number): row for row, number in enumerate(job.surface.numbers.tolist())}
-    floors = _Floors(job.surface, {floor.number: floor for floor in job.floors}, rows, np.abs(job.surface.sweeps))
-    sweeps = np.abs(path.sweeps).tolist()
-    ends = [_ends(path, piece, sweep, floors) for piece, sweep in enumerate(sweeps)]
-    return np.array(ends).reshape(-1, 2)
+    """Return the (n, 2) heights at both ends of each piece; a corner has that at the end of the segment before it."""
+    floors = {floor.number: (floor.z_start, floor.z_end) for floor in job.floors}
+    row_of = {int(number): row for row, number in enumerate(job.surface.numbers.tolist())}
+    numbers = path.numbers.astype(np.intp)
+    ends = np.array([floors[number] for number in numbers.tolist()]).reshape(-1, 2)
+    segments = np.array([row_of.get(number, -1) for number in numbers.tolist()], np.intp)
+    rows = ((path.numbers == numbers) & (segments >= 0)).nonzero()[0]
+    shares = _shares(pieces_of(path).take(rows), pieces_of(job.surface).take(segments[rows]))
+    low, high = ends[rows, :1], ends[rows, 1:]
+    heights = np.repeat(ends[:, 1:], 2, axis=1)
+    heights[rows] = low + shares.T * (high - low)
+    return heights
 
 
-def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float, float]:
-    """Return the heights at a piece's two ends; a corner has the height at the end of the segment before it."""
-    number = float(path.numbers[piece])
-    floor, row = floors.floors[int(number)], floors.rows.get(int(number))
-    if number != int(number) or row is None:
-        return floor.z_end, floor.z_end
-    first, last = _fractions(path.points[piece : piece + 2], sweep, floors, row)
-    rise = floor.z_end - floor.z_start
-    return floor.z_start + first * rise, floor.z_start + last * rise
-
-
-def _fractions(ends: Floats, sweep: float, floors: _Floors, row: int) -> tuple[float, float]:
-    """Return how far along its segment a piece's two ends are, 0 to 1; `sweep` is the piece's own angle."""
-    surface = floors.surface
-    if surface.turns[row] == 0:
-        run = surface.ends[row] - surface.starts[row]
-        square = max(float(run @ run), np.finfo(float).tiny)
-        first, last = np.clip((ends - surface.starts[row]) @ run / square, 0.0, 1.0).tolist()
-        return first, last
-    whole, begun = float(floors.sweeps[row]), _turned(surface, row, ends[0])
-    return min(begun / whole, 1.0), min((begun + sweep) / whole, 1.0)
-
-
-def _turned(surface: Path, row: int, point: Floats) -> float:
-    """Return the angle from the arc's start to the ray through `point`, in the arc's direction, in radians."""
-    center, start = surface.centers[row], surface.starts[row]
-    angles: Floats = np.arctan2(*(np.array((start, point)) - center).T[::-1])
-    turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
-    return 0.0 if turned > tau - WRAPPED else turned
+def _shares(pieces: Pieces, segments: Pieces) -> Floats:
+    """Return (2, n) how far along its segment each piece begins and ends, 0 to 1."""
+    run = segments.end - segments.start
+    square = np.maximum(np.abs(run) ** 2, np.finfo(float).tiny)
+    points = np.array((pieces.start, pieces.end))
+    on_line = np.clip(((points - segments.start) * run.conj()).real / square, 0.0, 1.0)
+    turned = (pieces.start - segments.center) * (segments.start - segments.center).conj()
+    begun, whole = np.mod(np.angle(turned) * segments.turn, tau), swept(segments)
+    begun[begun > tau - WRAPPED] = 0.0
+    on_arc = np.array((begun, begun + swept(pieces))) / np.where(whole == 0.0, 1.0, whole)
+    return np.where(segments.turn == 0, on_line, np.minimum(on_arc, 1.0))
 
 
 def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
