@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, dist, pi, radians
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -78,7 +77,7 @@ def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_sh
     before the contour's end, so that no arc leads out.
     """
     first, last = contour
-    if np.abs(path.points[first] - path.points[last]).max() <= CLOSED:
+    if is_closed(path, contour):
         return contour
 
     def leads(arc: int, wall: int) -> bool:
@@ -94,31 +93,16 @@ def between_lead_arcs(path: Path, contour: RowRange, stretch: Stretch, *, cut_sh
     return first, last
 
 
-def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, frozenset[float]]:
-    """Return the open contours among closed ones, with their lines: they may only lead to the closed ones."""
-    if len(contours) == 1:
-        return {}
-    point_ids = _point_ids(path)
-    open_rows = [rows for rows in contours if point_ids[rows[0]] != point_ids[rows[1]]]
-    return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
+def is_closed(path: Path, rows: RowRange) -> bool:
+    """True if these pieces end where they begin."""
+    return bool(np.abs(path.points[rows[0]] - path.points[rows[1]]).max() <= CLOSED)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class SplitContours:
-    """A path with its pieces split where contours close within them, its contours, and the open ones among closed ones.
-
-    `open_lines` has all lines of each open contour.
-    """
+class SplitContours(NamedTuple):
+    """A path with its pieces split where contours close within them, and its contours."""
 
     path: Path
     contours: tuple[RowRange, ...]
-    open_lines: dict[RowRange, frozenset[float]]
-
-    @staticmethod
-    def of(path: Path) -> SplitContours:
-        """Find the contours of a path without splitting its pieces."""
-        contours = contours_of(path)
-        return SplitContours(path, contours, open_contours(path, contours))
 
 
 def split_where_it_closes(path: Path) -> SplitContours:
@@ -132,9 +116,10 @@ def split_where_it_closes(path: Path) -> SplitContours:
         back = _split_at_start(path.reversed())
         split = None if back is None else (back[0].reversed(), back[1].reversed())
     if split is None:
-        return SplitContours.of(_split_at_corner(path) or path)
+        path = _split_at_corner(path) or path
+        return SplitContours(path, contours_of(path))
     straight, closing = split
-    return replace(SplitContours.of(closing), path=straight)
+    return SplitContours(straight, contours_of(closing))
 
 
 def _split_at_start(path: Path) -> tuple[Path, Path] | None:
@@ -158,7 +143,7 @@ def _split_at_corner(path: Path) -> Path | None:
 
     Or split the first line where the last one begins.
     """
-    if len(path) < 4 or np.abs(path.points[0] - path.points[-1]).max() > CLOSED:
+    if len(path) < 4 or not is_closed(path, (0, len(path))):
         return None
     for directed, is_reversed in ((path, False), (path.reversed(), True)):
         row = len(directed) - 1

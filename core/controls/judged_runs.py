@@ -12,10 +12,11 @@ import numpy as np
 from core.controls.contours_and_leads import (
     MAX_LEAD_MOVES,
     RowRange,
-    SplitContours,
     between_lead_arcs,
     blend_leads,
+    contours_of,
     has_long_leads,
+    is_closed,
     leads_at_corner,
     split_where_it_closes,
 )
@@ -273,8 +274,9 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     not judged, and a finding says so.
     """
     surface, parts = programmed_surface(stretch), stretch.parts()
-    split = split_where_it_closes(surface) if len(parts) == 1 else SplitContours.of(surface)
-    whole, contours, open_lines = split.path, split.contours, split.open_lines
+    whole, contours = split_where_it_closes(surface) if len(parts) == 1 else (surface, contours_of(surface))
+    open_contours = [rows for rows in contours if len(contours) > 1 and not is_closed(whole, rows)]
+    open_lines = {rows: frozenset(whole.numbers[slice(*rows)].tolist()) for rows in open_contours}
     surfaces = [programmed_surface(part) for part in parts] if len(parts) > 1 else [whole]
     ends = list(accumulate(map(len, surfaces), initial=0))
     results, unjudged = list[Judged](), list[Judged]()

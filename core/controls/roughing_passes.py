@@ -9,14 +9,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
 from shapely.geometry import Polygon
 
-from core.controls.contours_and_leads import RowRange, closed_passes
+from core.controls.contours_and_leads import RowRange, closed_passes, is_closed
 from core.geometry.chords import chords_of
 from core.geometry.path import Path
 from core.geometry.piece import Side
-from core.tolerance import CLOSED
 
 SAG: Final = 1e-3
 """Millimeters by which chords may be off the passes; passes that come nearer than two of them share a wall."""
@@ -57,7 +55,7 @@ def _ends(path: Path, rows: RowRange) -> tuple[float, float]:
 
 def _region(path: Path, rows: RowRange) -> Polygon | None:
     """Return what a closed run of pieces encloses; None if it is open or crosses itself."""
-    if np.abs(path.points[rows[0]] - path.points[rows[1]]).max() > CLOSED:
+    if not is_closed(path, rows):
         return None
     region = Polygon(chords_of(path.part(*rows), SAG))
     return region if region.is_valid and region.area > 0.0 else None
