@@ -3,7 +3,7 @@
 The cutter can only become clear of the part, or cease to be, where raw pieces meet.  At a proper crossing it may only
 arrive along one piece and leave along the other so that it turns toward its free side; near the crossing, the other
 two stretches are nearer to a wall than the radius.  So a slice runs from one meeting to the next, across smooth
-joints, and the two slices that turn into each other at a crossing are either both clear or both not.  Nodes are the
+joints, and one that turns the wrong way at a crossing is dead.  Nodes are the
 points where slices begin and end; points within JOINED of each other on a piece are one node.
 """
 
@@ -16,11 +16,11 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.comp.best_path.prepared_contour import NOT_WHOLE_TURN
-from core.comp.best_path.raw_offset import RawOffset, renumbered
+from core.comp.best_path.raw_offset import RawOffset
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.nearby import near_pairs, near_pairs_within
 from core.geometry.path import Flags, Floats, Points, Rows, as_complex, boxes, next_in_ring
-from core.tolerance import CROWDED, JOINED, ON_PATH
+from core.tolerance import JOINED, ON_PATH
 
 MAX_PAIRS: Final = 8_000_000
 """More pairs of near pieces than any real part has: such a scribble is refused."""
@@ -126,8 +126,7 @@ class Slices:
     """s slices in order of travel: from `begin` mm along `piece` to `end` mm along `until` (s,), `size` mm long.
 
     They run from node `first` to node `last` (s,).  `dead` (s,) marks slices that turn the wrong way or are blunt at
-    one end; `turning` (s,) is the slice into which a slice turns at the crossing at its end, -1 if none.
-    `points` are the nodes' positions; `outer` marks the nodes at which an outline piece is involved.
+    one end.  `points` are the nodes' positions; `outer` marks the nodes at which an outline piece is involved.
     """
 
     piece: Rows
@@ -138,7 +137,6 @@ class Slices:
     first: Rows
     last: Rows
     dead: Flags
-    turning: Rows
     points: Points
     outer: Flags
 
@@ -147,12 +145,9 @@ class Slices:
 
     def take(self, rows: Rows) -> Slices:
         """Return the slices of these rows, with all nodes."""
-        keep = np.zeros(len(self), np.bool_)
-        keep[rows] = True
         names = ("piece", "until", "begin", "end", "size", "first", "last", "dead")
         columns = {name: getattr(self, name)[rows] for name in names}
-        turning = renumbered(self.turning[rows], keep)
-        return Slices(**columns, turning=turning, points=self.points, outer=self.outer)
+        return Slices(**columns, points=self.points, outer=self.outer)
 
     def middles(self, raw: RawOffset, rows: Rows) -> tuple[Points, Rows]:
         """Return the points halfway along slices, and the pieces that these lie on."""
@@ -222,12 +217,13 @@ def sliced(raw: RawOffset, sign: int) -> Slices | None:
     tail = np.append(head[1:], count)[: len(head)] - 1
     until, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
-    dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
-    del stations, at
+    dead = np.zeros(count, np.bool_)
+    dead[at[stations.turn > 0.0]] = True
+    dead[at[stations.turn < 0.0] - 1] = True
     dead[head] |= raw.blunt_start[strands.heads]
     dead[tail] |= raw.blunt_end[strands.tails]
     size = _sizes(raw, piece, begin, until, end)
-    cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
+    cut = Slices(piece, until, begin, end, size, first, last, dead, points, outer)
     whole = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
     return _welded(cut, np.concatenate((twin, whole)), np.concatenate((other, strands.ends[whole])))
 
@@ -262,32 +258,6 @@ def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats)
     traveled = np.cumsum(raw.lengths) - raw.lengths
     size: Floats = np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
     return size
-
-
-def _alone(raw: RawOffset, stations: _Stations) -> Flags:
-    """True for stations with no other station within CROWDED on their piece, nor a joint that may hide one."""
-    piece, along = stations.piece, stations.along
-    joined = np.zeros(len(raw), np.bool_)
-    joined[raw.following[raw.following >= 0]] = True
-    crowded = joined[piece] & (along < CROWDED)
-    crowded |= (raw.following[piece] >= 0) & (raw.lengths[piece] - along < CROWDED)
-    close = ((piece[1:] == piece[:-1]) & (along[1:] - along[:-1] < CROWDED)).nonzero()[0]
-    crowded[close] = True
-    crowded[close + 1] = True
-    return ~crowded
-
-
-def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Flags, Rows]:
-    """Return which of `count` slices turn the wrong way, and where the others turn; slice at[k] ends at station k."""
-    dead, turning = np.zeros(count, np.bool_), np.full(count, -1)
-    ending, beginning = stations.turn > 0.0, stations.turn < 0.0
-    dead[at[ending] + 1] = True
-    dead[at[beginning]] = True
-    ending, beginning = ending & alone, beginning & alone
-    turn_to = np.full(int(stations.node.max(initial=-1)) + 1, -1)
-    turn_to[stations.node[beginning]] = at[beginning] + 1
-    turning[at[ending]] = turn_to[stations.node[ending]]
-    return dead, turning
 
 
 def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:
