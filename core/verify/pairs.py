@@ -8,10 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import distance, on_circle
+from core.geometry.distance import between, distance, nearest_places
 from core.geometry.nearby import changes, nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
-from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
+from core.geometry.piece_arrays import PieceArrays, at, blocks
 from core.tolerance import GOUGE, LARGEST, ON_PATH, STOCK, UNCUT
 
 ONCE: Final = 1e-6
@@ -120,71 +120,8 @@ def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tup
         middle = at(piece, np.full(len(rows), 0.5))
         from_piece[:, rows] = distance(other, np.array((piece.start, middle, piece.end)))
         from_other[:, rows] = distance(piece, np.array((other.start, other.end)))
-        ends = np.minimum(from_piece[::2, rows].min(axis=0), from_other[:, rows].min(axis=0))
-        least[rows] = np.minimum(ends, _between_ends(piece, other))
+        least[rows] = between(piece, other, nearest_places(piece, other)).min(axis=0)
     return least, from_piece, from_other
-
-
-def _between_ends(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """Return the least distance of each pair away from both pieces' ends; infinite if there is none."""
-    apart = np.empty(len(piece))
-    bent = 2 * piece.arcs + other.arcs
-    for kind, formula in enumerate((_lines, _line_and_arc, _arc_and_line, _arcs)):
-        rows = (bent == kind).nonzero()[0]
-        if len(rows):
-            apart[rows] = formula(piece.take(rows), other.take(rows))
-    return apart
-
-
-def _lines(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """Return 0 for lines that cross between their ends, else infinity."""
-    off = other.start - piece.start
-    turn = (np.conj(piece.vector) * other.vector).imag
-    start, end = (np.conj(piece.vector) * off).imag, (np.conj(other.vector) * off).imag
-    crossed = (start * (start + turn) < 0.0) & (end * (end + turn) < 0.0)
-    return np.where(crossed, 0.0, np.inf)
-
-
-def _line_and_arc(line: PieceArrays, arc: PieceArrays) -> Floats:
-    """Return the distance at the foot of the arc's center on the line, or 0 if they cross."""
-    square = np.maximum(line.length * line.length, np.finfo(float).tiny)
-    share = ((arc.center - line.start) * np.conj(line.vector)).real / square
-    off = line.start + share * line.vector - arc.center
-    height = np.abs(off)
-    # the root is NaN for a line that misses the circle, and then no comparison holds
-    step = np.sqrt((arc.radius - height) * (arc.radius + height) / square)
-    shares = np.array((share, share - step, share + step))
-    met = _within(arc, line.start + shares * line.vector - arc.center) & (shares >= 0.0) & (shares <= 1.0)
-    passed = np.where(met[0], np.abs(height - arc.radius), np.inf)
-    return np.where(met[1] | met[2], 0.0, passed)
-
-
-def _arc_and_line(arc: PieceArrays, line: PieceArrays) -> Floats:
-    return _line_and_arc(line, arc)
-
-
-def _arcs(piece: PieceArrays, other: PieceArrays) -> Floats:
-    """Return the least distance on the line through both centers, or 0 if the arcs cross."""
-    between = other.center - piece.center
-    size, least, most = np.abs(between), piece.radius - other.radius, piece.radius + other.radius
-    ahead, back = (_within(piece, way * between) for way in (1.0, -1.0))
-    away, toward = (_within(other, way * between) for way in (1.0, -1.0))
-    gaps = np.where(
-        (ahead & toward, ahead & away, back & toward), np.abs((size - most, size - least, size + least)), np.inf
-    )
-    # concentric arcs are nearest at an end of one of them, if they are side by side at all
-    apart: Floats = np.where(size > 0.0, gaps.min(axis=0), np.inf)
-    crossing = (size > np.abs(least)) & (size < most)
-    met = on_circle(piece, other.center, other.radius)
-    inside = (met >= 0.0) & (met <= 1.0) & _within(other, at(piece, np.nan_to_num(met)) - other.center)
-    apart[crossing & inside.any(axis=0)] = 0.0
-    return apart
-
-
-def _within(arc: PieceArrays, toward: Points) -> Flags:
-    """True for directions from the centers that lie within the arcs."""
-    within: Flags = traveled(arc, toward) <= arc.angle
-    return within
 
 
 def keeping(pairs: Pairs, radius: float) -> Flags:
