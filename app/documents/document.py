@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import ClassVar, Final, Self, TypeVar
 
-from app.documents import contour_journal, nc_journal
+from app.documents import nc_journal
 from app.documents.files import LARGEST_FILE, Stamp
 from app.documents.journal import Journal, Kind, Place
-from app.documents.journal_file import Record
 from app.documents.lock import Owner
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from app.documents.programs import empty_program
@@ -66,6 +64,11 @@ class ContourDocument:
         return cls.of(loads_bytes(data, str(file.path)), file)
 
     @property
+    def work(self) -> History:
+        """What the edits have made."""
+        return self.history
+
+    @property
     def program(self) -> Program:
         """The current program."""
         return self.history.program
@@ -100,20 +103,6 @@ class ContourDocument:
     def after_saving(self, saved: Self) -> Self:
         """Return this newer document after an earlier state of it, `saved`, was written."""
         return replace(self, file=saved.file, saved_program=saved.saved_program)
-
-    def same_edits(self, other: Document) -> bool:
-        """True if nothing was edited, undone or redone between the two."""
-        return isinstance(other, ContourDocument) and self.history is other.history
-
-    def whole_records(self) -> Iterator[Record]:
-        """Return all work as the records of a new journal."""
-        return contour_journal.whole_records(self.history)
-
-    def records_since(self, before: Document) -> list[Record] | None:
-        """Return the edits since an earlier state; None if that does not lead to this one."""
-        if not isinstance(before, ContourDocument):
-            return None
-        return contour_journal.records_between(before.history, self.history)
 
     def restored(self, journal: Journal) -> Self:
         """Return the work of a journal with its cursor; raise ValueError if it is of an NC text."""
@@ -177,6 +166,11 @@ class NcDocument:
         return cls(NcText.read(data), file)
 
     @property
+    def work(self) -> NcText:
+        """What the edits have made."""
+        return self.text
+
+    @property
     def unsaved(self) -> bool:
         """True if the file does not hold the current lines."""
         return self.text.unsaved
@@ -202,21 +196,6 @@ class NcDocument:
         """Return this newer document after an earlier state of it, `saved`, was written."""
         text = replace(self.text, origin=saved.text.origin, saved=saved.text.saved)
         return replace(self, file=saved.file, text=text)
-
-    def same_edits(self, other: Document) -> bool:
-        """True if nothing was edited, undone or redone between the two."""
-        past, future = self.text.past, self.text.future
-        return isinstance(other, NcDocument) and past is other.text.past and future is other.text.future
-
-    def whole_records(self) -> Iterator[Record]:
-        """Return all work as the records of a new journal."""
-        return nc_journal.whole_records(self.text)
-
-    def records_since(self, before: Document) -> list[Record] | None:
-        """Return the edits since an earlier state; None if that does not lead to this one."""
-        if not isinstance(before, NcDocument):
-            return None
-        return nc_journal.records_between(before.text, self.text)
 
     def restored(self, journal: Journal) -> Self:
         """Return the work of a journal; if undoing it leads back to this text, nothing is unsaved there."""

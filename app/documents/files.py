@@ -46,12 +46,8 @@ class Stamp:
     digest: str
 
     def same_content(self, other: Stamp) -> bool:
-        """True if the contents are the same; the time does not count, since a copy changes it.
-
-        Journals of format 1 hold only the first half of the checksum.
-        """
-        digits = min(len(self.digest), len(other.digest))
-        return self.size == other.size and self.digest[:digits] == other.digest[:digits]
+        """True if the contents are the same; the time does not count, since a copy changes it."""
+        return (self.size, self.digest) == (other.size, other.digest)
 
 
 class NotAFileError(OSError):

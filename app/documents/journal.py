@@ -2,7 +2,7 @@
 
 The first line says whose work it is, on which file, and what it began with; each later one holds an edit, an undo or a
 redo, with the time and the operator's place.  Both kinds of document have the same lines; only the content of an edit
-differs.  Journals of format 1 are read, too; there each kind had its own format.
+differs.
 """
 
 from __future__ import annotations
@@ -11,26 +11,31 @@ import json
 import os
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Final
 
-from app.documents.contour_journal import ContourReplay, DamagedError, text_of, whole_of
+from app.documents import contour_journal, nc_journal
 from app.documents.files import Stamp
-from app.documents.journal_file import Record, whole_lines
+from app.documents.journal_file import DamagedError, Record, whole_lines
 from app.documents.lock import Owner, owner_of
-from app.documents.nc_journal import NcReplay
 from app.documents.nc_text import NcText
-from core.program.history import History
+from core.program.file.read import StoreError
+from core.program.history import History, UndoStep
+from core.program.model import Program
 
-FORMAT: Final = 2
+FORMAT: Final = 3
 MAX_JOURNAL_BYTES: Final = 200_000_000
 """The size in bytes of the largest journal that is read: room for the largest NC text and edits as long as it."""
-_DIGEST: Final = re.compile(r"(?:[0-9a-f]{8}){1,2}")
-_DAMAGE: Final = (DamagedError, ValueError, RecursionError, OverflowError)
+MAX_WHOLE_EDITS: Final = 500
+"""The most undo steps that a new journal begins with, since it is written between two keystrokes."""
+_DIGEST: Final = re.compile(r"[0-9a-f]{16}")
+_DAMAGE: Final = (DamagedError, StoreError, ValueError, RecursionError, OverflowError)
 """The errors that reading a damaged line raises."""
 
+Work = History | NcText
+"""What a document's edits have made, with all that can be undone and redone."""
 Place = tuple[int | str, ...]
 """The operator's place in a document, in the form that its kind has; empty if unknown."""
 
@@ -60,7 +65,7 @@ class Journal:
 
     kind: Kind
     head: Head
-    work: History | NcText
+    work: Work
     place: Place
     time: str
     damaged: bool = False
@@ -71,15 +76,22 @@ class Journal:
         return len(self.work.past)
 
 
-def beginning(kind: Kind, head: Head, work: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
-    """Yield the records of a new journal that begins with all of this work."""
-    at: Record = {"at": place, "time": time}
+# ---- writing
+
+
+def beginning(kind: Kind, head: Head, work: Work, place: Place, time: str) -> Iterator[Record]:
+    """Yield the records of a new journal: what the last edits of this work began with, and these edits."""
+    first = last = work
+    for _ in work.past[-MAX_WHOLE_EDITS:]:
+        first = first.undo()
+    for _ in work.future:
+        last = last.redo()
+    first = _without_future(first)
     stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
     whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
-    records = iter(work)
-    yield {"journal": FORMAT, "kind": kind, **whose, **next(records), **at}
-    for record in records:
-        yield {**record, **at}
+    yield {"journal": FORMAT, "kind": kind, **whose, "base": _base(first), "at": place, "time": time}
+    undone: list[Record] = [{"undo": 1} for _ in work.future]
+    yield from continuing([*(records_between(first, last) or ()), *undone], place, time)
 
 
 def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[Record]:
@@ -87,72 +99,122 @@ def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[R
     return ({**record, "at": place, "time": time} for record in records)
 
 
+def records_between(old: Work, new: Work) -> list[Record] | None:
+    """Return the edits that lead from `old` to `new`, empty if they are equal; None if `old` does not lead to `new`."""
+    common = _common_steps(old.past, new.past)
+    records: list[Record] = []
+    current, ahead = old, new
+    while len(current.past) > common:
+        current = current.undo()
+        records.append({"undo": 1})
+    while len(ahead.past) > common:
+        ahead = ahead.undo()
+    for _ in new.past[common:]:
+        before, ahead = ahead, ahead.redo()
+        redone = current.redo()
+        if _same_up_to_here(redone, ahead):
+            records.append({"redo": 1})
+            current = redone
+        else:
+            records.append(_edit(before, ahead))
+            current = _without_future(ahead)
+    return records if _same_up_to_here(current, new) and current.future == new.future else None
+
+
+def _common_steps(old: tuple[object, ...], new: tuple[object, ...]) -> int:
+    """Return how many steps both begin with; nearly always all of the shorter one."""
+    shorter = min(len(old), len(new))
+    if old[:shorter] == new[:shorter]:
+        return shorter
+    return next(index for index in range(shorter) if old[index] != new[index])
+
+
+def _same_up_to_here(first: Work, second: Work) -> bool:
+    """True if the content and all that can be undone are the same."""
+    return first.past == second.past and _content(first) == _content(second)
+
+
+def _without_future(work: Work) -> Work:
+    return History(work.program, work.past) if isinstance(work, History) else replace(work, future=())
+
+
+def _content(work: Work) -> object:
+    return work.program if isinstance(work, History) else work.lines
+
+
+def _base(work: Work) -> object:
+    return contour_journal.delta(Program(), work.program) if isinstance(work, History) else nc_journal.packed(work)
+
+
+def _edit(before: Work, after: Work) -> Record:
+    """Return the record of the last edit of `after`."""
+    if isinstance(before, History) and isinstance(after, History):
+        return {"do": after.undo_label, "delta": contour_journal.delta(before.program, after.program)}
+    assert isinstance(after, NcText)
+    return {"do": "", "delta": nc_journal.delta(after.past[-1])}
+
+
+def same_edits(old: Work, new: Work) -> bool:
+    """True if nothing was edited, undone or redone between the two."""
+    return old.past is new.past and old.future is new.future
+
+
+# ---- reading
+
+
 def read_journal(data: bytes) -> Journal | None:
     """Return what a journal holds; None if not even its first line can be read."""
-    reading, length = _Reading(), 0
+    journal: Journal | None = None
+    length = 0
     for line, after, _ in whole_lines(data):
         try:
-            reading.take(json.loads(line))
+            record = json.loads(line)
+            if not isinstance(record, dict):
+                break
+            journal = _begun(record) if journal is None else _continued(journal, record)
         except _DAMAGE:
             break
         length = after
-    return reading.journal(damaged=b"\n" in data[length:])
+    return None if journal is None else replace(journal, damaged=b"\n" in data[length:])
 
 
-@dataclass(slots=True)
-class _Reading:
-    """The part of a journal that has been read so far."""
-
-    kind: Kind = Kind.CONTOUR
-    head: Head | None = None
-    replay: ContourReplay | NcReplay | None = None
-    place: Place = ()
-    time: str = ""
-    old_nc: bool = field(default=False)
-
-    def journal(self, *, damaged: bool) -> Journal | None:
-        """Return what was read, None if nothing was."""
-        if self.head is None or self.replay is None:
-            return None
-        return Journal(self.kind, self.head, self.replay.work(), self.place, self.time, damaged)
-
-    def take(self, record: object) -> None:
-        """Apply one line; an error of `_DAMAGE` leaves everything unchanged."""
-        if not isinstance(record, dict):
+def _begun(record: Record) -> Journal:
+    """Return what the first line holds."""
+    work: Work
+    match record:
+        case {"journal": 3, "kind": Kind.CONTOUR.value, "base": base}:
+            work = History(contour_journal.applied(Program(), base))
+        case {"journal": 3, "kind": Kind.NC.value, "base": base}:
+            work = nc_journal.unpacked(base)
+        case _:
             raise DamagedError
-        if self.replay is None:
-            self._begin(record)
-            return
-        if self.old_nc:
-            record = _edit_of_format_1(record)
-        place, time = _place_of(record), text_of(record.get("time"))
-        match record:
-            case {"owner": _}:
-                self.head = _head_of(record)
-            case {"do": str(label), "delta": values}:
-                self.replay.do(label, values)
-            case {"undo": 1}:
-                self.replay.undo()
-            case {"redo": 1}:
-                self.replay.redo()
-            case _:
-                raise DamagedError
-        self.place, self.time = place, time
+    return Journal(Kind(record["kind"]), _head_of(record), work, _place_of(record), _text_of(record.get("time")))
 
-    def _begin(self, record: Record) -> None:
-        match record:
-            case {"journal": 2, "kind": str(name), "base": base} if name in tuple(Kind):
-                kind = Kind(name)
-            case {"journal": 1, "base": base}:
-                kind = Kind.CONTOUR
-            case {"nc": 1, "encoding": encoding, "text": text}:
-                kind, base = Kind.NC, [encoding, text]
-                record, self.old_nc = _head_of_format_1(record), True
-            case _:
-                raise DamagedError
-        head, place, time = _head_of(record), _place_of(record), text_of(record.get("time"))
-        replay = ContourReplay.begun(base) if kind is Kind.CONTOUR else NcReplay.begun(base)
-        self.kind, self.head, self.replay, self.place, self.time = kind, head, replay, place, time
+
+def _continued(journal: Journal, record: Record) -> Journal:
+    """Return what a journal holds up to another line."""
+    head, work = journal.head, journal.work
+    match record:
+        case {"owner": _}:
+            head = _head_of(record)
+        case {"do": str(label), "delta": values}:
+            work = _done(work, label, values)
+        case {"undo": 1} if work.past:
+            work = work.undo()
+        case {"redo": 1} if work.future:
+            work = work.redo()
+        case _:
+            raise DamagedError
+    place, time = _place_of(record), _text_of(record.get("time"))
+    return replace(journal, head=head, work=work, place=place, time=time)
+
+
+def _done(work: Work, label: str, values: object) -> Work:
+    if isinstance(work, NcText):
+        return nc_journal.applied(work, values)
+    # not `work.do`: every edit counts, since undo records count them
+    past = (*work.past, UndoStep(work.program, _text_of(label)))
+    return History(contour_journal.applied(work.program, values), past)
 
 
 def _head_of(record: Record) -> Head:
@@ -162,7 +224,7 @@ def _head_of(record: Record) -> Head:
         case {"owner": owner, "file": None | str() as file, "stamp": [size, time, str(digest)]}:
             if not _DIGEST.fullmatch(digest):
                 raise DamagedError
-            return Head(owner_of(owner), _path_of(file), Stamp(whole_of(size), whole_of(time), digest))
+            return Head(owner_of(owner), _path_of(file), Stamp(_whole_of(size), _whole_of(time), digest))
         case _:
             raise DamagedError
 
@@ -179,23 +241,20 @@ def _place_of(record: Record) -> Place:
         case [] | [int()]:
             return tuple(record.get("at", ()))
         case [int(block), int(segment), str(name)]:
-            return (block, segment, text_of(name))
+            return (block, segment, _text_of(name))
         case _:
             raise DamagedError
 
 
-def _head_of_format_1(record: Record) -> Record:
-    """Convert the head of an NC text's journal of format 1, which holds the file's checksum but not its name."""
-    match record.get("file"):
-        case [int(size), int(total)] if 0 <= total < 2**32:
-            return {**record, "file": None, "stamp": [size, 0, f"{total:08x}"]}
-        case _:
-            raise DamagedError
+def _text_of(value: object) -> str:
+    """Return a text of one line without control characters; raise DamagedError for any other value."""
+    if isinstance(value, str) and value.isprintable():
+        return value
+    raise DamagedError
 
 
-def _edit_of_format_1(record: Record) -> Record:
-    match record:
-        case {"row": row, "out": removed, "in": inserted}:
-            return {"do": "", "delta": [row, removed, inserted], "time": record.get("time")}
-        case _:
-            return record
+def _whole_of(value: object) -> int:
+    """Return an integer that is not a bool; raise DamagedError for any other value."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return value
+    raise DamagedError

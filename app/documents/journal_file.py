@@ -25,6 +25,10 @@ Record = Mapping[str, Any]
 SUFFIX: Final = ".cutcomp-journal"
 
 
+class DamagedError(Exception):
+    """The values do not describe a valid document or edit."""
+
+
 @dataclass(slots=True)
 class JournalFile:
     """A journal that is being written.  `handle` is None while there is no file; `total` is the checksum of all lines.

@@ -5,12 +5,11 @@ from __future__ import annotations
 import zlib
 from base64 import b85decode, b85encode
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from difflib import SequenceMatcher
 from typing import Final
 
-from app.documents.contour_journal import DamagedError
-from app.documents.journal_file import Record
+from app.documents.journal_file import DamagedError
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from core.units import printable
 
@@ -20,112 +19,47 @@ MAX_COMPARED_LINES: Final = 500
 """The most differing lines that are described line by line."""
 
 
-def whole_records(text: NcText) -> Iterator[Record]:
-    """Yield a text with all that can be undone and redone; the first record holds the packed text before all of it."""
-    first = text.first
-    data = "".join(first.lines).encode(text.encoding)
-    yield {"base": [text.encoding, b85encode(zlib.compress(data, 1)).decode()]}
-    for change in (*text.past, *reversed(text.future)):
-        yield _edit(change)
-    for _ in text.future:
-        yield {"undo": 1}
+def packed(text: NcText) -> list[str]:
+    """Return a text without its edits."""
+    data = "".join(text.lines).encode(text.encoding)
+    return [text.encoding, b85encode(zlib.compress(data, 1)).decode()]
 
 
-def records_between(old: NcText, new: NcText) -> list[Record] | None:
-    """Return the edits that lead from `old` to `new`; None if `old` does not lead to `new`."""
-    common = _common_changes(old.past, new.past)
-    records: list[Record] = [{"undo": 1} for _ in old.past[common:]]
-    current = old
-    for _ in old.past[common:]:
-        current = current.undone()
-    for change in new.past[common:]:
-        redoes = bool(current.future) and current.future[-1] is change
-        records.append({"redo": 1} if redoes else _edit(change))
-        current = current.redone() if redoes else current.done(change)
-    return records if current.past == new.past and current.future == new.future else None
-
-
-def _common_changes(old: tuple[Change, ...], new: tuple[Change, ...]) -> int:
-    """Return how many changes both begin with; nearly always all of the shorter one."""
-    shorter = min(len(old), len(new))
-    if not shorter or old[shorter - 1] is new[shorter - 1]:
-        return shorter
-    return next(index for index in range(shorter) if old[index] is not new[index])
-
-
-def _edit(change: Change) -> Record:
-    return {"do": "", "delta": [change.row, change.removed, change.inserted]}
-
-
-@dataclass(slots=True)
-class NcReplay:
-    """A replay of a journal's edits in one list of lines."""
-
-    encoding: str
-    lines: list[str]
-    past: list[Change] = field(default_factory=list)
-    future: list[Change] = field(default_factory=list)
-
-    @classmethod
-    def begun(cls, base: object) -> NcReplay:
-        """Return the replay before the first edit; raise DamagedError or ValueError if `base` is not a text."""
-        match base:
-            case [str(encoding), str(packed)]:
-                unpacking = zlib.decompressobj()
-                try:
-                    data = unpacking.decompress(b85decode(packed), 2 * MAX_NC_BYTES)
-                except zlib.error as error:
-                    raise DamagedError from error
-                text = NcText.read(data, encoding)
-                if text.encoding != encoding or not unpacking.eof:
-                    raise DamagedError
-                return cls(encoding, list(text.lines))
-            case _:
-                raise DamagedError
-
-    def do(self, _label: str, values: object) -> None:
-        """Apply one edit; an error leaves everything unchanged."""
-        match values:
-            case [int(row), [*removed], [*inserted]] if row >= 0 and not isinstance(row, bool):
-                change = Change(row, tuple(map(self._text, removed)), tuple(map(self._text, inserted)))
-            case _:
-                raise DamagedError
-        self._replace_lines(change.row, change.removed, change.inserted)
-        self.past.append(change)
-        self.future.clear()
-
-    def _text(self, value: object) -> str:
-        if not isinstance(value, str):
+def unpacked(values: object) -> NcText:
+    """Return the text that `packed` packed, marked as not saved in any file; raise DamagedError or ValueError."""
+    match values:
+        case [str(encoding), str(data)]:
+            unpacking = zlib.decompressobj()
+            try:
+                text = NcText.read(unpacking.decompress(b85decode(data), 2 * MAX_NC_BYTES), encoding)
+            except zlib.error as error:
+                raise DamagedError from error
+        case _:
             raise DamagedError
-        value.encode(self.encoding)
-        return value
+    if text.encoding != encoding or not unpacking.eof:
+        raise DamagedError
+    return replace(text, origin=b"", saved=NEVER_SAVED)
 
-    def _replace_lines(self, row: int, removed: tuple[str, ...], inserted: tuple[str, ...]) -> None:
-        if row > len(self.lines) or tuple(self.lines[row : row + len(removed)]) != removed:
+
+def delta(change: Change) -> list[object]:
+    """Return one change as values for JSON."""
+    return [change.row, change.removed, change.inserted]
+
+
+def applied(text: NcText, values: object) -> NcText:
+    """Return the text after the change of a `delta`; raise DamagedError or ValueError if it does not fit."""
+    match values:
+        case [int(row), [*removed], [*inserted]]:
+            return text.done(Change(row, _lines_of(text, removed), _lines_of(text, inserted)))
+        case _:
             raise DamagedError
-        self.lines[row : row + len(removed)] = inserted
 
-    def undo(self) -> None:
-        """Undo one edit; raise DamagedError if there is none."""
-        if not self.past:
-            raise DamagedError
-        change = self.past.pop()
-        self._replace_lines(change.row, change.inserted, change.removed)
-        self.future.append(change)
 
-    def redo(self) -> None:
-        """Redo one undone edit; raise DamagedError if there is none."""
-        if not self.future:
-            raise DamagedError
-        change = self.future.pop()
-        self._replace_lines(change.row, change.removed, change.inserted)
-        self.past.append(change)
-
-    def work(self) -> NcText:
-        """Return the text that the edits led to, marked as not saved in any file."""
-        return NcText(
-            tuple(self.lines), self.encoding, past=tuple(self.past), future=tuple(self.future), saved=NEVER_SAVED
-        )
+def _lines_of(text: NcText, values: list[object]) -> tuple[str, ...]:
+    lines = tuple(value for value in values if isinstance(value, str) and text.takes(value))
+    if len(lines) < len(values):
+        raise DamagedError
+    return lines
 
 
 def known_in_file(work: NcText, file: NcText) -> NcText:

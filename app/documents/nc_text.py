@@ -115,7 +115,7 @@ class NcText:
     def _with_change(self, change: Change) -> NcText:
         return replace(_with_lines(self, change), past=(*self.past, change), future=())
 
-    def undone(self) -> NcText:
+    def undo(self) -> NcText:
         """Return the text with the last change undone."""
         if not self.past:
             return self
@@ -123,7 +123,7 @@ class NcText:
         back = _with_lines(self, Change(change.row, change.inserted, change.removed))
         return replace(back, past=self.past[:-1], future=(*self.future, change))
 
-    def redone(self) -> NcText:
+    def redo(self) -> NcText:
         """Return the text with the last undone change redone."""
         if not self.future:
             return self
@@ -135,12 +135,13 @@ class NcText:
         """The text before every change that can be undone."""
         listing = self
         while listing.past:
-            listing = listing.undone()
+            listing = listing.undo()
         return replace(listing, future=())
 
     def done(self, change: Change) -> NcText:
         """Return the text after one more change; raise ValueError if the lines that it removes are not there."""
-        if self.lines[change.row : change.row + len(change.removed)] != change.removed or change.row < 0:
+        lines = self.lines[change.row : change.row + len(change.removed)]
+        if lines != change.removed or not 0 <= change.row <= len(self):
             raise ValueError("another text")
         return self._with_change(change)
 

@@ -16,7 +16,7 @@ from app.documents import questions, times
 from app.documents.document import MAX_BYTES, AnyDocument, ContourDocument, Document, FileState, NcDocument
 from app.documents.files import holds_program, load, read_file, refuse_program, stamp_of, stamp_of_data, why, write_data
 from app.documents.interrupted import interrupted_saves
-from app.documents.journal import Head, Journal, Kind, beginning, continuing
+from app.documents.journal import Head, Journal, Kind, beginning, continuing, records_between, same_edits
 from app.documents.journal_file import SUFFIX, JournalFile, journal_path, new_path, set_aside, why_aside
 from app.documents.left_overs import (
     Unreadable,
@@ -473,7 +473,7 @@ class DocumentService:
         if closed and document.unsaved:
             # edited while its closing waited for the disk: it is open again, with all of its work
             self._lock(kept)
-        elif document.same_edits(known):
+        elif same_edits(known.work, document.work):
             return None
         try:
             gone = self._write_journal(kept, known, document)
@@ -505,7 +505,7 @@ class DocumentService:
         return gone
 
     def _continue_journal(self, kept: _Kept, journal: JournalFile, known: Document, document: Document) -> None:
-        records = None if kept.whole else document.records_since(known)
+        records = None if kept.whole else records_between(known.work, document.work)
         if records is not None and journal.length <= MAX_JOURNAL_GROWTH[document.kind]:
             journal.add(continuing(records, document.place, self.clock()))
             return
@@ -514,7 +514,7 @@ class DocumentService:
 
     def _all_records(self, document: Document) -> Iterator[Any]:
         """Return all work as the records of a new journal."""
-        return beginning(document.kind, self._head(document), document.whole_records(), document.place, self.clock())
+        return beginning(document.kind, self._head(document), document.work, document.place, self.clock())
 
     def _head(self, document: Document) -> Head:
         path = document.file.path

@@ -221,9 +221,9 @@ class ProofScreen(BaseScreen):
         """Undo or redo an edit of the NC text; return False for any other action."""
         match action:
             case "undo":
-                self._step(self.document.text.undone(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
+                self._step(self.document.text.undo(), "Undone. Ctrl+Y brings it back.", "There is nothing to undo.")
             case "redo":
-                self._step(self.document.text.redone(), "Done again.", "There is nothing to redo.")
+                self._step(self.document.text.redo(), "Done again.", "There is nothing to redo.")
             case _:
                 return False
         return True

@@ -87,23 +87,23 @@ def test_undo_and_redo_go_through_every_state() -> None:
     states.append(deleted(states[-1], 3))
     text = states[-1]
     for state in reversed(states[:-1]):
-        text = text.undone()
+        text = text.undo()
         assert text.lines == state.lines
     assert not text.unsaved
-    assert text.undone() is text
+    assert text.undo() is text
     for state in states[1:]:
-        text = text.redone()
+        text = text.redo()
         assert text.lines == state.lines
-    assert text.redone() is text
+    assert text.redo() is text
 
 
 def test_undo_and_redo_compare_with_what_was_written() -> None:
     typed = changed(NcText.read(b"A\n"), 0, "B")
     saved = typed.written(typed.data)
     assert not saved.unsaved
-    assert saved.undone().unsaved
-    assert not saved.undone().redone().unsaved
-    assert changed(saved.undone(), 0, "B").unsaved
+    assert saved.undo().unsaved
+    assert not saved.undo().redo().unsaved
+    assert changed(saved.undo(), 0, "B").unsaved
 
 
 def test_a_text_knows_what_its_encoding_cannot_hold() -> None:
@@ -143,4 +143,4 @@ def test_edits_keep_the_byte_order_mark_in_front(encoding: str) -> None:
     assert deleted(empty, 0) is empty
     assert inserted(empty, 0, "C").data == "C\n".encode(encoding)
     assert len(inserted(empty, 0, "C")) == 1
-    assert empty.undone().undone().undone().data == first.data
+    assert empty.undo().undo().undo().data == first.data

@@ -338,7 +338,7 @@ class NcPart(Part):
 
     def _turn(self, *, undo: bool, times: int) -> list[str]:
         for _ in range(times):
-            text = self.text.undone() if undo else self.text.redone()
+            text = self.text.undo() if undo else self.text.redo()
             if text is not self.text:
                 self.text = text
                 self._add(sure=True)
@@ -350,7 +350,7 @@ def nc_work(text: NcText) -> Work:
     content, earlier = "".join(text.lines).encode(text.encoding), []
     before = text
     while before.past:
-        before = before.undone()
+        before = before.undo()
         earlier.append(before.lines)
     return content, tuple(earlier), len(text.future)
 

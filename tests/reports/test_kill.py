@@ -88,7 +88,7 @@ def test_half_a_number_is_not_what_undo_brings(tmp_path: Path) -> None:
     part.type_before(0, "N1 ")
     part.acknowledged = 1
     before = part.text.texts[0]
-    part.text = part.text.undone()
+    part.text = part.text.undo()
     part._add(sure=True)
     listing = "\n".join(f"{row:>2}  {line:<24}│" for row, line in enumerate(part.text.texts, 1))
     part.acknowledge(f"{listing}\n Prog Units: IN   not saved   undo 1   08:28")

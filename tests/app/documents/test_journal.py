@@ -1,26 +1,36 @@
-"""The journal: one line per edit, whole after any crash and read back as the same work; both kinds, both formats."""
+"""The journal: one line per edit, whole after any crash and read back as the same work; both kinds."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from functools import reduce
-from pathlib import Path
 from typing import cast
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.documents import contour_journal, nc_journal
+from app.documents import nc_journal
+from app.documents.contour_journal import delta
 from app.documents.files import Stamp
-from app.documents.journal import Head, Journal, Kind, beginning, continuing, read_journal
+from app.documents.journal import (
+    MAX_WHOLE_EDITS,
+    Head,
+    Journal,
+    Kind,
+    beginning,
+    continuing,
+    read_journal,
+    records_between,
+)
 from app.documents.journal_file import Record, lines
 from app.documents.lock import Owner
 from app.documents.nc_text import NcText
 from core.program.edit import FormPlace, type_field
 from core.program.history import History
-from core.program.model import Number, Program
+from core.program.model import Number, Program, Unread
 from tests.app.nc_lines import changed, deleted, inserted
 from tests.core.program.parts import line, program, programs
 from tests.properties import exercised, must_exercise
@@ -46,12 +56,12 @@ def typed(number: float) -> EditStep:
 
 
 def whole(history: History) -> bytes:
-    return lines(beginning(Kind.CONTOUR, HEAD, contour_journal.whole_records(history), PLACE, TIME))[0]
+    return lines(beginning(Kind.CONTOUR, HEAD, history, PLACE, TIME))[0]
 
 
 def further(data: bytes, old: History, new: History) -> bytes | None:
     """The lines extended by the records from the old history to the new; None where it does not follow."""
-    records = contour_journal.records_between(old, new)
+    records = records_between(old, new)
     return None if records is None else data + lines(continuing(records, PLACE, TIME), _sum(data))[0]
 
 
@@ -127,8 +137,24 @@ def test_any_program_comes_back(first: Program, second: Program) -> None:
     assert read(whole(history)).work == history
 
 
+def test_a_journal_of_a_long_history_begins_with_its_last_edits() -> None:
+    history = reduce(lambda history, step: step(history), map(typed, range(MAX_WHOLE_EDITS + 9)), History(PART))
+    assert read(whole(history)).work == History(history.program, history.past[-MAX_WHOLE_EDITS:])
+
+
+def test_an_edit_that_a_reader_takes_for_none_is_one_that_is_undone() -> None:
+    renamed = replace(PART.blocks[0], x_start=Unread("2", "A segment was deleted."))
+    history = History(PART)
+    for block in (renamed, replace(renamed, x_start=Unread("2", "Another one, too.")), PART.blocks[0]):
+        history = history.do(replace(PART, blocks=(block,)), "X START")
+    result = read(whole(history)).work
+    assert isinstance(result, History)
+    assert result.undo_count == 3
+    assert result.undo().undo().undo().program == PART
+
+
 def test_a_history_of_another_program_does_not_follow() -> None:
-    assert contour_journal.records_between(History(PART), History(program(line(x_end=7.0)))) is None
+    assert records_between(History(PART), History(program(line(x_end=7.0)))) is None
 
 
 def test_a_journal_cut_anywhere_yields_its_whole_lines() -> None:
@@ -203,9 +229,9 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
         case "d" if len(text) > row:
             return deleted(text, row)
         case "u":
-            return text.undone()
+            return text.undo()
         case "r":
-            return text.redone()
+            return text.redo()
         case _:
             return text
 
@@ -214,13 +240,13 @@ def nc_edited(text: NcText, kind: str, row: int, typed: str) -> NcText:
 @given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00", b"\xef\xbb\xbfA\n"]))
 def test_any_edits_of_an_nc_text_come_back(work: list[tuple[str, int, str]], content: bytes) -> None:
     text = NcText.read(content)
-    data = lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]
+    data = lines(beginning(Kind.NC, HEAD, text, (0,), TIME))[0]
     for kind, row, typed_text in work:
         before, text = text, nc_edited(text, kind, row, typed_text)
-        records = nc_journal.records_between(before, text)
+        records = records_between(before, text)
         assert records is not None
         data += lines(continuing(records, (row,), TIME), _sum(data))[0]
-    for written in (data, lines(beginning(Kind.NC, HEAD, nc_journal.whole_records(text), (0,), TIME))[0]):
+    for written in (data, lines(beginning(Kind.NC, HEAD, text, (0,), TIME))[0]):
         found = read(written)
         assert not found.damaged
         assert isinstance(found.work, NcText)
@@ -240,37 +266,6 @@ def test_differences_between_texts_are_sentences() -> None:
     assert nc_journal.differences(long, NcText.read(b"A\nB\nD\n")) == ("Lines 3 to 902 of the file are deleted.",)
 
 
-# ---- format 1
-
-
-def stored(name: str) -> bytes:
-    return (Path(__file__).parent / "format_1" / name).read_bytes()
-
-
-def test_a_program_of_format_1_is_read() -> None:
-    result = read(stored("program.journal"))
-    assert isinstance(result.work, History)
-    assert [step.program.blocks[0].tool for step in result.work.past] == [Number(1.0), Number(7.0)]
-    assert result.work.program.blocks[0].tool == Number(8.0)
-    assert result.work.redo().program.blocks[0].tool == Number(9.0)
-    assert (result.head.file, result.head.owner.user, result.damaged) == ("/parts/notch.toml", "ann", False)
-    assert result.place == (1, 0, "tool")
-
-
-def test_an_nc_text_of_format_1_is_read() -> None:
-    result = read(stored("nc.journal"))
-    assert isinstance(result.work, NcText)
-    assert result.work.lines == ("T7\r\n", "\xb0 M30\r\n")
-    assert result.work.undone().undone().lines[0] == "G20 G17\r\n"
-    content = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
-    from app.documents.files import stamp_of_data
-
-    assert result.head.stamp is not None
-    assert result.head.stamp.same_content(stamp_of_data(content))
-    assert not result.head.stamp.same_content(stamp_of_data(content.replace(b"1", b"2")))
-    assert not result.damaged
-
-
 # ---- valid checksums, wrong content
 
 
@@ -280,7 +275,8 @@ def signed(record: object, total: int = 0) -> bytes:
 
 
 FIRST = json.loads(whole(History(PART))[9:])
-NC_FIRST = json.loads(stored("nc.journal").splitlines()[0][9:])
+NC_FIRST = json.loads(lines(beginning(Kind.NC, HEAD, NcText.read(b"A\n"), (0,), TIME))[0][9:])
+TEXT = NC_FIRST["base"][1]
 
 
 @pytest.mark.parametrize(
@@ -289,7 +285,7 @@ NC_FIRST = json.loads(stored("nc.journal").splitlines()[0][9:])
         None,
         [],
         {},
-        {"journal": 3},
+        {"journal": 4},
         {"kind": "drawing"},
         {"kind": ["NC text"]},
         {"kind": "NC text"},
@@ -303,7 +299,8 @@ NC_FIRST = json.loads(stored("nc.journal").splitlines()[0][9:])
         {"stamp": [True, 2, "01234567"]},
         {"base": None},
         {"base": {"blocks": 10**309}},
-        {"base": {"setup": {"safe_z": 10**309}}},
+        {"base": {**FIRST["base"], "blocks": [0, 1]}},
+        {"base": {**FIRST["base"], "text": "no program"}},
         {"at": [1, 2, 3]},
         {"at": 10**309},
         {"time": 5},
@@ -326,15 +323,11 @@ def test_a_place_of_one_number_belongs_to_an_nc_text_and_is_ignored_in_a_program
 @pytest.mark.parametrize(
     "wrong",
     [
-        {"nc": 2},
-        {"owner": 1},
-        {"file": [1]},
-        {"file": [1, -1]},
-        {"encoding": "no-such"},
-        {"encoding": "rot13"},
-        {"text": "!"},
-        {"text": 5},
-        {"time": None},
+        {"base": ["no-such", TEXT]},
+        {"base": ["rot13", TEXT]},
+        {"base": ["utf-8", "!"]},
+        {"base": ["utf-8", 5]},
+        {"base": ["utf-8"]},
     ],
 )
 def test_a_first_line_of_an_nc_text_with_wrong_content_is_no_journal(wrong: dict[str, object]) -> None:
@@ -346,10 +339,8 @@ def test_a_first_line_of_an_nc_text_with_wrong_content_is_no_journal(wrong: dict
     [
         {"do": "x"},
         {"do": 5, "delta": {}},
-        {"do": "\x1b", "delta": {}},
-        {"do": "x", "delta": {"block": [10**309, {}, [0, 0, []]]}},
-        {"do": "x", "delta": {"block": [0, {"x_start": 10**309}, [0, 0, []]]}},
-        {"do": "x", "delta": {"blocks": [0, 1, [[{}, [["SPLINE", {}]]]]]}},
+        {"do": "\x1b", "delta": delta(PART, PART)},
+        {"do": "x", "delta": {**delta(PART, PART), "blocks": [10**309, 0]}},
         {"undo": 1},
         {"redo": 1},
         {"undo": 2},

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from app.documents import contour_journal
 from app.documents.journal import Kind, beginning, continuing
+from app.documents.journal import records_between as between
 from app.documents.journal_file import (
     JournalFile,
     Record,
@@ -28,11 +28,11 @@ from tests.app.documents.test_journal import HEAD, PART, PLACE, STEPS, TIME, Edi
 
 def records_of(history: History) -> Iterator[Record]:
     """The records of a whole history."""
-    return beginning(Kind.CONTOUR, HEAD, contour_journal.whole_records(history), PLACE, TIME)
+    return beginning(Kind.CONTOUR, HEAD, history, PLACE, TIME)
 
 
 def records_between(old: History, new: History) -> list[Record]:
-    records = contour_journal.records_between(old, new)
+    records = between(old, new)
     assert records is not None
     return list(continuing(records, PLACE, TIME))
 

@@ -23,8 +23,8 @@ def test_an_editor_gives_back_the_lines_it_shows_and_undo_brings_the_file_back(o
         return
     shown = edited.texts
     assert shown == wanted or (shown == wanted[:-1] and wanted[-1] == ""), (old, ended, wanted, edited.lines)
-    assert edited.undone().data == data
-    assert edited.undone().redone().lines == edited.lines
+    assert edited.undo().data == data
+    assert edited.undo().redo().lines == edited.lines
 
 
 def test_untouched_lines_keep_their_line_ends():

@@ -74,13 +74,13 @@ class Typist:
         document = self.document
         if isinstance(document, ContourDocument):
             return self.keep(document.edited(document.history.undo(), document.cursor, document.field_name))
-        return self.keep(document.edited(document.text.undone(), document.row))
+        return self.keep(document.edited(document.text.undo(), document.row))
 
     def redo(self) -> Typist:
         document = self.document
         if isinstance(document, ContourDocument):
             return self.keep(document.edited(document.history.redo(), document.cursor, document.field_name))
-        return self.keep(document.edited(document.text.redone(), document.row))
+        return self.keep(document.edited(document.text.redo(), document.row))
 
     def try_to_save(self, path: Path | None = None, *answers: str) -> Ask | Trouble | Saved[Any]:
         return self.service.save(self.document, path, frozenset(answers))
@@ -109,7 +109,7 @@ class Typist:
             return document.history
         states = [document.text]
         while states[-1].past:
-            states.append(states[-1].undone())
+            states.append(states[-1].undo())
         return ([state.lines for state in states], len(document.text.future))
 
     def killed(self) -> None:
