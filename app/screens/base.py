@@ -16,11 +16,8 @@ A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
-from datetime import datetime
-from pathlib import Path
 from time import monotonic
-from typing import Any, ClassVar, Final, Protocol, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Final, cast
 
 from textual import on
 from textual.app import ComposeResult
@@ -32,24 +29,22 @@ from textual.screen import ModalScreen, Screen
 from textual.widget import Widget
 from textual.widgets import Input
 
-from app.documents.document import NcDocument
-from app.documents.settings import Settings
-from app.session.block_findings import Entry as FindingEntry
 from app.session.guide import NOT_NEEDED
 from app.session.messages import Sentence, Tone
-from app.session.session import SEGMENT, Session
+from app.session.session import Session
 from app.session.work import Work
 from app.widgets.drawing import Drawing
 from app.widgets.findings_list import FindingsList
 from app.widgets.prompt import Prompt
 from app.widgets.segment_list import SegmentList
 from app.widgets.softkeys import Softkey, Softkeys
-from app.widgets.status import Status, Surroundings
+from app.widgets.status import Status
 from app.widgets.verdict import Verdict
-from core.program.edit import Edited, FormPlace
 from core.program.fields import Field
-from core.program.model import Program
 from core.units import Kind
+
+if TYPE_CHECKING:
+    from app.app import CutcompApp
 
 SMALLEST = (60, 20)
 """Columns and rows of the smallest supported terminal."""
@@ -59,99 +54,6 @@ TWO_PRESSES: Final = 0.5
 WIDTHS: Final = [(0, "-narrow"), (80, "-native"), (100, "-medium"), (132, "-wide"), (190, "-huge")]
 HEIGHTS: Final = [(0, "-short"), (28, "-tall")]
 """The style class of a screen from each number of columns, or of lines, upward."""
-
-
-class Host(Protocol):
-    """The part of the App that screens use."""
-
-    @property
-    def session(self) -> Session:
-        """The session with all accepted edits."""
-
-    @property
-    def shown(self) -> Session:
-        """What verdict and drawings show: the session, or the session as a half-typed number would make it."""
-
-    @property
-    def characters(self) -> str:
-        """The character set of drawings: braille, block or ascii."""
-
-    @property
-    def surroundings(self) -> Surroundings:
-        """The source of the clock and the free disk space on the status line."""
-
-    def apply(self, edited: Edited, label: str) -> bool:
-        """Apply an edit, or say why it is refused; return whether it was applied."""
-
-    def action_undo(self) -> None:
-        """Undo one edit."""
-
-    def move(self, place: FormPlace, field: str | None = SEGMENT) -> None:
-        """Put the cursor of the MILL CONTOUR form on a segment, and there on a field."""
-
-    def try_out(self, program: Program | None) -> None:
-        """Show what a half-typed number would do; None when nothing is half-typed."""
-
-    def say(self, text: str, tone: Tone = Tone.PLAIN) -> None:
-        """Show a sentence on the prompt line of the screen in front."""
-
-    def begin_work(self, on_stop: Callable[[], None]) -> Work:
-        """Register work that starts in a thread; `on_stop` is called if Esc stops it."""
-
-    def end_work(self, work: Work | None) -> None:
-        """End work that is done or no longer needed; None does nothing."""
-
-    @property
-    def guided(self) -> bool:
-        """Whether the prompt guides through a first part."""
-
-    def end_guide(self, text: str) -> None:
-        """End the guide if it is on, and show this text."""
-
-    @property
-    def longest_work(self) -> Work | None:
-        """The work that has run longest, if it has run long enough to be shown."""
-
-    @property
-    def stopped(self) -> object:
-        """The program or block whose calculation Esc has stopped."""
-
-    closed_at: float
-    """When a screen was last closed, in seconds of the monotonic clock."""
-
-    posted_for: str
-    """The control of the last posted NC file, or the center path."""
-
-    def now(self) -> datetime:
-        """Return the local date and time with its time zone."""
-
-    settings: Settings
-    """The user's settings."""
-
-    def keep_settings(self, settings: Settings) -> None:
-        """Use these settings from now on and save them."""
-
-    @property
-    def proofs(self) -> Sequence[Screen[None]]:
-        """Every open NC PROOF screen."""
-
-    def open_file(self, path: Path, *, kept_copy: bool = False) -> None:
-        """Open a file, or offer the work in a kept copy; ask about unsaved changes."""
-
-    def save_as(self, text: str) -> None:
-        """Save the program or NC text under a typed name."""
-
-    async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
-        """Write the text from `make` under a typed name, asking as needed.  Call only in a worker."""
-
-    def close_nc(self, document: NcDocument) -> None:
-        """Close an NC text; ask about unsaved changes."""
-
-    def go_to(self, entry: FindingEntry) -> None:
-        """Show MILL CONTOUR with the cursor on a finding's segment and field."""
-
-    def action_contour(self) -> None:
-        """Show MILL CONTOUR, the form of the block with the cursor."""
 
 
 class BaseScreen(Screen[None]):
@@ -179,9 +81,9 @@ class BaseScreen(Screen[None]):
         self._composed = False
 
     @property
-    def host(self) -> Host:
-        """The App, limited to what screens use."""
-        return cast(Host, self.app)
+    def host(self) -> CutcompApp:
+        """The App with its own methods."""
+        return cast("CutcompApp", self.app)
 
     @property
     def current_session(self) -> Session:
