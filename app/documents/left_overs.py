@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Final
 
 from app.documents import times
-from app.documents.files import MAX_NAME_BYTES, NotAFileError, read_file
+from app.documents.files import NotAFileError, read_file
 from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, read_journal
 from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
 from core.units import plain
 
-MAX_KEPT_COPIES: Final = 20
+MAX_KEPT_COPIES: Final = 40
 """The most kept copies that are listed, the newest; the others stay in the folder."""
 UNNAMED: Final = "a program without a name"
 CUT_NAME: Final = 100
@@ -233,13 +233,13 @@ class KeptCopy:
         return f"Unsaved work on {self.name}, {self.word} {times.in_words(self.time, today)}."
 
 
-def kept_copies(folder: Path, state: Path, kind: Kind) -> list[KeptCopy]:
-    """Return the journals of a kind that were set aside in a folder or in the user's own folder, newest first."""
+def kept_copies(folder: Path, state: Path) -> list[KeptCopy]:
+    """Return the journals that were set aside in a folder or in the user's own folder, newest first."""
     dated = [entry for place in dict.fromkeys((folder, state)) for entry in _set_aside_in(place, state)]
-    of_kind = [(time, path) for time, path in dated if _may_be(path, kind, folder, state)]
+    listed = sorted(((time, path) for time, path in dated if _is_listed(path, folder, state)), reverse=True)
     return [
         KeptCopy(path, KEPT_COPY_WORDS[_why(path)], times.of(time), plain(_file_name(path)))
-        for time, path in sorted(of_kind, reverse=True)[:MAX_KEPT_COPIES]
+        for time, path in listed[:MAX_KEPT_COPIES]
     ]
 
 
@@ -270,20 +270,14 @@ def _why(path: Path) -> str:
     return why_aside(path).partition("-")[0]
 
 
-def _may_be(path: Path, kind: Kind, folder: Path, state: Path) -> bool:
-    """True if a copy may be of this kind; an NC text's copy in the user's folder must be about a file in `folder`.
+def _is_listed(path: Path, folder: Path, state: Path) -> bool:
+    """True unless a copy in the user's folder is about an NC text in another folder.
 
-    The name alone decides, so that listing reads no journal; a name whose end is cut may be of either kind.
+    The name alone decides, so that listing reads no journal; a name whose end is cut may be a program's.
     """
     name = _file_name(path)
-    if name == UNNAMED:
-        return kind is Kind.CONTOUR
-    # beside its file a name is cut within its bytes, perhaps by the three that a letter then lacks
-    adjacent = path.name.startswith(".")
-    cut = len(os.fsencode(name)) > MAX_NAME_BYTES - 4 if adjacent else len(name) >= CUT_NAME
-    if not cut and name.lower().endswith(".toml") is (kind is Kind.NC):
-        return False
-    return kind is Kind.CONTOUR or adjacent or place_of(path) == elsewhere(folder / name, state)
+    here = path.name.startswith(".") or place_of(path) == elsewhere(folder / name, state)
+    return here or name == UNNAMED or name.lower().endswith(".toml") or len(name) >= CUT_NAME
 
 
 def _file_name(path: Path) -> str:

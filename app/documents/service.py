@@ -264,9 +264,10 @@ class DocumentService:
             case questions.RESTORE, Path() as path, Journal() as journal:
                 return self._restore(kept, document, path, journal)
             case questions.DISCARD, Path() as path, left if left is not None:
-                return self._discard(document, path, left, offer.answered)
+                return self._put_away(document, path, left, offer.answered, "as a backup in")
             case questions.NOT_MINE, Path() as path, Journal() as journal if wants_answer(path):
-                return self._leave_to_owner(document, path, journal, offer.answered)
+                whose = f"for {printable(journal.head.owner.user)}:"
+                return self._put_away(document, path, journal, offer.answered, whose)
             case _, Path() as path, left if left is not None and word != GO_BACK:
                 return self._next_offer(document, answered=offer.answered | {path})
             case _:
@@ -420,22 +421,21 @@ class DocumentService:
             # the folder forbids renaming: this journal stays, and the next one goes elsewhere
             return path
 
-    def _discard(
-        self, document: AnyDocument, path: Path, left: Journal | Unreadable, answered: frozenset[Path]
+    def _put_away(
+        self, document: AnyDocument, path: Path, left: Journal | Unreadable, answered: frozenset[Path], whose: str
     ) -> Opened[AnyDocument]:
-        """Return the document without the work, which is kept as a backup that is not offered by itself."""
+        """Return the document without the work, which is kept `whose`: as a backup, or for its author."""
         aside = path
         try:
             if isinstance(left, Journal) and path.suffix == TEMPORARY:
                 aside = self._keep_interrupted(document, path, left)
-            elif isinstance(left, Journal) and alive(left.head.owner):
+            elif isinstance(left, Journal) and (alive(left.head.owner) or not self._is_mine(path, left)):
                 aside = self._move_aside(path, left)
             else:
                 aside = set_aside(path, "discarded")
-            notice = Notice(f"Kept as a backup in {whole_name(aside)}; Ctrl+O lists it.")
+            notice = Notice(f"Kept {whose} {whole_name(aside)}; Ctrl+O lists it.")
         except FileNotFoundError:
-            gone = "Nothing is left to discard: whoever typed it has saved it or discarded it meanwhile."
-            notice = Notice(f"{gone} Ctrl+O opens the file as it is now.", warning=True)
+            notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
         except OSError as error:
             notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
         return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
@@ -448,20 +448,6 @@ class DocumentService:
         copy.close()
         path.unlink()
         return set_aside(copy.path, "discarded")
-
-    def _leave_to_owner(
-        self, document: AnyDocument, path: Path, journal: Journal, answered: frozenset[Path]
-    ) -> Opened[AnyDocument]:
-        """Return the document without the work, which stays kept for its author."""
-        aside = path
-        try:
-            aside = self._move_aside(path, journal)
-            notice = Notice(f"Kept for {printable(journal.head.owner.user)}: {whole_name(aside)}; Ctrl+O lists it.")
-        except FileNotFoundError:
-            notice = Notice("It was saved or discarded meanwhile. Ctrl+O opens the file as it is now.", warning=True)
-        except OSError as error:
-            notice = Notice(f"The unsaved work cannot be renamed: {why(error)}", warning=True)
-        return self._next_offer(document, answered=answered | {path, aside}, notice=notice)
 
     # ---- keep
 

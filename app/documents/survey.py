@@ -180,16 +180,8 @@ def programs_of(folder: Path) -> tuple[Listed, ...]:
     # in the folder of the examples, list each of them only once, as an example
     programs = (entry for entry in entries if not entry.folder and entry.path not in {part.path for part in parts})
     folders = (entry for entry in entries if entry.folder)
-    copies = within(FOLDER, lambda: tuple(_copies(folder)))
-    return (*programs, *parts, *folders, *copies)
-
-
-def _copies(folder: Path) -> Iterator[Listed]:
-    """Yield the unsaved work on programs and NC texts that was set aside here, newest first."""
-    state = state_folder()
-    kept = (copy for kind in Kind for copy in kept_copies(folder, state, kind))
-    for copy in sorted(set(kept), key=lambda copy: copy.time, reverse=True):
-        yield Listed(copy.path, copy.name, copy=copy)
+    copies = within(FOLDER, lambda: kept_copies(folder, state_folder()))
+    return (*programs, *parts, *folders, *(Listed(copy.path, copy.name, copy=copy) for copy in copies))
 
 
 def example_programs() -> Iterator[Listed]:

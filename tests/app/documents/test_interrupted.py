@@ -14,7 +14,6 @@ import pytest
 
 from app.documents import files
 from app.documents.files import temporary_path, write_data
-from app.documents.journal import Kind
 from app.documents.journal_file import journal_path, new_path
 from app.documents.left_overs import kept_copies
 from app.documents.service import Opened
@@ -114,7 +113,7 @@ def test_a_discarded_save_stays_as_a_kept_copy(state: Path, file: Path) -> None:
     assert "discarded-1; Ctrl+O lists it." in operator.said
     assert temporaries(file) == []
     operator.left()
-    [copy] = kept_copies(file.parent, state, Kind.NC if file.suffix == ".nc" else Kind.CONTOUR)
+    [copy] = kept_copies(file.parent, state)
     opened = operator.service.open(file, kept_copy=copy.path)
     assert isinstance(opened, Opened)
     operator.took(opened)

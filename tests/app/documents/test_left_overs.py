@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 
 from app.documents.files import load, save
-from app.documents.journal import Kind
 from app.documents.journal_file import journal_path, set_aside
 from app.documents.left_overs import KeptCopy, file_of_copy, kept_copies, never_saved
 from app.documents.programs import example
@@ -332,7 +331,7 @@ def test_work_that_was_set_aside_is_restored_for_its_owner_only(state: Path, par
 
 
 def copies(state: Path, file: Path) -> list[KeptCopy]:
-    return kept_copies(file.parent, state, Kind.CONTOUR if file.suffix == ".toml" else Kind.NC)
+    return kept_copies(file.parent, state)
 
 
 def chosen(operator: Typist, state: Path, file: Path) -> Typist:
@@ -390,7 +389,7 @@ def test_an_unnamed_copy_is_restored_into_a_new_program(state: Path, part: Path)
     first = started(state).type(7)
     first.killed()
     operator = started(state).answer("DISCARD")
-    [copy] = kept_copies(part.parent, state, Kind.CONTOUR)
+    [copy] = kept_copies(part.parent, state)
     assert copy.name == "a program without a name"
     assert file_of_copy(copy.path, part.parent) is None
     operator.took(operator.service.copy_without_name(copy.path)).answer("RESTORE")
