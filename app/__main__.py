@@ -37,16 +37,17 @@ def main(arguments: list[str] | None = None) -> int:
         from app.cli.shop import shop
 
         return shop(given)
+    if word in HELP:
+        from app.cli.commands import command
+
+        return command(given)
     # a file alone needs no parser, so that the screens appear sooner
-    return _parsed(given) if len(given) > 1 or word in HELP or word.startswith("-") else screens(Path(word))
+    return _parsed(given) if len(given) > 1 or word.startswith("-") else screens(Path(word))
 
 
 def _parsed(given: list[str]) -> int:
-    from app.cli.arguments import command_parser, screen_parser
-    from app.cli.commands import COMMANDS
+    from app.cli.arguments import screen_parser
 
-    if given[0] in COMMANDS:
-        return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
     options = screen_parser().parse_args(given)
     if options.version:
         from importlib.metadata import version

@@ -1,4 +1,4 @@
-"""This module holds commands without a screen; each takes parsed arguments and returns the exit status."""
+"""This module holds commands without a screen."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.cli.arguments import command_parser
 from app.cli.shell import CLEAN, FINDINGS, Unusable, reported, say
-from app.documents.files import load, load_from
+from app.documents.files import load, load_from, write_output
 from core.comp.lookahead import HIGHEST, LOWEST
-from core.program.file.read import StoreError
 from core.program.model import Number, Program
 from core.units import segment_name, sentence
 
@@ -31,6 +31,13 @@ OTHER_PICTURES: Final = frozenset(
 """Suffixes of picture formats that plot does not write: a viewer would call such a file broken."""
 
 
+@reported
+def command(arguments: list[str]) -> int:
+    """Run one of these commands; return the exit status."""
+    options = command_parser(arguments[0]).parse_args(arguments[1:])
+    return {"path": path, "lookahead": lookahead, "post": post, "plot": plot}[arguments[0]](options)
+
+
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
     from core.pipeline.derive import derive, with_better_paths
 
@@ -42,10 +49,7 @@ def _derived(path: Path, block: int | None = None, lookahead: str | None = None)
 
 
 def _program(path: Path) -> Program:
-    try:
-        return load_from(sys.stdin.buffer, STDIN) if str(path) == DASH else load(path)
-    except StoreError as error:
-        raise Unusable(str(error)) from error
+    return load_from(sys.stdin.buffer, STDIN) if str(path) == DASH else load(path)
 
 
 def _name(path: Path) -> str:
@@ -182,21 +186,8 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from app.documents.files import write_output
-
     if output is None or str(output) == DASH:
         sys.stdout.write(text)
         sys.stdout.flush()
-        return
-    try:
+    else:
         write_output(output, text)
-    except StoreError as error:
-        raise Unusable(str(error)) from error
-
-
-COMMANDS: Final = {
-    "path": reported(path),
-    "lookahead": reported(lookahead),
-    "post": reported(post),
-    "plot": reported(plot),
-}

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from app.cli.control_options import add_tool_options, bytes_of, control_of, tools_of
 from app.cli.drawing_list import list_drawing
-from app.cli.shell import CLEAN, UNUSABLE, Unusable, say
+from app.cli.shell import CLEAN, Unusable, reported, say
 from app.documents.drawing_files import Worker, drawing_bytes
 from app.documents.files import write_text
 from app.documents.programs import empty_program
@@ -24,12 +24,12 @@ from core.importing.listing import rows_of, sentences, table
 from core.importing.nc_contour import CenterPathTool, NcContour, NcError, nc_blocks
 from core.importing.segments import DoesNotFitError, comment, with_contours
 from core.pipeline.checking import with_tool_option
-from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from core.program.model import Program
 from core.units import Unit, to_mm
 
 
+@reported
 def import_contours(arguments: list[str]) -> int:
     """Run the command; return 0, or 2 for input that cannot be used."""
     options = _parser().parse_args(arguments)
@@ -41,14 +41,11 @@ def import_contours(arguments: list[str]) -> int:
             import_nc(options)
     except NcError as error:
         more = " Add --side left or right and --diameter D, or --side on." if error.needs_center else ""
-        say(f"{with_tool_option(str(error))}{more}")
-        return UNUSABLE
-    except (Unusable, StoreError, DoesNotFitError) as error:
-        say(str(error))
-        return UNUSABLE
+        raise Unusable(f"{with_tool_option(str(error))}{more}") from error
+    except DoesNotFitError as error:
+        raise Unusable(str(error)) from error
     except DrawingError as error:
-        say(f"{error.text}{_remedy(error, options)}")
-        return UNUSABLE
+        raise Unusable(f"{error.text}{_remedy(error, options)}") from error
     return CLEAN
 
 

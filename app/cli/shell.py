@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import wraps
 from typing import Final, TypeVar
 
+from core.program.file.read import StoreError
+
 Asked = TypeVar("Asked")
 
 CLEAN: Final = 0
@@ -46,13 +48,13 @@ class Unusable(Exception):
 
 
 def reported(command: Callable[[Asked], int]) -> Callable[[Asked], int]:
-    """Return the command changed to report Unusable as a message and return the status UNUSABLE."""
+    """Return the command changed to report Unusable and StoreError as a message and return the status UNUSABLE."""
 
     @wraps(command)
     def run(asked: Asked) -> int:
         try:
             return command(asked)
-        except Unusable as error:
+        except (Unusable, StoreError) as error:
             say(str(error))
             return UNUSABLE
 

@@ -9,26 +9,22 @@ from datetime import datetime
 from pathlib import Path
 
 from app.cli.commands import DASH
-from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
+from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, Unusable, reported, say
 from app.documents import times
 from app.documents.files import load, save, write_output
 from app.documents.lock import Owner, myself, release, take
 from app.documents.questions import held_sentence
 from app.documents.tool_tables import merged, read_table, tool_line
-from core.program.file.read import StoreError
 from core.program.model import Program
 from core.program.tools import table_faults
 from core.units import Unit
 
 
+@reported
 def shop(arguments: list[str]) -> int:
     """Run one of these commands; return the exit status."""
     options = _parser(arguments[0]).parse_args(arguments[1:])
-    try:
-        return {"sheet": sheet, "tools": tools, "serve": serve}[arguments[0]](options)
-    except StoreError as error:
-        say(str(error))
-        return UNUSABLE
+    return {"sheet": sheet, "tools": tools, "serve": serve}[arguments[0]](options)
 
 
 def _parser(name: str) -> argparse.ArgumentParser:
@@ -77,8 +73,7 @@ def tools(options: argparse.Namespace) -> int:
         # if no lock can be written, neither can the program, and saving it says so
         lock = take(options.file, myself(now))
     if isinstance(lock, Owner):
-        say(f"nothing was imported: {held_sentence(lock, now)} TOOL SETUP there imports a table, too.")
-        return UNUSABLE
+        raise Unusable(f"nothing was imported: {held_sentence(lock, now)} TOOL SETUP there imports a table, too.")
     try:
         return _import_table(options)
     finally:
@@ -111,18 +106,16 @@ def serve(options: argparse.Namespace) -> int:
     from app.cli import web
 
     if reason := web.refusal(options.host, allow_network=options.allow_network):
-        say(reason)
-        return UNUSABLE
+        raise Unusable(reason)
     say(web.NO_LOGIN)
     say("Where the browser keeps a function key to itself, Esc and then its digit does the same.")
     try:
         from app.cli.web_server import serve as serve_screens
     except ImportError:
-        say(web.MISSING)
-        return UNUSABLE
+        raise Unusable(web.MISSING) from None
     try:
         serve_screens(options.file, options.host, options.port)
     except (OSError, UnicodeError) as error:
-        say(f"{web.address(options.host, options.port)} cannot be served: {web.why_not_served(error)}")
-        return UNUSABLE
+        address = web.address(options.host, options.port)
+        raise Unusable(f"{address} cannot be served: {web.why_not_served(error)}") from error
     return CLEAN
