@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from asyncio import to_thread
 from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -12,7 +13,7 @@ from textual.content import Content
 from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
-from app.nc_proof.runs import Compared, Question, compare
+from app.nc_proof.runs import Question, compare
 from app.screens.dialogs import Dialog
 from app.session.work import SHOWN_AFTER, Work
 from app.widgets.option_rows import OptionRows
@@ -59,17 +60,16 @@ class CompareControls(Dialog["tuple[str, bool] | None"]):
         if not self.answers and self._work.long:
             self.query_one("#compare-wait", Static).update(f"{RUNNING}  {self._work.text}")
 
-    @work(thread=True, exclusive=True, group="compare")
-    def _compare(self) -> None:
+    @work(exclusive=True, group="compare")
+    async def _compare(self) -> None:
         with suppress(Stopped):
-            self.post_message(Compared(compare(self.asked, self._work)))
+            self.answers = await to_thread(compare, self.asked, self._work)
+            self._show_answers()
 
-    @on(Compared)
-    def _compared(self, event: Compared) -> None:
+    def _show_answers(self) -> None:
         self.query_one("#compare-wait").display = False
-        self.answers = event.answers
         rows = self.query_one("#compared", OptionList)
-        for answer in event.answers:
+        for answer in self.answers:
             good = "$c-warn" if answer.warnings else "$c-good"
             role = "$c-err" if answer.errors else "$c-label" if answer.moves is None else good
             outcome = answer.outcome if answer.errors else answer.outcome_and_warnings

@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from textual.message import Message
-
 from app.documents.nc_library import FolderLibrary
 from app.documents.nc_text import NcText
 from core.progress import Progress, part, silent
@@ -66,27 +64,12 @@ class Result:
         return self.answer.findings
 
 
-@dataclass
-class Ran(Message):
-    """A worker has run a text."""
+@dataclass(frozen=True, eq=False, slots=True)
+class RanDotted:
+    """A run and verdict of a text on another control; `path` is drawn dotted under the first."""
 
-    result: Result
-
-
-@dataclass(eq=False)
-class RanDotted(Message):
-    """A worker has run and judged a question's text on another control; `path` is drawn dotted under the first."""
-
-    question: Question
     result: Result
     path: tuple[Layer, ...]
-
-
-@dataclass
-class Compared(Message):
-    """A worker has run a text on every control."""
-
-    answers: tuple[Answer, ...]
 
 
 def run(question: Question, progress: Progress = silent) -> Result:
@@ -122,7 +105,7 @@ def run_dotted(main: Result, control: str, progress: Progress = silent) -> RanDo
 
     other = replace(main.question, control=control)
     result = judge(run(other, part(progress, 0.0, RUN_SHARE)), part(progress, RUN_SHARE, 1.0))
-    return RanDotted(main.question, result, dotted_path(result.proof, main.proof.plane))
+    return RanDotted(result, dotted_path(result.proof, main.proof.plane))
 
 
 def _result(question: Question, proof: Proof, *, judged: bool) -> Result:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from asyncio import to_thread
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -23,7 +25,6 @@ from app.nc_proof.listing import Listing
 from app.nc_proof.runs import (
     RUN_SHARE,
     Question,
-    Ran,
     RanDotted,
     Result,
     first_tool,
@@ -309,20 +310,18 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self._run(question, self._work)
 
-    @work(thread=True, exclusive=True, group="proof", description="proof")
-    def _run(self, question: Question, work: Work) -> None:
-        try:
-            result = run(question, part(work, 0.0, RUN_SHARE))
-            self.post_message(Ran(result))
-            judged = judge(result, part(work, RUN_SHARE, 1.0))
-            self.post_message(Ran(judged))
+    @work(exclusive=True, group="proof", description="proof")
+    async def _run(self, question: Question, work: Work) -> None:
+        # the code that stops the work reports it
+        with suppress(Stopped):
+            result = await to_thread(run, question, part(work, 0.0, RUN_SHARE))
+            self._ran(result)
+            judged = await to_thread(judge, result, part(work, RUN_SHARE, 1.0))
+            self._ran(judged)
             # the progress shown ends with the verdict
-            fitted = with_largest_tool(judged, _while_wanted(get_current_worker()))
+            fitted = await to_thread(with_largest_tool, judged, _while_wanted(get_current_worker()))
             if fitted.answer.fits is not None:
-                self.post_message(Ran(fitted))
-        except Stopped:
-            # the code that stopped the work reports it
-            return
+                self._ran(fitted)
 
     def on_unmount(self) -> None:
         """Stop the work; its result is no longer needed."""
@@ -335,18 +334,17 @@ class ProofScreen(BaseScreen):
         self._show_titles()
         self.say("Stopped. C chooses the control and runs the program again.", Tone.WARNING)
 
-    @on(Ran)
-    def _ran(self, event: Ran) -> None:
-        if not self.stands or event.result.question is not self.question:
+    def _ran(self, result: Result) -> None:
+        if not self.stands or result.question is not self.question:
             return
         held = self._finding_in_hand()
-        self.result = event.result
-        if event.result.judged and self._work is not None:
+        self.result = result
+        if result.judged and self._work is not None:
             self.host.end_work(self._work)
             self._work = None
             self._ask_dotted()
         marks: dict[int, Severity] = {}
-        for finding in event.result.findings:
+        for finding in result.findings:
             if finding.line is not None:
                 known = marks.get(finding.line, Severity.INFO)
                 marks[finding.line] = min(known, finding.severity, key=ORDER.index)
@@ -364,27 +362,22 @@ class ProofScreen(BaseScreen):
             self._dotted_work = self.host.begin_work(self._dotted_stopped)
             self._run_dotted(self.result, self.dotted_control, self._dotted_work)
 
-    @work(thread=True, exclusive=True, group="dotted", description="dotted")
-    def _run_dotted(self, main: Result, control: str, work: Work) -> None:
-        try:
-            self.post_message(run_dotted(main, control, work))
-        except Stopped:
-            # the code that stopped the work reports it
-            return
+    @work(exclusive=True, group="dotted", description="dotted")
+    async def _run_dotted(self, main: Result, control: str, work: Work) -> None:
+        # the code that stops the work reports it
+        with suppress(Stopped):
+            dotted = await to_thread(run_dotted, main, control, work)
+            other = dotted.result
+            if self.stands and main.question is self.question and control == self.dotted_control:
+                self._end_dotted()
+                self.dotted = dotted
+                self._draw()
+                self.say(f"Dotted: {shown_name(control)} {other.answer.outcome}. B removes it.")
 
     def _end_dotted(self) -> None:
         """Drop the other control's path and stop its run."""
         self.host.end_work(self._dotted_work)
         self._dotted_work = self.dotted = None
-
-    @on(RanDotted)
-    def _ran_dotted(self, event: RanDotted) -> None:
-        other = event.result
-        if self.stands and event.question is self.question and other.question.control == self.dotted_control:
-            self._end_dotted()
-            self.dotted = event
-            self._draw()
-            self.say(f"Dotted: {shown_name(other.question.control)} {other.answer.outcome}. B removes it.")
 
     def _dotted_stopped(self) -> None:
         """Report that Esc stopped the run on the other control."""

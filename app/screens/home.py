@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from asyncio import to_thread
 from collections.abc import Sequence
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Final
@@ -13,9 +13,7 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.content import Content
-from textual.message import Message
 from textual.widgets import DataTable, Static
-from textual.worker import get_current_worker
 
 from app.documents.files import load, why
 from app.documents.paths import short_path
@@ -41,13 +39,6 @@ from core.program.file.read import StoreError
 
 COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
-
-
-@dataclass
-class Surveyed(Message):
-    """A worker has looked at a file."""
-
-    facts: Facts
 
 
 class HomeScreen(BaseScreen):
@@ -120,7 +111,7 @@ class HomeScreen(BaseScreen):
             table.add_row(*self._cells(each), key=str(each.path))
         rows = [row for row, each in enumerate(self.listed) if each.path == at]
         table.move_cursor(row=rows[0] if rows else 0)
-        self._survey(self._programs(), dict(self.facts))
+        self._survey()
         self.refresh_frame()
 
     def list_anew(self) -> None:
@@ -130,7 +121,7 @@ class HomeScreen(BaseScreen):
         except OSError:
             return
         if same:
-            self._survey(self._programs(), dict(self.facts))
+            self._survey()
         else:
             chosen = self.chosen
             self.show_folder(self.folder, at=None if chosen is None else chosen.path)
@@ -141,9 +132,6 @@ class HomeScreen(BaseScreen):
         others = {kind: sum(each.kind == kind for each in self.listed) for kind in (DRAWING, NC_PROGRAM)}
         words = [counted(count, kind) for kind, count in others.items() if count]
         return ", ".join([counted(programs, "program"), *words] if programs or not words else words)
-
-    def _programs(self) -> tuple[Path, ...]:
-        return tuple(each.path for each in self.listed if each.program)
 
     def _cells(self, each: Listed) -> Sequence[Content]:
         name = Content.styled(each.name, "" if each.example else "bold")
@@ -159,22 +147,19 @@ class HomeScreen(BaseScreen):
         verdict = Content("...") if facts.outcome is None else verdict_word(facts.outcome, MARKS[self.host.characters])
         return name, Content(day), Content(f"{facts.blocks:>3}"), Content(facts.tools), verdict
 
-    @work(thread=True, exclusive=True, group="survey")
-    def _survey(self, paths: tuple[Path, ...], known: dict[Path, Facts]) -> None:
-        """Read the facts of the files, one file after the other."""
-        worker = get_current_worker()
-        for path in paths:
-            if worker.is_cancelled:
-                return
-            self.post_message(Surveyed(facts_of(path, known.get(path))))
+    @work(exclusive=True, group="survey")
+    async def _survey(self) -> None:
+        """Read the facts of the programs, one file after the other."""
+        for each in self.listed:
+            if each.program:
+                self._show_facts(await to_thread(facts_of, each.path, self.facts.get(each.path)))
 
-    @on(Surveyed)
-    def _surveyed(self, event: Surveyed) -> None:
-        if not self.stands or self.facts.get(event.facts.path) == event.facts:
+    def _show_facts(self, facts: Facts) -> None:
+        if not self.stands or self.facts.get(facts.path) == facts:
             return
-        self.facts[event.facts.path] = event.facts
+        self.facts[facts.path] = facts
         table = self.query_one("#programs", DataTable)
-        each = next((each for each in self.listed if each.path == event.facts.path), None)
+        each = next((each for each in self.listed if each.path == facts.path), None)
         if each is not None:
             for (label, _), cell in zip(COLUMNS, self._cells(each), strict=True):
                 table.update_cell(str(each.path), label, cell)
@@ -198,23 +183,10 @@ class HomeScreen(BaseScreen):
             self._show_preview(each.path, each.name, None)
         self.refresh_frame()
 
-    @work(thread=True, exclusive=True, group="preview")
-    def _preview(self, path: Path, name: str) -> None:
+    @work(exclusive=True, group="preview")
+    async def _preview(self, path: Path, name: str) -> None:
         """Draw the first block of the program with the cursor."""
-        # imported here: the first paint must not load numpy and shapely
-        from core.pipeline.derive import derive
-        from core.pipeline.plot import Subject
-
-        try:
-            derived = derive(load(path))
-        except StoreError:
-            self.app.call_from_thread(self._show_preview, path, name, None)
-            return
-        block, unit = derived.block(1), derived.program.unit
-        tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
-        of = "" if len(derived.blocks) == 1 else f"block 1 of {len(derived.blocks)}: "
-        heading = f"{name}  {of}{len(block.block.segments)} segments{tool}"
-        self.app.call_from_thread(self._show_preview, path, heading, Subject(block, unit))
+        self._show_preview(path, *await to_thread(_first_block, path, name))
 
     def _show_preview(self, path: Path, heading: str, subject: Drawable | None) -> None:
         """Show the drawing of a file unless the cursor has left it."""
@@ -277,3 +249,19 @@ class HomeScreen(BaseScreen):
         facts = None if each is None else self.facts.get(each.path)
         trouble = self.trouble or ("" if facts is None else facts.trouble)
         return Sentence(trouble, Tone.WARNING) if trouble else Sentence(PROMPT)
+
+
+def _first_block(path: Path, name: str) -> tuple[str, Drawable | None]:
+    """Return the heading and the subject of a program's drawing; without a subject if it cannot be read."""
+    # imported here: the first paint must not load numpy and shapely
+    from core.pipeline.derive import derive
+    from core.pipeline.plot import Subject
+
+    try:
+        derived = derive(load(path))
+    except StoreError:
+        return name, None
+    block, unit = derived.block(1), derived.program.unit
+    tool = "" if block.radius is None else f", tool {length(2 * block.radius, unit)}"
+    of = "" if len(derived.blocks) == 1 else f"block 1 of {len(derived.blocks)}: "
+    return f"{name}  {of}{len(block.block.segments)} segments{tool}", Subject(block, unit)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from asyncio import to_thread
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -10,7 +11,6 @@ from textual import events, on, work
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.content import Content
-from textual.message import Message
 from textual.widgets import Input, OptionList, Static
 
 from app.screens.dialogs import Phrase
@@ -35,15 +35,6 @@ if TYPE_CHECKING:
 
 PREVIEW_LINES: Final = 40
 """Most lines of the NC text in the preview."""
-
-
-@dataclass
-class NcMade(Message):
-    """A worker has made a program's NC text for a choice of control, or found what prevents posting."""
-
-    program: Program
-    choice: str
-    made: NcText
 
 
 class PostScreen(EntryScreen):
@@ -128,16 +119,22 @@ class PostScreen(EntryScreen):
         self.host.end_work(self._work)
         self._work = self.host.begin_work(self._make_stopped)
         self._show()
-        self._make_in_thread(program, self.choice, self._work)
+        self._make_in_thread(program, self._work)
 
-    @work(thread=True, exclusive=True, group="post", description="post")
-    def _make_in_thread(self, program: Program, choice: str, work: Work) -> None:
+    @work(exclusive=True, group="post", description="post")
+    async def _make_in_thread(self, program: Program, work: Work) -> None:
+        """Make the NC text, or find what prevents posting."""
         name = Path(self._text or "part").stem
-        try:
-            self.post_message(NcMade(program, choice, nc_text(program, name, choice, progress=work)))
-        except Stopped:
-            # the code that stopped the work reports it
-            return
+        with suppress(Stopped):
+            made = await to_thread(nc_text, program, name, self.choice, progress=work)
+            if work.stopped or not self.stands:
+                return
+            self.host.end_work(work)
+            self.made = made
+            self._show()
+            if self._enter_waits:
+                self._enter_waits = False
+                self.action_enter()
 
     def on_unmount(self) -> None:
         """Stop the work; its result is no longer needed."""
@@ -147,19 +144,6 @@ class PostScreen(EntryScreen):
         """Note that Esc has stopped the work; Enter starts it again."""
         self.stopped, self._enter_waits = True, False
         self._show()
-
-    @on(NcMade)
-    def _nc_made(self, event: NcMade) -> None:
-        if not self.stands:
-            return
-        if event.program is self.current_session.program and event.choice == self.choice and not self.stopped:
-            self.host.end_work(self._work)
-            self._work = None
-            self.made = event.made
-            self._show()
-            if self._enter_waits:
-                self._enter_waits = False
-                self.action_enter()
 
     def _show(self) -> None:
         lines, preview = self._findings(), ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from asyncio import to_thread
 from typing import ClassVar
 
 from textual import on, work
@@ -10,7 +10,6 @@ from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
 from textual.content import Content
-from textual.message import Message
 from textual.widgets import DataTable, Label
 
 from app.documents.survey import outcome_of
@@ -30,15 +29,6 @@ from core.program.model import Number, Program
 from core.units import Kind, show
 
 COLUMNS = (("BLOCK", 5), ("KIND", 12), ("CUTTER COMP.", 13), ("TOOL", 4), ("SEG", 3), ("VERDICT", 11))
-
-
-@dataclass
-class Timed(Message):
-    """A worker has estimated the times of a program."""
-
-    derived: Derived
-    total: str
-    blocks: dict[int, str]
 
 
 class ProgramScreen(BaseScreen):
@@ -100,18 +90,14 @@ class ProgramScreen(BaseScreen):
         if all(block.known for block in session.derived.blocks):
             self._time(session.derived)
 
-    @work(thread=True, exclusive=True, group="times", description="times")
-    def _time(self, derived: Derived) -> None:
-        self.post_message(Timed(derived, *times_in_words(derived)))
-
-    @on(Timed)
-    def _timed(self, event: Timed) -> None:
+    @work(exclusive=True, group="times", description="times")
+    async def _time(self, derived: Derived) -> None:
         """Show the times in the title of the drawing and next to the number of blocks."""
-        if not self.stands or event.derived is not self.current_session.derived:
+        total, blocks = await to_thread(times_in_words, derived)
+        if not self.stands or derived is not self.current_session.derived:
             return
-        self.times = event.blocks
-        words = f"{counted(len(event.derived.blocks), 'block')}   {event.total}"
-        self.query_one("#block-count", Label).update(words)
+        self.times = blocks
+        self.query_one("#block-count", Label).update(f"{counted(len(derived.blocks), 'block')}   {total}")
         self._draw()
 
     def guide_text(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from asyncio import to_thread
 from pathlib import Path
 from typing import ClassVar
 
@@ -51,12 +52,10 @@ class SheetScreen(EntryScreen):
         """Make the sheet of the current program."""
         self._make(session.program)
 
-    @work(thread=True, exclusive=True, group="sheet", description="sheet")
-    def _make(self, program: Program) -> None:
-        text = setup_sheet(program, Path(Path(self._text).name or "part").with_suffix(".txt"), self.host.now())
-        self.app.call_from_thread(self._show, text)
-
-    def _show(self, text: str) -> None:
+    @work(exclusive=True, group="sheet", description="sheet")
+    async def _make(self, program: Program) -> None:
+        path = Path(Path(self._text).name or "part").with_suffix(".txt")
+        text = await to_thread(setup_sheet, program, path, self.host.now())
         if self.stands:
             self.query_one("#sheet-text", Static).update(Content(text))
 

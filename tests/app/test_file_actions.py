@@ -21,7 +21,7 @@ from app.documents.survey import Facts
 from app.file_actions import session_of
 from app.nc_proof.screen import ProofScreen
 from app.screens.dialogs import Question
-from app.screens.home import HomeScreen, Surveyed
+from app.screens.home import HomeScreen
 from app.screens.import_drawing import ImportScreen
 from core.program.model import Number
 from core.units import Unit
@@ -212,7 +212,7 @@ async def test_a_preview_that_arrives_while_home_closes_is_dropped(folder, monke
 
     def on_unmount(home: HomeScreen) -> None:
         home._show_preview(folder / "part.toml", "part", None)
-        home.post_message(Surveyed(Facts(folder / "part.toml")))
+        home._show_facts(Facts(folder / "part.toml"))
         unmounted.append(home)
 
     monkeypatch.setattr(HomeScreen, "on_unmount", on_unmount, raising=False)
