@@ -379,9 +379,9 @@ class FileActions(DerivationActions):
         if half_typed and not self.take_typed():
             return False
         for proof in proofs:
-            if proof.document.unsaved and not await self.saved_nc(proof, None):
+            if proof.document.unsaved and not await self.saved(proof, None):
                 return False
-        return not ours or not self.document.unsaved or await self.saved(None)
+        return not ours or not self.document.unsaved or await self.saved(None, None)
 
     async def close_documents(self, documents: Iterable[Document]) -> None:
         """Close documents: remove their journals and locks."""
@@ -399,7 +399,7 @@ class FileActions(DerivationActions):
 
         path, settings = document.file.path, self.settings
         remembered = "" if path is None else settings.tools_of(path)
-        self.push_screen(ProofScreen(document, self.keep_document, asked, settings.control, remembered))
+        self.push_screen(ProofScreen(document, asked, settings.control, remembered))
 
     def show_folder(self, folder: Path, at: Path | None = None) -> None:
         """Open HOME on a folder, with the cursor on the file `at`."""
@@ -413,12 +413,11 @@ class FileActions(DerivationActions):
         """Save the NC text in front, or else the program, under its name; ask for a name if it has none."""
         if self.disk_is_behind() or not self.take_typed():
             return
-        if self.proof is not None:
-            self._save_nc(self.proof, None)
-        elif self.document.file.path is None:
+        document = self.document if self.proof is None else self.proof.document
+        if document.file.path is None:
             self.action_save_as()
         else:
-            self._save(None)
+            self._save(self.proof, None)
 
     def action_save_as(self) -> None:
         """Ask for a name to save under."""
@@ -444,9 +443,9 @@ class FileActions(DerivationActions):
             self._save_copy(self.document if proof is None else proof.document, typed(text))
         elif proof is not None:
             old = proof.document.file.path
-            self._save_nc(proof, with_suffix(typed(text), ".nc" if old is None else old.suffix))
+            self._save(proof, with_suffix(typed(text), ".nc" if old is None else old.suffix))
         else:
-            self._save(typed(text))
+            self._save(None, typed(text))
 
     @work(group="question")
     async def _save_copy(self, document: AnyDocument, path: Path) -> None:
@@ -471,23 +470,6 @@ class FileActions(DerivationActions):
         else:
             self._leave_save_as()
             self.say(f"A copy is in {written}. {name_of(document)} itself still waits for its folder.", Tone.WARNING)
-
-    @work(group="question")
-    async def _save_nc(self, proof: ProofScreen, path: Path | None) -> None:
-        if proof.document.file.path is None and path is None:
-            self.action_save_as()
-        elif await self.saved_nc(proof, path) and path is not None:
-            self._leave_save_as()
-
-    async def saved_nc(self, proof: ProofScreen, path: Path | None) -> bool:
-        """Save an NC text, asking questions as needed; return whether it was saved."""
-        if not proof.take_lines():
-            return False
-        result = await self._save_document(proof.document, path)
-        if isinstance(result, Saved):
-            proof.saved(result.document)
-            self.notify(result.notice.text, timeout=4)
-        return isinstance(result, Saved)
 
     async def write_made(self, text: str, suffix: str, make: Callable[[Path], str]) -> tuple[str, str] | None:
         """Write the text from `make` under a typed name; return where it was written and the text, None if it was not.
@@ -550,8 +532,8 @@ class FileActions(DerivationActions):
         return result
 
     @work(group="question")
-    async def _save(self, path: Path | None) -> None:
-        if await self.saved(path) and path is not None:
+    async def _save(self, proof: ProofScreen | None, path: Path | None) -> None:
+        if await self.saved(proof, path) and path is not None:
             self._leave_save_as()
 
     def _leave_save_as(self) -> None:
@@ -561,17 +543,24 @@ class FileActions(DerivationActions):
         if isinstance(self.screen, SaveAsScreen):
             self.pop_screen()
 
-    async def saved(self, path: Path | None) -> bool:
-        """Save the program, asking questions as needed; return whether it was saved."""
-        self.drop_empty_segment()
-        result = await self._save_document(self.document, path)
+    async def saved(self, proof: ProofScreen | None, path: Path | None) -> bool:
+        """Save the NC text of a screen or else the program, asking questions as needed; return whether it was saved."""
+        if proof is not None and not proof.take_lines():
+            return False
+        if proof is None:
+            self.drop_empty_segment()
+        document: Any = self.document if proof is None else proof.document
+        result = await self._save_document(document, path)
         if result is None:
             return False
-        self.document = self.document.after_saving(result.document)
-        self.begin(session_of(self.document, self.session))
-        if self.document.file.path is not None:
-            self.keep_settings(self.settings.using(self.document.file.path))
-        self.quiet()
+        if proof is not None:
+            proof.saved(result.document)
+        else:
+            self.document = self.document.after_saving(result.document)
+            self.begin(session_of(self.document, self.session))
+            if self.document.file.path is not None:
+                self.keep_settings(self.settings.using(self.document.file.path))
+            self.quiet()
         self.notify(result.notice.text, timeout=4)
         return True
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import zlib
 from base64 import b85decode, b85encode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from difflib import SequenceMatcher
 from typing import Final
 
 from app.documents.journal_file import DamagedError
 from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
+from core.program.history import splice
 from core.units import printable
 
 NEVER_SAVED: Final = Change(-1, (), ())
@@ -77,11 +78,8 @@ def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple
 
     `other` says in the sentence on a line where its other text is from.
     """
-    old, new = ([text.text(row) for row in range(len(text))] for text in (file, work))
-    shorter = min(len(old), len(new))
-    first = next((row for row in range(shorter) if old[row] != new[row]), shorter)
-    after = next((row for row in range(shorter - first) if old[-1 - row] != new[-1 - row]), shorter - first)
-    old, new = old[first : len(old) - after], new[first : len(new) - after]
+    change = splice(*(tuple(text.text(row) for row in range(len(text))) for text in (file, work)))
+    first, old, new = change.at, change.old, change.new
     if max(len(old), len(new)) > MAX_COMPARED_LINES:
         if not new:
             return (f"Lines {first + 1} to {first + len(old)} of the file are deleted.",)
@@ -89,7 +87,7 @@ def differences(file: NcText, work: NcText, other: str = "in the file") -> tuple
     return tuple(_compared(old, new, first + 1, other))
 
 
-def _compared(old: list[str], new: list[str], first: int, other: str) -> Iterator[str]:
+def _compared(old: Sequence[str], new: Sequence[str], first: int, other: str) -> Iterator[str]:
     for kind, a, b, c, d in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         if kind == "equal":
             continue

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
+from core.program.history import splice
+
 MAX_NC_BYTES: Final = 64_000_000
 """The size of the largest NC text that is opened in bytes."""
 MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
@@ -88,21 +90,19 @@ class NcText:
 
     def with_texts(self, texts: Sequence[str]) -> NcText:
         """Return the text with these lines, given as in `texts`, by one change; unchanged lines keep their ends."""
-        before = self.texts
-        first, after = _shared(before, texts)
-        moved = len(before) - len(texts)
+        changed, before = splice(self.texts, tuple(texts)), len(self.texts)
+        after = len(texts) - changed.at - len(changed.new)
         lines = []
         for row, text in enumerate(texts[:-1]):
-            old = row if row < min(len(texts), len(before)) - after else row + moved
+            old = row if row < min(len(texts), before) - after else row + before - len(texts)
             lines.append(text + (self._end_of(old) if 0 <= old < len(self.lines) else ""))
             if not _END.search(lines[-1]):
                 lines[-1] += self._usual_end()
         lines += [text for text in texts[-1:] if text]
         if self.lines and self.lines[0].startswith(MARK):
             lines[:1] = [MARK + "".join(lines[:1])]
-        first, after = _shared(self.lines, lines)
-        removed, inserted = self.lines[first : len(self.lines) - after], lines[first : len(lines) - after]
-        return self._with_change(Change(first, removed, tuple(inserted))) if removed or inserted else self
+        change = splice(self.lines, tuple(lines))
+        return self._with_change(Change(change.at, change.old, change.new)) if change.old or change.new else self
 
     def _end_of(self, row: int) -> str:
         match = _END.search(self.lines[row])
@@ -153,11 +153,3 @@ class NcText:
 def _with_lines(listing: NcText, change: Change) -> NcText:
     lines, after = listing.lines, change.row + len(change.removed)
     return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[after:]))
-
-
-def _shared(before: Sequence[str], after: Sequence[str]) -> tuple[int, int]:
-    """Return how many lines at the beginning are the same, and how many of the others at the end."""
-    most = min(len(before), len(after))
-    first = next((row for row in range(most) if before[row] != after[row]), most)
-    last = next((row for row in range(most - first) if before[-1 - row] != after[-1 - row]), most - first)
-    return first, last

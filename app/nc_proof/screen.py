@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from asyncio import to_thread
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final
@@ -71,7 +71,7 @@ _NAMED: Final = re.compile(r"\s*([^=]*[^=\s])\s*=(.*)")
 
 
 class ProofScreen(BaseScreen):
-    """The proof of one NC text; `keep` writes its edits to disk.
+    """The proof of one NC text.
 
     The text runs on the control in `asked`, else on the `usual` one if that reads the text.  Its tools are those of
     the last time, `remembered` as `1=0.5in`; tools in `asked` override them.
@@ -110,13 +110,12 @@ class ProofScreen(BaseScreen):
     def __init__(
         self,
         document: NcDocument,
-        keep: Callable[[NcDocument], None],
         asked: Asked | None = None,
         usual: str = "",
         remembered: str = "",
     ) -> None:
         super().__init__()
-        self.document, self._keep = document, keep
+        self.document = document
         text = document.text
         control = likely_control(text, usual)
         folder = None if document.file.path is None else document.file.path.absolute().parent
@@ -215,7 +214,7 @@ class ProofScreen(BaseScreen):
 
     def _change(self, text: NcText, row: int) -> None:
         self.document = self.document.edited(text, row)
-        self._keep(self.document)
+        self.host.keep_document(self.document)
         self._ask(replace(self.question, text=text))
 
     def take_over(self, action: str, /) -> bool:

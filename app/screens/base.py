@@ -6,8 +6,7 @@ To add a screen:
    its eight softkeys, `show_session` shows a new session, `prompt_text` tells what the focused widget takes.
    A screen with fields is a `FormScreen` instead (`app/screens/form_screen.py`).
 2. Give the App a method `action_NAME` that calls `self.bring(NameScreen)` (`app/app.py`).  A softkey or a binding of
-   any screen then names `app.NAME`, and `app.back` closes it; a softkey whose action does not exist is dim.  Screens
-   never import each other.
+   any screen then names `app.NAME`, and `app.back` closes it.  Screens never import each other.
 3. Put its styles into `app/app.tcss`: the sizes are style classes, see `HORIZONTAL_BREAKPOINTS`.
 
 A dialog is a `ModalScreen` in `app/screens/dialogs.py`.
@@ -17,7 +16,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from time import monotonic
-from typing import TYPE_CHECKING, Any, ClassVar, Final, cast
+from typing import TYPE_CHECKING, ClassVar, Final, cast
 
 from textual import on
 from textual.app import ComposeResult
@@ -306,6 +305,4 @@ class BaseScreen(Screen[None]):
 
     def key_acts(self, key: Softkey) -> bool:
         """Return whether a softkey does anything now."""
-        target, _, name = key.action.partition("(")[0].rpartition(".")
-        owner: Any = self.app if target == "app" else self
-        return hasattr(owner, f"action_{name}") and key.acts(self)
+        return key.acts(self)

@@ -49,7 +49,7 @@ ACTIONS: Final = (
     ("KEYS, HELP", "app.help", "? or Ctrl+G"),
     ("QUIT", "app.quit", "Ctrl+Q"),
 )
-"""Name, action and hint of each action that works on every screen; one the App does not have is not listed."""
+"""Name, action and hint of each action that works on every screen."""
 OTHER_WORDS: Final = MappingProxyType(
     {
         "SAVE": "write store keep",
@@ -96,9 +96,7 @@ class Actions(Provider):
                 if key is not None and screen.key_acts(key):
                     yield key.label, f"screen.softkey({number})", f"F{number}"
             yield from screen.palette_actions()
-        for name, action, hint in ACTIONS:
-            if hasattr(self.app, f"action_{action.removeprefix('app.').partition('(')[0]}"):
-                yield name, action, hint
+        yield from ACTIONS
 
     def _unique(self) -> list[tuple[str, str, str]]:
         named: dict[str, tuple[str, str, str]] = {}

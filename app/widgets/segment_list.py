@@ -9,6 +9,7 @@ from textual.binding import Binding, BindingType
 from textual.reactive import reactive
 from textual.widgets import DataTable
 
+from app.session.posting import deleted_numbers
 from app.session.session import Session
 from app.session.words import length
 from app.widgets.verdict import MARKS
@@ -139,10 +140,7 @@ def _outcomes(block: DerivedBlock) -> dict[int, str]:
     for stretch in paths.verdict.uncut:
         for number in _between(stretch.first_number, stretch.last_number, len(block.solved.segments)):
             outcomes[number] = "uncut"
-    if paths.compensated is not None and paths.best is None:
-        outcomes |= {
-            int(number): "deleted" for number in paths.compensated.deleted.segments.tolist() if number == int(number)
-        }
+    outcomes |= dict.fromkeys(deleted_numbers(block), "deleted")
     return outcomes | {int(gouge.surface_number): "gouge" for gouge in paths.verdict.gouges}
 
 
