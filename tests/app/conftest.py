@@ -6,8 +6,13 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import pytest
+
+if TYPE_CHECKING:
+    from textual.css.model import RuleSet
+    from textual.css.tokenizer import Token
 
 KEPT = "TEXTUAL_SNAPSHOT_"
 """Variables of the snapshot plugin, which may be set before this file is imported."""
@@ -16,6 +21,34 @@ for name in list(os.environ):
     if (name.startswith("TEXTUAL_") and not name.startswith(KEPT)) or name in ("NO_COLOR", "FORCE_COLOR"):
         del os.environ[name]
 os.environ["COLUMNS"], os.environ["LINES"] = "80", "24"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _styles_read_once() -> Iterator[None]:
+    """Read the styles of the widgets once for all apps that this process starts."""
+    from textual.css import stylesheet
+
+    read_values, read_rules = stylesheet.tokenize_values, stylesheet.parse
+    values: dict[Any, dict[str, list[Token]]] = {}
+    rules: dict[Any, list[RuleSet]] = {}
+
+    def values_once(variables: dict[str, str]) -> dict[str, list[Token]]:
+        key = tuple(variables.items())
+        if key not in values:
+            values[key] = read_values(variables)
+        return values[key]
+
+    def rules_once(*source: Any, variable_tokens: dict[str, list[Token]], **place: Any) -> list[RuleSet]:
+        # the values are those of `values_once`, which keeps them
+        key = source, id(variable_tokens), tuple(place.items())
+        if key not in rules:
+            rules[key] = list(read_rules(*source, variable_tokens=variable_tokens, **place))
+        return rules[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stylesheet, "tokenize_values", values_once)
+        patch.setattr(stylesheet, "parse", rules_once)
+        yield
 
 
 @pytest.fixture

@@ -25,14 +25,13 @@ from app.terminal.key_order import KeyOrder
 from app.widgets.field import FieldRow
 from app.widgets.prompt import Prompt
 from app.widgets.status import Surroundings
+from core.program.edit import FormPlace
 from core.program.model import Program
 
 QUIET_ROUNDS = 4
 """A wait ends after this many idle rounds; work deferred until after a repaint arrives in the next round."""
 ROUND = 0.005
-"""Seconds of a round; Textual repaints at most every 0.008 seconds."""
-PATIENCE = 0.5
-"""Seconds that `settle` waits for workers other than those of the verdict."""
+"""Seconds between two looks at a worker that is not waited for to its end."""
 SURROUNDINGS = Surroundings(lambda: "12:00", lambda: 23 * 10**9)
 
 
@@ -47,10 +46,18 @@ def key_event(key: str) -> Key:
         return Key(key, None)
 
 
+def session_on(start: str | Program) -> Session:
+    """An example by its name, or a program."""
+    return Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
+
+
 class Operator:
-    """Presses keys and reads the screen; `calculating` are the groups of workers that are waited for to their end."""
+    """Presses keys and reads the screen."""
 
     calculating: tuple[str, ...] = ("derive", "table")
+    """The groups of workers that are waited for to their end."""
+    patience = 0.5
+    """Seconds that `settle` waits for other workers."""
 
     def __init__(self, app: CutcompApp, pilot: Pilot[int]) -> None:
         self.app, self.pilot = app, pilot
@@ -60,10 +67,17 @@ class Operator:
         await self.send(*keys)
         await self.settle()
 
+    async def begin(self, start: str | Program, segment: int = 0, field: str = "segment") -> None:
+        """Show the form of another example or program, with the cursor on a field of its first block."""
+        self.app._uncover(0)
+        self.app.begin(session_on(start).at(FormPlace(1, segment), field))
+        await self.settle()
+        assert self.at == field
+
     async def send(self, *keys: str) -> None:
         """Press keys in order, as the driver passes them on, and wait until they are taken, not for their work."""
         await sleep(0)
-        if self._messages():
+        if self._busy():
             await self.pilot.pause(0)
         order = KeyOrder(self.app)
         for key in keys:
@@ -73,12 +87,12 @@ class Operator:
                     await sleep(0)
 
     async def settle(self) -> None:
-        """Wait for the calculations in threads, and until no widget has a message left.
+        """Wait for the calculations in threads, until every widget waits for a message, and paint what has changed.
 
-        Other workers than those that calculate may wait for an answer or a hanging disk: they get only `PATIENCE`,
+        Other workers than those that calculate may wait for an answer or a hanging disk: they get only `patience`,
         and only while no question is in front.
         """
-        rounds, patience = 0, monotonic() + PATIENCE
+        rounds, patience = 0, monotonic() + self.patience
         # a program that has ended, even by a fault, has nothing to wait for
         while rounds < QUIET_ROUNDS and self.app.is_running:
             working = [worker for worker in self.app.workers if worker.group in self.calculating]
@@ -89,12 +103,18 @@ class Operator:
                     await self.app.workers.wait_for_complete(working)
             else:
                 others = others and monotonic() < patience
-            await sleep(ROUND)
-            rounds = 0 if working or others or self._messages() else rounds + 1
+            busy = self._busy()
+            if not busy:
+                # as the pilot does: without waiting for the next frame
+                self.app.screen._on_timer_update()
+            await sleep(ROUND if others and not busy else 0)
+            rounds = 0 if working or others or busy or self._busy() else rounds + 1
 
-    def _messages(self) -> bool:
+    def _busy(self) -> bool:
+        """Whether a widget has a message left or handles one: else its task waits at its queue."""
         pumps: list[MessagePump] = [self.app, *self.app.screen.walk_children(with_self=True)]
-        return any(pump.message_queue_size for pump in pumps)
+        queues: list[Any] = [pump._message_queue for pump in pumps]
+        return any(queue.values or not queue.ready_event._waiters for queue in queues)
 
     @property
     def screen(self) -> BaseScreen:
@@ -136,8 +156,7 @@ class Operator:
 @asynccontextmanager
 async def operator(start: str | Program = "pocket", size: tuple[int, int] = (80, 24)) -> AsyncIterator[Operator]:
     """An operator with an example or a program on the form."""
-    session = Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
-    app = CutcompApp(session, surroundings=SURROUNDINGS)
+    app = CutcompApp(session_on(start), surroundings=SURROUNDINGS)
     async with app.run_test(size=size) as pilot:
         user = Operator(app, pilot)
         await user.settle()
