@@ -6,7 +6,6 @@ import gc
 from dataclasses import replace
 from weakref import ref
 
-import pytest
 from textual.widgets import DataTable, Input, OptionList, Static
 
 from app.documents.files import load
@@ -34,9 +33,9 @@ async def run(user: Operator, action: str) -> None:
 
 async def everything(user: Operator) -> None:
     """Wait for every worker, including those that draw and post."""
-    for _ in range(3):
+    for _ in range(2):
         await user.app.workers.wait_for_complete()
-        await user.pilot.pause()
+        await user.settle()
 
 
 async def test_the_look_ahead_table_draws_the_cursor_row_and_enter_takes_it():
@@ -72,30 +71,26 @@ async def test_draw_steps_through_the_findings_and_returns_to_the_form():
         assert screen.drawing.drawn.view == whole
         await user.press("f8")
         assert user.at == "segment"
+        await user.press("pagedown")
+        await run(user, "app.draw")
+        await user.press("enter")
+        await everything(user)
+        assert isinstance(user.app.screen, ContourScreen), "Enter without a chosen finding returns to the form"
+        assert user.session.place.segment == 1
 
 
 async def test_changing_the_unit_asks_first_and_converts_the_lengths():
     async with operator() as user:
         await run(user, "app.parameters")
+        assert (user.value("pocket_overlap"), user.tag("pocket_overlap")) == ("50.0", "DEF"), "a blank parameter"
+        await user.press("right", "escape")
+        await everything(user)
+        assert user.session.program.unit is Unit.IN, "refused"
+        assert user.value("unit") == "IN"
         await user.press("right", "enter", "c")
         await everything(user)
         assert user.session.program.unit is Unit.MM
         assert user.session.block.x_start == Number(50.8)
-
-
-async def test_refusing_another_unit_changes_nothing():
-    async with operator() as user:
-        await run(user, "app.parameters")
-        await user.press("right", "escape")
-        await everything(user)
-        assert user.session.program.unit is Unit.IN
-        assert user.value("unit") == "IN"
-
-
-async def test_a_blank_parameter_shows_its_default():
-    async with operator() as user:
-        await run(user, "app.parameters")
-        assert (user.value("pocket_overlap"), user.tag("pocket_overlap")) == ("50.0", "DEF")
 
 
 async def test_tools_are_added_typed_renumbered_and_deleted():
@@ -116,37 +111,50 @@ async def test_tools_are_added_typed_renumbered_and_deleted():
         assert [tool.number for tool in user.session.program.tools] == [1]
 
 
-@pytest.mark.parametrize(("key", "row"), [("enter", 2), ("tab", 2), ("up", 1)])
-async def test_the_cursor_follows_a_tool_whose_new_number_moves_it(key, row):
+async def test_the_cursor_follows_a_tool_whose_new_number_moves_it():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press("f2", "'.25", "enter", "f2", "'.125", "enter")
         await everything(user)
-        assert isinstance(user.app.screen, ToolsScreen)
-        user.app.screen.focus_field("number@0")
-        await user.press("'9", key)
-        await everything(user)
-        assert [tool.number for tool in user.session.program.tools] == [2, 3, 9]
-        assert user.at.partition("@")[2] == str(row)
+        before = user.session.program
+        for key, row in (("enter", 2), ("tab", 2), ("up", 1)):
+            assert isinstance(user.app.screen, ToolsScreen)
+            user.app.screen.focus_field("number@0")
+            await user.press("'9", key)
+            await everything(user)
+            assert [tool.number for tool in user.session.program.tools] == [2, 3, 9], key
+            assert user.at.partition("@")[2] == str(row), key
+            await user.press("ctrl+z")
+            assert user.session.program == before, key
 
 
 async def test_speed_feeds_and_coolant_of_a_tool_can_be_typed():
     async with operator() as user:
         await run(user, "app.tools")
-        await user.press("tab", "tab", "tab", "'2400", "tab", "'12", "tab", "'5", "tab", "f")
+        await user.send("tab", "tab", "tab", "'2400", "tab", "'12", "tab", "'5", "tab", "f")
         await everything(user)
         tool = user.session.program.tools[0]
         assert (tool.speed, tool.feed, tool.plunge_feed) == (Number(2400.0), Number(12.0), Number(5.0))
         assert tool.coolant is Coolant.FLOOD
 
 
-async def test_a_tool_number_in_use_is_refused():
+async def test_a_tool_number_in_use_is_refused_and_one_of_four_digits_is_shown_in_full():
     async with operator() as user:
         await run(user, "app.tools")
         await user.press("f2", "shift+tab", "shift+tab", "'1", "enter")
         await everything(user)
         assert "exists already" in user.prompt
         assert [tool.number for tool in user.session.program.tools] == [1, 2]
+        await user.press("ctrl+z", "up")
+        assert isinstance(user.app.screen, ToolsScreen)
+        user.app.screen.focus_field("number@0")
+        await user.press("'2000", "enter", "'BALL MILL", "enter")
+        await everything(user)
+        shown = {}
+        for name in ("number", "type"):
+            field = user.screen.query_one(f"NumberField.tool-{name}")
+            shown[name] = "".join(segment.text for segment in field.render_line(0)).strip()
+        assert shown == {"number": "2000", "type": "BALL MILL"}
 
 
 async def test_posting_writes_the_text_that_was_shown(tmp_path, monkeypatch):
@@ -247,63 +255,68 @@ async def test_the_palette_says_at_once_that_no_action_has_that_name():
         assert user.prompt != NOTHING_FOUND
 
 
-@pytest.mark.parametrize(
-    ("word", "actions"),
-    [
-        ("transform", {"SHIFT BLOCK", "ROTATE BLOCK", "MIRROR BLOCK"}),
-        ("flip block", {"MIRROR BLOCK"}),
-        ("dxf", {"IMPORT DRAWING"}),
-        ("exit", {"QUIT"}),
-        ("copy", {"REPEAT SEGMENTS, SHIFTED", "REPEAT SEGMENTS, ROTATED"}),
-    ],
-)
-async def test_the_palette_finds_actions_by_other_words_of_the_shop(word: str, actions: set[str]):
+OTHER_WORDS = {
+    "transform": {"SHIFT BLOCK", "ROTATE BLOCK", "MIRROR BLOCK"},
+    "flip block": {"MIRROR BLOCK"},
+    "dxf": {"IMPORT DRAWING"},
+    "exit": {"QUIT"},
+    "copy": {"REPEAT SEGMENTS, SHIFTED", "REPEAT SEGMENTS, ROTATED"},
+}
+
+
+async def test_the_palette_finds_actions_by_other_words_of_the_shop():
     async with operator() as user:
-        await user.press("ctrl+k", f"'{word}")
-        await everything(user)
-        options = user.app.screen.query_one(OptionList).options
-        assert actions <= {str(option.prompt).splitlines()[0] for option in options}
+        for word, actions in OTHER_WORDS.items():
+            await user.send("ctrl+k", f"'{word}")
+            await everything(user)
+            options = user.app.screen.query_one(OptionList).options
+            assert actions <= {str(option.prompt).splitlines()[0] for option in options}, word
+            await user.press("escape")
 
 
-@pytest.mark.parametrize("screen", [DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen])
-async def test_a_screen_being_composed_shows_the_latest_session_once_ready(screen):
+async def test_a_screen_being_composed_shows_the_latest_session_once_ready():
     async with operator() as user:
-        new_screen = screen()
-        pushed = user.app.push_screen(new_screen)
-        changed = replace(user.session, title="changed")
-        user.app.session = user.app.shown = changed
-        user.app.show_work()
-        await pushed
-        await user.settle()
-        assert new_screen.session is user.app.session
-        assert user.session.title == "changed"
+        for screen in (DrawScreen, HelpScreen, LookaheadScreen, ToolsScreen, ProgramScreen):
+            new_screen = screen()
+            pushed = user.app.push_screen(new_screen)
+            changed = replace(user.session, title=screen.__name__)
+            user.app.session = user.app.shown = changed
+            user.app.show_work()
+            await pushed
+            await user.settle()
+            assert new_screen.session is user.app.session, screen
+            assert user.session.title == screen.__name__
+            user.app.pop_screen()
+            await user.settle()
 
 
-@pytest.mark.parametrize("size", [(60, 20), (100, 30), (132, 43), (200, 60)])
-async def test_every_screen_opens_at_every_size(size):
-    async with operator(size=size) as user:
+async def test_every_screen_opens_at_every_size():
+    """Those of 80x24 and 132x43 are in pictures."""
+    async with operator(size=(60, 20)) as user:
         form = user.screen
-        for name in ("draw", "lookahead", "tools", "parameters", "part_setup", "post", "program"):
-            await run(user, f"app.{name}")
-            assert user.screen is not form, name
-            assert user.screen.query("#softkeys"), name
-            await run(user, "app.contour")
-            assert user.screen is form, name
+        for size in ((60, 20), (100, 30), (200, 60)):
+            await user.pilot.resize_terminal(*size)
+            for name in ("draw", "lookahead", "tools", "parameters", "part_setup", "post", "program"):
+                await run(user, f"app.{name}")
+                assert user.screen is not form, (name, size)
+                assert user.screen.query("#softkeys"), (name, size)
+                await run(user, "app.contour")
+                assert user.screen is form, (name, size)
         assert load(example("pocket")) == user.session.program
 
 
-@pytest.mark.parametrize(("open_key", "close_key"), [("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")])
-async def test_closed_screens_are_freed(open_key, close_key):
+async def test_closed_screens_are_freed():
     async with operator() as user:
-        screens = []
-        for _ in range(5):
-            await user.press(open_key)
-            screens.append(ref(user.app.screen))
-            await user.press(close_key)
-        await user.press("down", "up")
-        gc.collect()
-        # Textual may hold the last one
-        assert sum(screen() is not None for screen in screens) <= 1
+        for open_key, close_key in (("f6", "f8"), ("f7", "f8"), ("question_mark", "escape")):
+            screens = []
+            for _ in range(3):
+                await user.press(open_key)
+                screens.append(ref(user.app.screen))
+                await user.press(close_key)
+            await user.press("down", "up")
+            gc.collect()
+            # Textual may hold the last one
+            assert sum(screen() is not None for screen in screens) <= 1, open_key
 
 
 async def test_the_setup_sheet_is_shown_and_written(tmp_path, monkeypatch):
@@ -352,10 +365,10 @@ async def test_tool_setup_names_all_blocks_that_use_a_tool():
         assert str(user.screen.query_one("#tool-use", Static).content) == "TOOL 1\nTOOL of blocks 1, 2"
 
 
-async def test_an_unreadable_number_keeps_the_small_form_open():
+async def test_unreadable_and_inconsistent_numbers_keep_the_small_form_open():
     async with operator() as user:
         await user.app.run_action("app.shift_block")
-        await user.pilot.pause()
+        await user.settle()
         await user.press(*"1a5", "enter")
         assert user.app.screen.query("#number-trouble")
         assert "type a number" in str(user.app.screen.query_one("#number-trouble", Static).content)
@@ -364,13 +377,11 @@ async def test_an_unreadable_number_keeps_the_small_form_open():
         await user.press("escape")
         assert user.session.history.undo_count == 0
 
-
-async def test_inconsistent_numbers_keep_the_small_form_open():
-    async with operator() as user:
         await user.app.run_action("app.repeat_shifted")
-        await user.pilot.pause()
+        await user.settle()
         for number in ("3", "2", "1", "0", "1"):
-            await user.press("home", "delete", *number, "enter")
+            await user.send("home", "delete", *number, "enter")
+        await user.settle()
         trouble = user.app.screen.query_one("#number-trouble", Static)
         assert str(trouble.content) == "The last segment, 2, is before the first, 3."
         await user.press("up", "up", "up", "home", "delete", "3", *("enter",) * 4)
@@ -384,12 +395,12 @@ async def test_repeat_does_not_offer_a_new_empty_segment():
         await user.press("ctrl+end", "pagedown")
         count = len(user.session.block.segments) - 1
         await user.app.run_action("app.repeat_shifted")
-        await user.pilot.pause()
+        await user.settle()
         first = user.app.screen.query_one("#number-0", Input)
         assert first.value == str(count)
         await user.press("up", "escape")
         await user.app.run_action("app.shift_block")
-        await user.pilot.pause()
+        await user.settle()
         await user.press("1", "enter", "home", "delete", "0", "enter")
         await everything(user)
         assert isinstance(user.app.screen, FormScreen)
@@ -402,28 +413,10 @@ async def test_the_undo_message_disappears_after_the_next_edit():
         await user.press("pagedown", "f1", "ctrl+z")
         assert user.prompt.startswith("Undone: DELETE SEGMENT 1")
         await user.app.run_action("app.shift_block")
-        await user.pilot.pause()
+        await user.settle()
         await user.press("1", "enter", "home", "delete", "0", "enter")
         await everything(user)
         assert "Undone" not in user.prompt
-
-
-async def test_a_four_digit_tool_number_is_shown_in_full():
-    async with operator() as user:
-        await run(user, "app.tools")
-        await user.press(*"2000", "enter")
-        field = user.screen.query_one(".tool-number NumberField, NumberField.tool-number")
-        assert "2000" in "".join(segment.text for segment in field.render_line(0))
-
-
-async def test_enter_in_draw_without_a_chosen_finding_returns_to_the_form():
-    async with operator() as user:
-        await user.press("pagedown")
-        await run(user, "app.draw")
-        await user.press("enter")
-        await everything(user)
-        assert isinstance(user.app.screen, ContourScreen)
-        assert user.session.place.segment == 1
 
 
 async def test_space_lists_tools_choices_and_look_ahead_values():
@@ -447,23 +440,12 @@ async def test_space_lists_tools_choices_and_look_ahead_values():
         assert user.session.block.cutter_comp == "RIGHT"
 
 
-@pytest.mark.parametrize(("key", "count"), [("delete", 10), ("insert", 12)])
-async def test_del_and_ins_delete_and_insert_segments_in_the_list(key, count):
+async def test_del_and_ins_delete_and_insert_segments_in_the_list():
     async with operator() as user:
-        await user.press("f9", "down", "down", key)
-        assert len(user.session.block.segments) == count
-
-
-async def test_a_tool_setup_row_shows_its_values_in_full():
-    async with operator() as user:
-        await run(user, "app.tools")
-        await user.press(*"2000", "enter", "'BALL MILL", "enter")
-        await everything(user)
-        shown = {}
-        for name in ("number", "type"):
-            field = user.screen.query_one(f"NumberField.tool-{name}")
-            shown[name] = "".join(segment.text for segment in field.render_line(0)).strip()
-        assert shown == {"number": "2000", "type": "BALL MILL"}
+        await user.press("f9", "down", "down", "delete")
+        assert len(user.session.block.segments) == 10
+        await user.press("f9", "ctrl+z", "f9", "insert")
+        assert len(user.session.block.segments) == 12
 
 
 async def test_a_softkey_that_closed_a_screen_deletes_nothing_when_it_is_pressed_twice(monkeypatch, tmp_path):
