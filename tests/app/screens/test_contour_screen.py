@@ -25,66 +25,47 @@ from core.program.model import LineSegment, Number, Unread
 from tests.app.widget_pilot import operator
 
 
-async def test_a_typed_number_is_taken_and_the_cursor_moves_on():
+async def test_an_unreadable_text_stays_marked_and_escape_restores_the_old_value():
     async with operator() as user:
-        await user.press("pagedown", "tab", "'5.5", "enter")
-        assert user.session.block.segments[0].x_end == Number(5.5)
-        assert (user.value("x_end"), user.at) == ("5.5000", "y_end")
-        assert user.session.derived_block.known
-
-
-async def test_an_unreadable_text_stays_marked_and_keeps_the_cursor():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'1a5", "enter")
+        await user.press("pagedown", "tab", "'77", "escape")
+        assert user.value("x_end") == "4.0000"
+        assert user.session.history.undo_count == 0
+        await user.press("'1a5", "enter")
         assert isinstance(user.session.block.segments[0].x_end, Unread)
         assert (user.value("x_end"), user.tag("x_end"), user.at) == ("1a5", "ERR", "x_end")
         assert "1a5" in user.prompt
 
 
-async def test_a_refused_look_ahead_keeps_the_old_value():
+async def test_a_typed_look_ahead_is_previewed_refused_above_20_and_restored_by_f3():
     async with operator() as user:
-        await user.press(*["down"] * 11, "'21", "enter")
-        assert user.session.block.lookahead is None
+        await user.send(*["down"] * 11)
+        await user.press("1")
+        assert user.app.shown.derived_block.lookahead.value == 1
+        assert user.session.derived_block.lookahead.value == 8, "a half-typed number is not taken"
+        await user.press("escape")
+        assert user.app.shown is user.session
+        await user.press("'21", "enter")
+        assert user.session.block.lookahead is None, "a refused one keeps the old value"
         assert (user.value("lookahead"), user.tag("lookahead"), user.at) == ("8", "CAL", "lookahead")
-
-
-async def test_a_typed_look_ahead_is_usr_and_f3_restores_cal():
-    async with operator() as user:
-        await user.press(*["down"] * 11, "2", "enter")
+        await user.press("2", "enter")
         assert (user.value("lookahead"), user.tag("lookahead")) == ("2", "USR")
         await user.press("f3")
         assert (user.value("lookahead"), user.tag("lookahead")) == ("8", "CAL")
 
 
-async def test_escape_restores_the_old_value():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'77", "escape")
-        assert user.value("x_end") == "4.0000"
-        assert user.session.history.undo_count == 0
-
-
-async def test_a_half_typed_number_is_previewed_and_not_taken():
-    async with operator() as user:
-        await user.press(*["down"] * 11, "1")
-        assert user.app.shown.derived_block.lookahead.value == 1
-        assert user.session.derived_block.lookahead.value == 8
-        await user.press("escape")
-        assert user.app.shown is user.session
-
-
 async def test_undo_and_redo_move_the_cursor_to_what_they_change():
     async with operator() as user:
-        await user.press("pagedown", "tab", "'5.5", "enter", "pagedown", "pagedown", "ctrl+z")
+        await user.press("pagedown", "tab", "'5.5", "enter")
+        assert user.session.block.segments[0].x_end == Number(5.5)
+        assert (user.value("x_end"), user.at) == ("5.5000", "y_end")
+        assert user.session.derived_block.known
+        await user.press("pagedown", "pagedown", "ctrl+z")
         assert user.session.place == FormPlace(1, 1)
         assert (user.at, user.value("x_end")) == ("x_end", "4.0000")
         await user.press("ctrl+y")
         assert user.value("x_end") == "5.5000"
-
-
-async def test_undo_discards_a_half_typed_number():
-    async with operator() as user:
-        await user.press("pagedown", "tab", "'5.5", "enter", "'9", "ctrl+z")
-        assert user.session.history.redo_count == 1
+        await user.press("tab", "'9", "ctrl+z")
+        assert user.session.history.redo_count == 1, "a half-typed number is discarded"
         assert user.value("y_end") == "0.2500"
 
 
@@ -100,6 +81,11 @@ async def test_moving_between_segments_shows_the_form_of_each_kind():
 
 async def test_a_number_on_segment_goes_to_that_segment():
     async with operator() as user:
+        for typed in ("I1.2", "2,400.5", "1-2"):
+            await user.press(f"'{typed}", "enter")
+            assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
+            assert user.session.place.segment == 0
+            await user.begin("pocket")
         await user.press("'8", "enter")
         assert user.session.place.segment == 8
         await user.press("'12", "enter")
@@ -107,19 +93,15 @@ async def test_a_number_on_segment_goes_to_that_segment():
         assert "No segment 12" in user.prompt
 
 
-async def test_deleting_a_segment_can_be_undone():
-    async with operator() as user:
-        await user.press("'3", "enter", "f1")
-        assert len(user.session.block.segments) == 10
-        await user.press("ctrl+z")
-        assert len(user.session.block.segments) == 11
-
-
-async def test_f1_on_start_deletes_nothing():
+async def test_f1_deletes_a_segment_but_not_start():
     async with operator() as user:
         await user.press("f1")
         assert user.prompt == "START cannot be deleted."
         assert user.session.history.undo_count == 0
+        await user.press("'3", "enter", "f1")
+        assert len(user.session.block.segments) == 10
+        await user.press("ctrl+z")
+        assert len(user.session.block.segments) == 11
 
 
 async def test_a_choice_of_two_words_is_typed_with_its_space():
@@ -171,15 +153,6 @@ async def test_a_new_block_keeps_tool_feeds_and_depths():
         assert user.session.block.tool == Number(3.0)
 
 
-async def test_quitting_with_unsaved_work_asks_and_escape_keeps_it():
-    async with operator() as user:
-        await user.press("tab", "'3", "enter", "ctrl+q")
-        assert type(user.app.screen).__name__ == "Question"
-        await user.press("escape")
-        assert user.session.block.tool == Number(3.0)
-        assert type(user.app.screen).__name__ == "ContourScreen"
-
-
 async def test_going_back_from_quit_leaves_the_text_half_typed():
     async with operator() as user:
         await user.press("tab", "'33", "ctrl+q")
@@ -189,13 +162,12 @@ async def test_going_back_from_quit_leaves_the_text_half_typed():
         assert (user.at, user.value("tool"), user.session.history.undo_count) == ("tool", "33", 0)
         await user.press("4", "enter")
         assert user.session.block.tool == Number(334.0)
-        await user.press("ctrl+z", "home", "ctrl+q")
+        await user.press("ctrl+q")
+        assert isinstance(user.app.screen, Question), "unsaved work is asked about, too"
+        await user.press("escape")
+        assert (user.session.block.tool, type(user.app.screen)) == (Number(334.0), ContourScreen)
+        await user.press("ctrl+z", "home", "tab", "'33", "ctrl+q", "d")
         assert user.session.block.tool == Number(1.0)
-
-
-async def test_discarding_half_typed_text_quits():
-    async with operator() as user:
-        await user.press("tab", "'33", "ctrl+q", "d")
         assert not user.app.is_running
 
 
@@ -220,19 +192,19 @@ async def test_the_findings_list_explains_its_keys_and_shows_each_finding_once()
         assert shown.count("Corner too tight") == 1
 
 
-@pytest.mark.parametrize("key", ["f9", "f10"])
-@pytest.mark.parametrize("close", ["again", "escape"])
-async def test_closing_a_list_returns_the_cursor_to_its_field(key: str, close: str):
+async def test_closing_a_list_returns_the_cursor_to_its_field():
     async with operator("notch") as user:
         await user.press(*["down"] * 3)
         field = user.at
-        await user.press(key)
-        await user.press(key if close == "again" else close)
-        assert user.at == field
-        await user.press("3")
-        assert isinstance(user.screen, ContourScreen)
-        assert (user.at, user.screen.half_typed) == (field, True)
-        await user.press("escape")
+        for key in ("f9", "f10"):
+            for close in (key, "escape"):
+                await user.press(key)
+                await user.press(close)
+                assert user.at == field, (key, close)
+                await user.press("3")
+                assert isinstance(user.screen, ContourScreen)
+                assert (user.at, user.screen.half_typed) == (field, True), (key, close)
+                await user.press("escape")
         await user.press("f9", "down", "f9")
         assert user.at == "segment"
 
@@ -255,8 +227,7 @@ async def test_the_field_with_the_cursor_scrolls_into_view_on_a_tiny_terminal():
         assert user.screen.query_one("#desk").region.contains_region(user.screen.focused.region)
 
 
-@pytest.mark.parametrize("keys", [("7", "escape"), ("4", "tab")], ids=["taken back", "the same"])
-async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(keys, monkeypatch):
+async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(monkeypatch):
     """The derivation of the half-typed number ends only after the typing does."""
     may_end = Event()
 
@@ -268,11 +239,13 @@ async def test_the_preview_of_a_half_typed_number_ends_with_the_typing(keys, mon
         await user.press("pagedown", "tab")
         before = user.value("length")
         monkeypatch.setattr("app.derivation_actions.derived", slow)
-        await user.pilot.press(*keys)
-        may_end.set()
-        await user.settle()
-        assert user.app.shown is user.session
-        assert user.value("length") == before
+        for end, keys in {"taken back": ("7", "escape"), "the same": ("4", "tab")}.items():
+            may_end.clear()
+            await user.send(*keys)
+            may_end.set()
+            await user.settle()
+            assert user.app.shown is user.session, end
+            assert user.value("length") == before, end
 
 
 async def test_a_number_half_typed_on_another_screen_leaves_the_covered_form_alone():
@@ -300,7 +273,7 @@ async def test_the_palette_can_be_reopened_at_once():
     """It opens even before the closing palette is gone."""
     async with operator() as user:
         user.app.action_command_palette()
-        await user.pilot.pause()
+        await user.settle()
         user.app.pop_screen()
         user.app.action_command_palette()
         await user.settle()
@@ -358,14 +331,6 @@ async def test_repeating_a_segment_removes_the_undo_message():
             await user.press(*("enter",) * 5)
             assert user.session.history.undo_count == 1
             assert "Undone" not in user.prompt
-
-
-@pytest.mark.parametrize("typed", ["I1.2", "2,400.5", "1-2"])
-async def test_a_coordinate_typed_on_segment_is_refused(typed):
-    async with operator() as user:
-        await user.press(f"'{typed}", "enter")
-        assert user.prompt == f"{typed} is no segment number: type digits only, such as 3, then Enter."
-        assert user.session.place.segment == 0
 
 
 async def test_a_number_out_of_range_is_reported_with_its_range_while_typed():
