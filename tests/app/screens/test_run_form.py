@@ -7,10 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import pytest
-
-from app.screens.contour import ContourScreen
-from app.session.session import Session
 from app.widgets.drawing import Drawing
 from core.draw.scene import Style
 from core.program.edit import FormPlace
@@ -32,9 +28,8 @@ def header(user: Operator) -> str:
 
 async def to(user: Operator, segment: int, field: str) -> None:
     """Move the cursor to a field of a segment."""
-    await user.press("ctrl+home", *["pagedown"] * segment)
-    assert isinstance(user.screen, ContourScreen)
-    await user.press(*["tab"] * user.screen.names().index(field))
+    user.app.move(FormPlace(1, segment), field)
+    await user.settle()
     assert user.at == field
 
 
@@ -56,20 +51,14 @@ async def test_an_incomplete_run_counts_its_missing_values_on_each_segment():
             assert header(user).endswith("RUN 1-3  1 more value")
             assert user.prompt.startswith("Segments 1 to 3 need 1 more value: RADIUS of 2, or an end (X END or Y END)")
         await to(user, 2, "radius")
-        await user.press("'10", "tab")
-        assert header(user) == "ARC     RUN 1-3"
-        assert (user.value("x_end"), user.tag("x_end")) == ("60.000", "CAL")
-
-
-async def test_each_field_of_an_incomplete_run_says_what_it_takes():
-    case = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
-    async with operator(program_of(case)) as user:
-        await to(user, 2, "radius")
-        radius = "Radius of the arc."
-        assert user.prompt.startswith(f"{radius}\nSegments 1 to 3 need 1 more value: RADIUS of 2")
+        assert user.prompt.startswith("Radius of the arc.\nSegments 1 to 3 need 1 more value: RADIUS of 2")
         await user.press("tab", "tab")
         assert user.at == "start_angle"
         assert user.prompt.startswith("Direction in which the arc starts, from +X.")
+        await to(user, 2, "radius")
+        await user.press("'10", "tab")
+        assert header(user) == "ARC     RUN 1-3"
+        assert (user.value("x_end"), user.tag("x_end")) == ("60.000", "CAL")
 
 
 async def test_a_half_typed_number_recalculates_the_run_and_escape_restores_it():
@@ -85,15 +74,7 @@ async def test_a_half_typed_number_recalculates_the_run_and_escape_restores_it()
         assert (user.value("y_end"), user.value("radius")) == ("10.000", "10.000")
 
 
-async def test_undo_names_the_run_whose_calculated_fields_it_restores():
-    async with operator(golden("c18")) as user:
-        await to(user, 2, "radius")
-        await user.press("delete", "'2", "tab", "ctrl+z")
-        assert user.prompt.startswith("Undone: RADIUS of segment 2, run 1-3, block 1.")
-        assert user.value("y_end") == "10.000"
-
-
-async def test_a_half_typed_number_without_a_solution_keeps_its_text():
+async def test_a_half_typed_number_without_a_solution_keeps_its_text_and_undo_names_the_run():
     async with operator(golden("c18")) as user:
         await to(user, 2, "radius")
         await user.press("delete", "'7", "'0")
@@ -101,6 +82,15 @@ async def test_a_half_typed_number_without_a_solution_keeps_its_text():
         assert user.value("x_end") == ""
         await user.press("enter")
         assert "RADIUS 70.000 does not fit between segments 1 and 3: the largest is 40.000." in user.prompt
+        await user.press("ctrl+z")
+        assert user.prompt.startswith("Undone: RADIUS of segment 2, run 1-3, block 1.")
+        assert user.value("y_end") == "10.000"
+        await to(user, 2, "tangent")
+        await user.press("space")
+        assert user.value("tangent") == "NO"
+        assert "1 more value" in header(user)
+        await user.press("space")
+        assert (user.value("tangent"), header(user)) == ("YES", "ARC     RUN 1-3")
 
 
 async def test_solution_replaces_start_and_is_stepped_with_space_and_arrows():
@@ -108,6 +98,8 @@ async def test_solution_replaces_start_and_is_stepped_with_space_and_arrows():
         await to(user, 2, "choice")
         assert not user.row("START").display
         assert user.row("choice").display
+        assert user.row("choice").input is not None
+        assert "? of 2" in str(user.row("choice").input.query_one("#label").render())
         ends = []
         for key in ("space", "space", "left", "right"):
             await user.press(key)
@@ -115,13 +107,6 @@ async def test_solution_replaces_start_and_is_stepped_with_space_and_arrows():
         assert ends == [("1 of 2", "68.678"), ("2 of 2", "66.604"), ("1 of 2", "68.678"), ("2 of 2", "66.604")]
         await user.press("ctrl+z")
         assert (user.session.place.segment, user.value("choice"), user.value("x_end")) == (1, "1 of 2", "18.413")
-
-
-async def test_solution_shows_the_number_of_solutions_before_one_is_chosen():
-    async with operator(golden("c24")) as user:
-        await to(user, 2, "choice")
-        assert user.row("choice").input is not None
-        assert "? of 2" in str(user.row("choice").input.query_one("#label").render())
 
 
 async def test_solution_appears_on_the_form_as_soon_as_two_solutions_fit():
@@ -167,16 +152,6 @@ async def test_enter_stops_at_the_fields_of_the_last_arc_while_data_are_missing(
     assert (typed.x_center, typed.y_center) == (Number(80.0), Number(30.0))
 
 
-async def test_space_toggles_tangent():
-    async with operator(golden("c18")) as user:
-        await to(user, 2, "tangent")
-        await user.press("space")
-        assert user.value("tangent") == "NO"
-        assert "1 more value" in header(user)
-        await user.press("space")
-        assert (user.value("tangent"), header(user)) == ("YES", "ARC     RUN 1-3")
-
-
 async def test_an_incomplete_last_segment_says_that_the_next_one_may_complete_it():
     async with operator(program_of(case_of(line(angle=30)))) as user:
         await to(user, 1, "x_end")
@@ -215,25 +190,23 @@ async def test_each_refusal_appears_as_soon_as_the_last_number_is_typed():
     async with operator() as user:
         for code, text, case in KEYED:
             segment, field, value = last_number(case)
-            user.app.begin(Session.of(blanked(program_of(case), segment, field)).at(FormPlace(1, segment), field))
-            await user.settle()
-            assert user.at == field
+            await user.begin(blanked(program_of(case), segment, field), segment, field)
             await user.press(f"'{value:g}", "enter")
             assert text in " ".join(user.prompt.split("\n")), code
             assert user.session.derived_block.solved.runs[0].code == code
 
 
-@pytest.mark.parametrize("field", ["length", "angle"])
-async def test_blanking_either_of_two_contradicting_numbers_resolves_the_run(field: str):
+async def test_blanking_either_of_two_contradicting_numbers_resolves_the_run():
     case = case_of(line(angle=30), line(x_end=100, y_end=0, angle=300))
     async with operator(program_of(case)) as user:
-        await to(user, 2, "length")
-        await user.press("'51", "enter")
-        assert (user.at, "XY LENGTH is 51.000, but 50.000" in user.prompt) == ("length", True)
-        await to(user, 2, field)
-        await user.press("delete", "tab")
-        run = user.session.derived_block.solved.runs[0]
-        assert (len(run.answers), run.code) == ((1, None) if field == "length" else (2, "PICK_SOLUTION"))
+        for field, answers in (("length", (1, None)), ("angle", (2, "PICK_SOLUTION"))):
+            await user.begin(program_of(case), 2, "length")
+            await user.press("'51", "enter")
+            assert (user.at, "XY LENGTH is 51.000, but 50.000" in user.prompt) == ("length", True)
+            await to(user, 2, field)
+            await user.press("delete", "tab")
+            run = user.session.derived_block.solved.runs[0]
+            assert (len(run.answers), run.code) == answers, field
 
 
 async def test_a_message_about_a_run_is_not_shown_on_segments_outside_it():
@@ -267,7 +240,7 @@ def cells_drawn(user: Operator, style: Style) -> int:
 async def drawn(user: Operator) -> None:
     """Wait for the drawings."""
     await user.app.workers.wait_for_complete()
-    await user.pilot.pause()
+    await user.settle()
 
 
 async def test_other_solutions_are_dotted_while_the_cursor_is_on_their_run():
