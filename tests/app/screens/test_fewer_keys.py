@@ -85,33 +85,19 @@ async def test_the_plate_takes_at_most_seventy_keys_and_runs_on_linuxcnc(tmp_pat
 
 async def test_enter_moves_to_the_next_field_that_needs_a_value():
     async with operator(new_program()) as user:
+        await type_keys(user, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
+        assert (user.at, user.session.place.segment) == ("x_start", 0), "X START was left out"
+        await user.begin(new_program(), 0, "tool")
         path = [user.at]
         for keys in (("enter",), ("l", "enter"), ("'0", "enter"), ("'0", "enter"), ("'-.2", "enter")):
             await type_keys(user, keys)
             path.append(user.at)
         assert path == ["tool", "cutter_comp", "x_start", "y_start", "z_bottom", "x_end"]
         assert user.session.place.segment == 1
-
-
-async def test_enter_on_start_returns_to_the_missing_value():
-    async with operator(new_program()) as user:
-        await type_keys(user, ("enter", "enter", "enter", "'0", "enter", "'-.2", "enter"))
-        assert (user.at, user.session.place.segment) == ("x_start", 0)
-
-
-async def test_a_letter_changes_the_kind_of_a_new_line():
-    async with operator(new_program()) as user:
-        await type_keys(user, ("enter", "l", "enter", "'0", "enter", "'0", "enter", "'-.2", "enter"))
         assert "A ARC, B BLEND ARC, C CHAMFER" in user.prompt
         await type_keys(user, ("a",))
         assert (user.at, str(user.screen.query_one("#segment-kind").render())) == ("direction", "ARC")
         assert len(user.session.block.segments) == 1
-
-
-async def test_c_on_segment_inserts_a_chamfer_after_it():
-    async with operator() as user:
-        await user.press("'5", "enter", "c", "'1", "enter")
-        assert isinstance(user.session.block.segments[5], ChamferSegment)
 
 
 async def test_the_tags_show_the_origin_of_a_value():
@@ -124,25 +110,41 @@ async def test_the_tags_show_the_origin_of_a_value():
 
 async def test_right_arrow_past_an_empty_segment_adds_no_second_one():
     async with operator() as user:
-        await user.press("ctrl+end", "right", "pagedown", "pagedown")
+        await user.press("'5", "enter", "c", "'1", "enter")
+        assert isinstance(user.session.block.segments[5], ChamferSegment), "C on SEGMENT inserts a chamfer after it"
+        await user.press("ctrl+z", "ctrl+z", "ctrl+end", "right", "pagedown", "pagedown")
         assert len(user.session.block.segments) == 12
         assert isinstance(user.session.segment, LineSegment)
         assert user.prompt.startswith("Nothing is typed yet in segment 12")
 
 
-async def test_a_new_block_takes_the_values_of_the_previous_block():
+async def test_del_blanks_coolant():
+    async with operator() as user:
+        user.app.move(FormPlace(1), "coolant")
+        await user.press("f")
+        assert user.session.block.coolant is not None
+        await user.press("delete")
+        assert user.session.block.coolant is None
+        assert user.tag("coolant") == "DEF"
+
+
+async def test_a_new_block_takes_the_values_and_the_last_feed_of_the_previous_block():
     async with operator() as user:
         await user.press("f8", "f2")
         before, block = user.session.program.blocks
         assert (block.speed, block.z_bottom, block.cutter_comp) == (before.speed, before.z_bottom, before.cutter_comp)
         assert (block.x_start, block.segments) == (None, ())
+        await user.press("ctrl+end", "pagedown")
+        assert user.session.place == FormPlace(2, 1)
+        assert user.session.block.segments[0].feed == Number(12.0)
 
 
-@pytest.mark.parametrize(("typed", "value"), [("2,5", 2.5), (",5", 0.5)])
-async def test_a_comma_is_a_decimal_point(typed, value):
+async def test_a_comma_is_a_decimal_point():
     async with operator() as user:
-        await user.press("pagedown", "tab", *[{",": "comma"}.get(letter, letter) for letter in typed], "enter")
-        assert user.session.block.segments[0].x_end == Number(value)
+        await user.press("pagedown", "tab", "2", "comma", "5", "enter")
+        assert user.session.block.segments[0].x_end == Number(2.5)
+        await user.press("comma", "5", "enter")
+        assert user.session.block.segments[0].y_end == Number(0.5)
 
 
 async def test_a_new_line_left_empty_is_removed():
@@ -155,22 +157,3 @@ async def test_a_new_line_left_empty_is_removed():
         assert (len(user.session.block.segments), user.session.place.segment) == (11, 5)
         await user.press("ctrl+end", "right", "f8")
         assert len(user.session.block.segments) == 11
-
-
-async def test_the_first_segment_of_a_new_block_repeats_the_last_feed():
-    async with operator() as user:
-        await user.press("f8", "f2", "ctrl+end", "pagedown")
-        assert user.session.place == FormPlace(2, 1)
-        assert user.session.block.segments[0].feed == Number(12.0)
-
-
-async def test_del_blanks_coolant():
-    async with operator() as user:
-        await user.press(*["up"] * 1)
-        while user.at != "coolant":
-            await user.press("up")
-        await user.press("f")
-        assert user.session.block.coolant is not None
-        await user.press("delete")
-        assert user.session.block.coolant is None
-        assert user.tag("coolant") == "DEF"
