@@ -78,6 +78,16 @@ class Importer(Operator):
                 break
         await self.settle()
 
+    async def show(self, path: Path, *, fresh: bool = False) -> None:
+        """Open a drawing and wait until it is listed, refused, or something is asked."""
+        self.app.show_drawing(path, fresh=fresh)
+        await self.pilot.pause()
+        await self.ready()
+
+    async def left(self) -> None:
+        """Wait until the form is in front."""
+        await self.until(lambda: type(self.app.screen).__name__ == "ContourScreen")
+
     async def until(self, condition: Callable[[], object]) -> None:
         for _ in range(400):
             if condition():
@@ -111,29 +121,23 @@ class Importer(Operator):
 
 
 @asynccontextmanager
-async def importer(
-    source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
-) -> AsyncIterator[Importer]:
+async def importer(source: Path | bytes, tmp_path: Path, *, unit: Unit = Unit.MM) -> AsyncIterator[Importer]:
     """An operator who has opened a drawing over an empty program."""
     path = source if isinstance(source, Path) else tmp_path / "part.dxf"
     if isinstance(source, bytes):
         path.write_bytes(source)
-    async with opening(path, unit=unit, fresh=fresh, size=size) as user:
-        await user.pilot.pause()
-        await user.ready()
+    async with running(unit) as user:
+        await user.show(path)
         yield user
 
 
 @asynccontextmanager
-async def opening(
-    path: Path, *, unit: Unit = Unit.MM, fresh: bool = False, size: tuple[int, int] = (80, 24)
-) -> AsyncIterator[Importer]:
-    """An operator whose drawing is still being read."""
+async def running(unit: Unit = Unit.MM) -> AsyncIterator[Importer]:
+    """An operator at an empty program."""
     app = CutcompApp(Session.of(empty_program(unit)), surroundings=SURROUNDINGS)
-    async with app.run_test(size=size) as pilot:
+    async with app.run_test(size=(80, 24)) as pilot:
         user = Importer(app, pilot)
         await user.settle()
-        app.show_drawing(path, fresh=fresh)
         yield user
 
 
@@ -151,17 +155,18 @@ async def test_the_contours_are_listed_and_the_chosen_one_is_drawn(tmp_path):
         assert user.importing.picture.heading == "chain 2  HOLE"
 
 
-async def test_a_new_program_shows_the_unit_of_the_drawing_before_it_is_taken(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path, unit=Unit.IN, fresh=True) as user:
-        assert str(user.importing.query_one("#units", Label).content) == "Prog Units:  M M    Free: 23 GB"
-    async with importer(DATA / "d14-layers.dxf", tmp_path, unit=Unit.IN) as user:
-        assert str(user.importing.query_one("#units", Label).content) == "Prog Units:  I N C H    Free: 23 GB"
-
-
 async def test_marked_contours_become_blocks_in_one_undoable_edit(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         before = user.session.program
-        await user.press("space", "down", "space", "enter")
+        await user.press("f7", "n", "plus")
+        assert user.importing.picture.has_focus
+        assert user.contour.number == 2
+        assert user.importing.picture.subject.view is not None
+        await user.press("0", "space", "escape")
+        assert user.importing.picture.subject.view is None
+        assert user.importing.marked == {2}
+        assert user.importing.table.has_focus
+        await user.press("up", "space", "enter")
         await user.until(lambda: user.session.program is not before)
         assert [block.cutter_comp for block in user.session.program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
         assert user.session.history.undo_count == 1
@@ -175,20 +180,22 @@ async def test_contours_are_appended_after_the_blocks_of_the_program(tmp_path):
     async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
         await user.press("down", "f1")
         await user.until(lambda: len(user.session.program.blocks[0].segments))
-        app = user.app
-        app.show_drawing(DATA / "d01-square.dxf")
-        await user.pilot.pause()
-        await user.ready()
+        await user.show(DATA / "d01-square.dxf")
         await user.press("enter")
         await user.until(lambda: len(user.session.program.blocks) == 2)
         assert user.session.place == FormPlace(2)
 
 
-async def test_only_a_program_begun_for_a_drawing_takes_its_unit(tmp_path):
-    for fresh, unit in ((True, Unit.MM), (False, Unit.IN)):
-        async with importer(DATA / "d01-square.dxf", tmp_path, unit=Unit.IN, fresh=fresh) as user:
-            length = user.rows[0][4]
-            assert length == ("140.000" if fresh else "5.5118")
+async def test_only_a_program_begun_for_a_drawing_shows_and_takes_its_unit(tmp_path):
+    square = DATA / "d01-square.dxf"
+    async with importer(square, tmp_path, unit=Unit.IN) as user:
+        cases = {False: ("I N C H", "5.5118", Unit.IN), True: ("M M", "140.000", Unit.MM)}
+        for fresh, (label, length, unit) in cases.items():
+            if fresh:
+                await user.press("ctrl+z")
+                await user.show(square, fresh=True)
+            assert str(user.importing.query_one("#units", Label).content) == f"Prog Units:  {label}    Free: 23 GB"
+            assert user.rows[0][4] == length
             await user.press("enter")
             await user.taken()
             assert user.session.program.unit is unit
@@ -199,53 +206,54 @@ async def test_a_drawing_without_a_unit_asks_for_it_and_shows_both_sizes(tmp_pat
         assert isinstance(user.app.screen, Question)
         assert "40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000" in user.question.lines[0]
         assert user.question.safe == "GO BACK"
+        await user.press("escape")
+        await user.left()
+        await user.show(DATA / "d04-nounits.dxf")
         await user.press("i")
         await user.until(lambda: user.importing.listed)
         assert user.rows[0][4] == "3556.000"
 
 
-async def test_refusing_to_name_the_unit_leaves_the_screen(tmp_path):
-    async with importer(DATA / "d04-nounits.dxf", tmp_path) as user:
-        await user.press("escape")
-        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
+async def test_a_damaged_file_is_taken_only_by_yes(tmp_path):
+    damaged = DATA / "d19-cut-off.dxf"
+    async with importer(damaged, tmp_path) as user:
+        for key in ("enter", "n"):
+            assert user.question.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
+            await user.press(key)
+            await user.left()
+            await user.show(damaged)
+        await user.press("y")
+        await user.until(lambda: user.importing.listed)
+        assert "what comes after it is missing" in " ".join(user.importing.help_lines())
 
 
-@pytest.mark.parametrize(("key", "taken"), [("y", True), ("enter", False), ("n", False)])
-async def test_a_damaged_file_is_taken_only_by_yes(key, taken, tmp_path):
-    async with importer(DATA / "d19-cut-off.dxf", tmp_path) as user:
-        assert isinstance(user.app.screen, Question)
-        assert user.question.lines == ("This file breaks off at line 40: 1 entity could be read.", "Take it?")
-        await user.press(key)
-        if taken:
-            await user.until(lambda: user.importing.listed)
-            assert "what comes after it is missing" in " ".join(user.importing.help_lines())
-        else:
-            await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
+SLOPE = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
+UNLISTABLE = {
+    "d20-not-dxf.dxf is no DXF file.": DATA / "d20-not-dxf.dxf",
+    "in model space: 1 TEXT was skipped.": DATA / "d17-empty.dxf",
+    ": 0 entities could be read.": dxf(*square(0, 0, 10))[:110],
+    "gone.dxf cannot be read: there is no such file or folder. Check the name.": DATA / "gone.dxf",
+    "F2 LAYERS": dxf(line((0, 0), (5, 5)), SLOPE),
+}
 
 
-@pytest.mark.parametrize(
-    ("source", "words"),
-    [
-        (DATA / "d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."),
-        (DATA / "d17-empty.dxf", "in model space: 1 TEXT was skipped."),
-        (dxf(*square(0, 0, 10))[:110], ": 0 entities could be read."),
-        (DATA / "gone.dxf", "gone.dxf cannot be read: there is no such file or folder. Check the name."),
-        (dxf(line((0, 0), (5, 5)), [(0, "LINE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]), "F2 LAYERS"),
-    ],
-)
-async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(source, words, tmp_path):
-    async with importer(source, tmp_path) as user:
-        await user.until(lambda: words in user.message)
-        assert user.message.startswith(Tone.ERROR)
-        await user.press("f1", "down")
-        assert user.importing.listed is None
-        await user.press("escape")
-        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
+async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(tmp_path):
+    path = tmp_path / "part.dxf"
+    async with running(Unit.MM) as user:
+        for words, source in UNLISTABLE.items():
+            if isinstance(source, bytes):
+                path.write_bytes(source)
+            await user.show(path if isinstance(source, bytes) else source)
+            await user.until(lambda words=words: words in user.message)
+            assert user.message.startswith(Tone.ERROR)
+            await user.press("f1", "down")
+            assert user.importing.listed is None, words
+            await user.press("escape")
+            await user.left()
 
 
 async def test_layers_leaves_out_a_layer_that_is_not_flat(tmp_path):
-    slope = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
-    async with importer(dxf(*square(0, 0, 10), slope), tmp_path) as user:
+    async with importer(dxf(*square(0, 0, 10), SLOPE), tmp_path) as user:
         assert "does not lie in the XY plane. F2 LAYERS leaves its layer out." in user.message
         await user.press("f2")
         assert isinstance(user.app.screen, ChooseSeveral)
@@ -400,27 +408,19 @@ async def test_the_filter_hides_chains_that_do_not_match(tmp_path):
         assert user.prompt.startswith("Space marks")
 
 
-async def test_the_full_drawing_zooms_and_steps_from_chain_to_chain(tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path) as user:
-        await user.press("f7", "n", "plus")
-        assert user.importing.picture.has_focus
-        assert user.contour.number == 2
-        assert user.importing.picture.subject.view is not None
-        await user.press("0", "space", "escape")
-        assert user.importing.picture.subject.view is None
-        assert user.importing.marked == {2}
-        assert user.importing.table.has_focus
-
-
-@pytest.mark.parametrize("size", [(60, 20), (80, 24), (132, 43)])
-async def test_a_contour_can_be_taken_by_keys_at_every_size(size, tmp_path):
-    async with importer(DATA / "d14-layers.dxf", tmp_path, size=size) as user:
-        assert user.importing.table.size.height >= 7
-        assert user.importing.picture.display is (size[0] >= 80)
-        await user.press("f7")
-        assert user.importing.picture.outer_size.width == user.importing.query_one("#desk").size.width
-        await user.press("f7", "f1")
-        await user.taken()
+async def test_a_contour_can_be_taken_by_keys_at_every_size():
+    async with running(Unit.MM) as user:
+        for size in ((60, 20), (80, 24), (132, 43)):
+            await user.pilot.resize_terminal(*size)
+            await user.show(DATA / "d14-layers.dxf")
+            assert user.importing.table.size.height >= 7, size
+            assert user.importing.picture.display is (size[0] >= 80), size
+            await user.press("f7")
+            assert user.importing.picture.outer_size.width == user.importing.query_one("#desk").size.width, size
+            await user.press("f7", "f1")
+            await user.taken()
+            await user.press("ctrl+z")
+            assert not user.session.program.blocks[0].segments
 
 
 async def test_home_lists_drawings_and_opens_one(tmp_path, monkeypatch):
@@ -469,11 +469,12 @@ async def test_escape_leaves_the_screen_while_a_drawing_is_read(tmp_path, monkey
     monkeypatch.setattr("app.screens.import_drawing.read_and_list", wait_for_ever)
     path = tmp_path / "slow.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    async with opening(path) as user:
+    async with running() as user:
+        user.app.show_drawing(path)
         await user.pilot.pause()
         await user.until(lambda: "Esc stops." in user.message)
         await user.press("escape")
-        await user.until(lambda: type(user.app.screen).__name__ == "ContourScreen")
+        await user.left()
 
 
 async def test_a_list_that_arrives_while_the_screen_closes_is_dropped(tmp_path, monkeypatch):
@@ -490,7 +491,8 @@ async def test_a_list_that_arrives_while_the_screen_closes_is_dropped(tmp_path, 
     monkeypatch.setattr("app.screens.import_drawing.to_thread", late)
     path = tmp_path / "part.dxf"
     path.write_bytes(dxf(*square(0, 0, 10)))
-    async with opening(path) as user:
+    async with running() as user:
+        user.app.show_drawing(path)
         importing = user.importing
         await asyncio.wait_for(listed.wait(), 30)
         user.app.pop_screen()
