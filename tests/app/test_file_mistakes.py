@@ -32,55 +32,58 @@ def visible(folder: Path) -> set[str]:
 async def entered(user: Operator, action: str, name: str) -> None:
     """Type a name over the one on SAVE AS or OPEN A PATH, and press Enter."""
     await user.app.run_action(action)
-    await user.pilot.pause()
+    await user.settle()
     user.screen.query_one("#entry", Input).value = name
     await user.press("enter")
 
 
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("", "Type a name."),
-        ("/", "this is a folder"),
-        ("missing/x", "there is no such file or folder"),
-        ("part.toml/x", "a part of the path is no folder"),
-        ("~nobody_at_all/x", "there is no such file or folder"),
-        ("x" * 300, "the name is too long"),
-    ],
-)
-async def test_an_unusable_file_name_is_explained_and_replaced_by_typing(folder, name, words):
+UNUSABLE = {
+    "": "Type a name.",
+    "/": "this is a folder",
+    "missing/x": "there is no such file or folder",
+    "part.toml/x": "a part of the path is no folder",
+    "~nobody_at_all/x": "there is no such file or folder",
+    "x" * 300: "the name is too long",
+}
+
+
+async def test_an_unusable_file_name_is_explained_and_replaced_by_typing(folder):
     async with at_work(folder) as user:
         before = visible(folder)
-        await entered(user, "app.save_as", name)
-        assert words in user.prompt
-        assert len(user.prompt) < 160
-        assert visible(folder) == before
+        for name, words in UNUSABLE.items():
+            await entered(user, "app.save_as", name)
+            assert words in user.prompt, name
+            assert len(user.prompt) < 160, name
+            assert visible(folder) == before, name
+            await user.press("escape")
+        await entered(user, "app.save_as", "missing/x")
         await user.press("y", "enter")
         assert user.session.file == folder / "y.toml"
 
 
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("missing/x.toml", "there is no such file or folder"),
-        ("none.nc", "there is no such file or folder"),
-        ("x" * 300, "the name is too long"),
-        ("pyproject.toml", "not a cutcomp program"),
-        ("pipe", "this is a pipe"),
-        ("/dev/zero", "this is a device"),
-        ("part", "part.toml is open already"),
-    ],
-)
-async def test_a_failed_open_keeps_the_program(folder, name, words):
+UNOPENED = {
+    "missing/x.toml": "there is no such file or folder",
+    "none.nc": "there is no such file or folder",
+    "x" * 300: "the name is too long",
+    "pyproject.toml": "not a cutcomp program",
+    "pipe": "this is a pipe",
+    "/dev/zero": "this is a device",
+    "part": "part.toml is open already",
+}
+
+
+async def test_a_failed_open_keeps_the_program(folder):
     (folder / "pyproject.toml").write_text("[project]\nname = 'x'\n")
     os.mkfifo(folder / "pipe")
     async with at_work(folder) as user:
         await user.press("tab", "'7", "enter")
-        await entered(user, "app.open_path", name)
-        assert words in user.prompt
-        assert len(user.prompt) < 160
-        assert user.session.block.tool == Number(7.0)
-        assert journals(folder) == [".part.toml.cutcomp-journal"]
+        for name, words in UNOPENED.items():
+            await entered(user, "app.open_path", name)
+            assert words in user.prompt, name
+            assert len(user.prompt) < 160, name
+            assert user.session.block.tool == Number(7.0), name
+            assert journals(folder) == [".part.toml.cutcomp-journal"], name
+            await user.press("escape")
 
 
 async def test_a_new_name_to_open_asks_about_the_unsaved_work_and_back_keeps_the_program(folder):
@@ -98,44 +101,51 @@ async def test_a_new_name_to_open_asks_about_the_unsaved_work_and_back_keeps_the
 
 async def test_a_folder_typed_as_a_path_shows_its_files(folder):
     async with at_work(folder) as user:
+        assert user.prompt.startswith("Opened: ")
+        await entered(user, "app.save_as", "mine")
+        assert "Opened" not in user.prompt, "a save removes the message"
         await entered(user, "app.open_path", "..")
         assert isinstance(user.app.screen, HomeScreen)
         assert user.app.screen.folder.resolve() == folder.parent.resolve()
+        await user.app.run_action("app.next_characters")
+        await user.app.run_action("app.light_or_dark")
+        text = (folder / "settings.toml").read_text()
+        assert 'characters = "block"' in text
+        assert 'theme = "light"' in text
 
 
 async def test_a_number_typed_without_enter_is_saved_and_asked_about(folder):
     async with at_work(folder) as user:
-        await user.press("tab", "'7", "ctrl+s")
+        await user.press("tab", "'7")
+        file, state = (user.screen.query_one(name, Label) for name in ("#file", "#undo"))
+        assert (str(file.content), str(state.content)) == ("part", "saved")
+        await user.press("escape", "'9x", "ctrl+s")
+        assert user.prompt.startswith("9x cannot be read."), "an unreadable number is not saved"
+        assert load(folder / "part.toml").blocks[0].tool == Number(1.0)
+        await user.press("escape", "'7", "ctrl+s")
         assert load(folder / "part.toml").blocks[0].tool == Number(7.0)
         await user.press("'8", "ctrl+q")
         assert isinstance(user.app.screen, Question)
         await user.press("escape")
         assert (user.value("tool"), user.session.block.tool) == ("8", Number(7.0))
-
-
-async def test_the_head_and_the_status_line_agree_while_a_number_is_typed(folder):
-    async with at_work(folder) as user:
-        await user.press("tab", "'7")
-        file, state = (user.screen.query_one(name, Label) for name in ("#file", "#undo"))
-        assert (str(file.content), str(state.content)) == ("part", "saved")
         await user.press("enter")
-        assert (str(file.content), str(state.content)) == ("part *", "not saved   undo 1")
+        assert (str(file.content), str(state.content)) == ("part *", "not saved   undo 2")
 
 
-async def test_an_unreadable_number_is_not_saved(folder):
-    async with at_work(folder) as user:
-        await user.press("tab", "'9x", "ctrl+s")
-        assert user.prompt.startswith("9x cannot be read.")
-        assert load(folder / "part.toml").blocks[0].tool == Number(1.0)
-
-
-async def test_quitting_asks_about_an_nc_line_still_being_typed(folder):
+async def test_an_nc_line_still_being_typed_is_asked_about(folder):
     (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
         await user.settle()
-        await user.press("enter", "x", "ctrl+q")
-        assert isinstance(user.app.screen, Question)
+        await user.press("enter", "x", "down", "escape")
+        await user.app.run_action("app.contour")
+        await user.settle()
+        assert isinstance(user.app.screen, Question), "returning to the form"
+        await user.press("escape")
+        assert isinstance(user.app.screen, ProofScreen)
+        assert user.app.screen.document.unsaved
+        await user.press("ctrl+z", "enter", "x", "ctrl+q")
+        assert isinstance(user.app.screen, Question), "quitting"
         await user.press("s")
     assert (folder / "a.nc").read_bytes() == b"xG20 G17\nM30\n"
 
@@ -171,20 +181,6 @@ async def test_opening_a_program_over_an_edited_nc_text_asks_and_closes_the_text
         assert user.session.title == "notch"
         assert [path.name for path in folder.iterdir() if path.name.startswith(".")] == []
     assert (folder / "a.nc").read_bytes() == saved
-
-
-async def test_returning_to_the_form_from_an_edited_nc_text_asks(folder):
-    (folder / "a.nc").write_bytes(b"G20 G17\nM30\n")
-    async with at_work(folder) as user:
-        user.app.open_file(folder / "a.nc")
-        await user.settle()
-        await user.press("enter", "x", "down", "escape")
-        await user.app.run_action("app.contour")
-        await user.settle()
-        assert isinstance(user.app.screen, Question)
-        await user.press("escape")
-        assert isinstance(user.app.screen, ProofScreen)
-        assert user.app.screen.document.unsaved
 
 
 async def test_no_key_saves_opens_or_asks_again_while_a_question_is_open(folder):
@@ -226,43 +222,20 @@ async def test_the_title_says_look_only_until_a_copy_is_saved(folder):
     async with at_work(folder) as user:
         await user.press("l")
         assert user.session.file_label == "LOOK ONLY part"
-        await user.press("tab", "'7", "enter", "ctrl+s")
+        await user.press("tab", "tab", "tab", "tab", "'5")
+        assert user.at == "x_start"
+        await user.press("enter")
+        assert (user.at, user.value("x_start")) == ("x_start", "2.0000"), "typed text is removed"
+        assert user.prompt.endswith("SAVE AS (Ctrl+K) makes a copy of your own.")
+        assert user.app.shown is user.session
+        await user.press("up", "up", "right")
+        assert user.value("cutter_comp") == "LEFT"
+        await user.press("up", "'7", "enter", "ctrl+s")
         assert user.prompt.endswith("SAVE AS (Ctrl+K) saves your own copy.")
         await entered(user, "app.save_as", "mine")
         assert user.session.file_label == "mine"
         assert user.session.block.tool == Number(1.0)
     theirs.stop()
-
-
-async def test_text_typed_into_a_look_only_program_is_removed(folder):
-    theirs = DocumentService(state=folder / "their-own")
-    theirs.open(folder / "part.toml")
-    async with at_work(folder) as user:
-        await user.press("l", "tab", "tab", "tab", "tab", "'5")
-        assert user.at == "x_start"
-        await user.press("enter")
-        assert (user.at, user.value("x_start")) == ("x_start", "2.0000")
-        assert user.prompt.endswith("SAVE AS (Ctrl+K) makes a copy of your own.")
-        assert user.app.shown is user.session
-        await user.press("up", "up", "right")
-        assert user.value("cutter_comp") == "LEFT"
-    theirs.stop()
-
-
-async def test_a_save_removes_the_message_about_opening(folder):
-    async with at_work(folder) as user:
-        assert user.prompt.startswith("Opened: ")
-        await entered(user, "app.save_as", "mine")
-        assert "Opened" not in user.prompt
-
-
-async def test_chosen_characters_and_colors_are_stored(folder):
-    async with at_work(folder) as user:
-        await user.app.run_action("app.next_characters")
-        await user.app.run_action("app.light_or_dark")
-        text = (folder / "settings.toml").read_text()
-        assert 'characters = "block"' in text
-        assert 'theme = "light"' in text
 
 
 async def test_a_question_that_does_not_fit_cannot_be_answered():
@@ -275,11 +248,11 @@ async def test_a_question_that_does_not_fit_cannot_be_answered():
         user.app.push_screen(
             Question("OPEN ALREADY", lines, [Answer("LOOK"), Answer("TAKE OVER")], "LOOK"), answers.append
         )
-        await user.pilot.pause()
+        await user.settle()
         await user.press("l", "t", "enter")
         assert answers == []
         await user.pilot.resize_terminal(80, 24)
-        await user.pilot.pause()
+        await user.settle()
         await user.press("t")
         assert answers == ["TAKE OVER"]
 
@@ -307,7 +280,7 @@ async def test_output_asks_before_another_folder_or_a_file_and_never_replaces_a_
     async with at_work(folder) as user:
         await user.app.run_action(action)
         await user.app.workers.wait_for_complete()
-        await user.pilot.pause()
+        await user.settle()
         screen = user.screen
         for name, title in (("../x.txt", "WRITE IN ANOTHER FOLDER?"), ("settings.toml", ""), ("note.txt", "REPLACE")):
             (folder / "note.txt").write_text("somebody's")
