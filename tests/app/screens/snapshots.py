@@ -12,29 +12,20 @@ from datetime import UTC, datetime
 from typing import Final
 
 from syrupy.assertion import SnapshotAssertion
-from textual.pilot import Pilot
 
 from app.app import CutcompApp
-from app.documents.files import load
-from app.documents.programs import example
-from app.session.session import Session
 from core.program.edit import FormPlace
 from core.program.model import Program
-from tests.app.widget_pilot import SURROUNDINGS
+from tests.app.widget_pilot import SURROUNDINGS, Operator, session_on
 
 SIZES: Final = {"60x20": (60, 20), "80x24": (80, 24), "132x43": (132, 43)}
 NOON: Final = datetime(2026, 1, 2, 12, tzinfo=UTC)
-CALCULATING: Final = frozenset(
-    ("compare", "derive", "drawing", "import", "post", "preview", "proof", "sheet", "survey", "table", "times")
-)
+CALCULATING: Final = (
+    "compare", "derive", "drawing", "import", "post", "preview", "proof", "sheet", "survey", "table", "times"
+)  # fmt: skip
 """The groups of workers that calculate; others wait for an answer."""
 FONT: Final = re.compile(r"@font-face \{.*?\}", re.DOTALL)
 """The source of the font for a browser, which no picture needs."""
-
-
-def session_on(start: str | Program) -> Session:
-    """An example by its name, or a program."""
-    return Session.of(load(example(start)), title=start) if isinstance(start, str) else Session.of(start)
 
 
 def app_on(start: str | Program, look: str = "") -> CutcompApp:
@@ -48,26 +39,21 @@ def app_on(start: str | Program, look: str = "") -> CutcompApp:
     )
 
 
-async def settled(pilot: Pilot[int]) -> None:
-    """Wait for all calculations in threads."""
-    idle_rounds = 0
-    while idle_rounds < 2:
-        await pilot.pause()
-        busy = any(worker.group in CALCULATING and not worker.is_finished for worker in pilot.app.workers)
-        idle_rounds = 0 if busy else idle_rounds + 1
+class Viewer(Operator):
+    """An operator who waits for everything that is calculated."""
 
+    calculating = CALCULATING
+    patience = 0.0
 
-async def pressed(pilot: Pilot[int], keys: str) -> None:
-    """Press keys; SEGMENT:FIELD moves the cursor there, and a quote begins typed text."""
-    for key in keys.split():
-        segment, colon, field = key.partition(":")
-        if colon:
-            assert isinstance(pilot.app, CutcompApp)
-            pilot.app.move(FormPlace(1, int(segment)), field)
-            await pilot.pause()
-        else:
-            await pilot.press(*(key[1:] if key.startswith("'") else (key,)))
-    await settled(pilot)
+    async def follow(self, keys: str) -> None:
+        """Press keys; SEGMENT:FIELD moves the cursor there, and a quote begins typed text."""
+        for key in keys.split():
+            segment, colon, field = key.partition(":")
+            if colon:
+                self.app.move(FormPlace(1, int(segment)), field)
+                await self.settle()
+            else:
+                await self.press(key)
 
 
 Opened = Callable[[CutcompApp], None]
@@ -90,13 +76,14 @@ async def differing(app: CutcompApp, size: str, parts: Sequence[Part], snapshot:
     """Go from picture to picture; the names of those that differ."""
     wrong = []
     async with app.run_test(size=SIZES[size]) as pilot:
-        await settled(pilot)
+        user = Viewer(app, pilot)
+        await user.settle()
         for opened, stages in parts:
             if opened is not None:
                 opened(app)
-                await settled(pilot)
+                await user.settle()
             for name, keys in stages.items():
-                await pressed(pilot, keys)
+                await user.follow(keys)
                 picture = FONT.sub("", app.export_screenshot(title="cutcomp", simplify=True))
                 if snapshot(name=name) != picture:
                     wrong.append(name)
