@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
 from functools import lru_cache
-from math import degrees, isfinite, radians
+from math import isfinite
 from types import MappingProxyType
 from typing import Final, assert_never
 
@@ -74,16 +74,6 @@ def to_mm(value: float, unit: Unit) -> float:
 def from_mm(value: float, unit: Unit) -> float:
     """Convert a length (or a feed) in millimeters (per minute) to program units."""
     return value / 25.4 if unit is Unit.IN else value
-
-
-def to_radians(value: float) -> float:
-    """Convert an angle in degrees, as the form displays it, to radians."""
-    return radians(value)
-
-
-def from_radians(value: float) -> float:
-    """Convert an angle in radians to degrees, as the form displays them."""
-    return degrees(value)
 
 
 def convert(value: float, old: Unit, new: Unit) -> float:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import atan2, degrees, isfinite
+from math import isfinite
 from typing import Any, Final
 
 from core.advice.lookahead_table import Row, Table
 from core.advice.path_findings import nearest_place
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.piece import Line, Piece, Point
+from core.geometry.piece import Point
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import form_of
 from core.program.model import ArcSegment, Relative, Unread
+from core.program.solve.measured import measured_fields
 from core.program.solve.solved import Solved, SolvedRun, SolvedSegment
 from core.units import Kind, Unit, from_mm, sentence, show
 
@@ -57,7 +58,7 @@ def _segment(segment: SolvedSegment, block: DerivedBlock, unit: Unit) -> Documen
         document["direction"] = str(typed.direction)
     if run is not None:
         document["run"] = [run.first, run.last]
-    measured = {} if segment.sharp is None else _measured(segment.sharp, unit)
+    measured = {} if segment.sharp is None else measured_fields(segment.sharp, unit)
     for name, value in segment.values.items():
         if isinstance(value, Unread):
             document[name] = {"value": None, "tag": "ERR", "text": value.text}
@@ -84,18 +85,6 @@ TYPED_EXACTLY: Final = 1e-9
 """A piece's value that differs from the typed number by no more than this is the typed one; program units."""
 
 
-def _measured(piece: Piece, unit: Unit) -> dict[str, float]:
-    """Return the values of a piece by field name, in program units and degrees."""
-    values = {"x_end": from_mm(piece.end[0], unit), "y_end": from_mm(piece.end[1], unit)}
-    x, y = piece.direction_at(piece.start)
-    heading = degrees(atan2(y, x)) % 360.0
-    if isinstance(piece, Line):
-        return values | {"length": from_mm(piece.length, unit), "angle": heading}
-    center = {"x_center": from_mm(piece.center[0], unit), "y_center": from_mm(piece.center[1], unit)}
-    sizes = {"radius": from_mm(piece.radius, unit), "sweep": degrees(abs(piece.sweep)), "start_angle": heading}
-    return values | center | sizes
-
-
 def _run(run: SolvedRun, unit: Unit) -> Document:
     """Return one run: the solution in force (an index, null for none), and all of them, the shortest first."""
     return {
@@ -109,7 +98,7 @@ def _run(run: SolvedRun, unit: Unit) -> Document:
                 "choice": answer.choice,
                 "pick": None if answer.pick is None else [from_mm(number, unit) for number in answer.pick],
                 "total": from_mm(answer.length, unit),
-                "segments": [{"segment": number, **_measured(piece, unit)} for number, piece in answer.pieces],
+                "segments": [{"segment": number, **measured_fields(piece, unit)} for number, piece in answer.pieces],
             }
             for answer in run.answers
         ],

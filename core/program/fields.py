@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 from types import MappingProxyType
-from typing import Final, assert_never
+from typing import Final
 
 from core.program.model import (
     ArcSegment,
@@ -291,19 +291,17 @@ _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
 )
 
 
+_FORMS: Final = {
+    LineSegment: Form.LINE,
+    ArcSegment: Form.ARC,
+    BlendSegment: Form.BLEND,
+    ChamferSegment: Form.CHAMFER,
+}
+
+
 def form_of(segment: Segment) -> Form:
     """Return the screen on which a segment is typed."""
-    match segment:
-        case LineSegment():
-            return Form.LINE
-        case ArcSegment():
-            return Form.ARC
-        case BlendSegment():
-            return Form.BLEND
-        case ChamferSegment():
-            return Form.CHAMFER
-        case _:
-            assert_never(segment)
+    return _FORMS[type(segment)]
 
 
 def field_of(form: Form, name: str) -> Field:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf, isclose, nan, pi
+from math import inf, isclose, nan
 
 import pytest
 from hypothesis import given, settings
@@ -17,13 +17,11 @@ from core.units import (
     Unreadable,
     convert,
     from_mm,
-    from_radians,
     parse,
     printable,
     sentence,
     show,
     to_mm,
-    to_radians,
 )
 
 IN, MM = Unit.IN, Unit.MM
@@ -140,11 +138,6 @@ def test_lengths_are_converted_to_and_from_millimeters():
     assert to_mm(2.0, MM) == 2.0
     assert from_mm(50.8, IN) == 2.0
     assert from_mm(2.0, MM) == 2.0
-
-
-def test_angles_are_converted_to_and_from_radians():
-    assert to_radians(180.0) == pi
-    assert from_radians(pi) == 180.0
 
 
 def test_converted_values_have_no_rounding_noise():

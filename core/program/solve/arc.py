@@ -11,8 +11,8 @@ is rounded, so the center must be typed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from decimal import Decimal
+from functools import partial
 from math import degrees, dist, tau
 from typing import Final
 
@@ -21,8 +21,8 @@ from core.geometry import construct
 from core.geometry.construct import NotDetermined, OnePoint, OutOfReach
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form, field_of
-from core.program.model import Direction
 from core.program.solve.line import points_of, shown_angle
+from core.program.solve.measured import measured
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, either, fault
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
 from core.units import Kind, Unit, convert, decimals_shown, from_mm, to_mm
@@ -38,8 +38,6 @@ ADJUSTED: Final = 5e-6
 
 MAX_ANGLE_DECIMALS: Final = 12
 """Decimals that an angle field accepts."""
-
-ArcSolver = Callable[[Turn, Given], Outcome | None]
 
 
 def is_start(value: float, start: float, start_typed: float | None, unit: Unit) -> bool:
@@ -81,7 +79,7 @@ def _no_radius() -> Outcome:
     return contradiction("X CENTER and Y CENTER are the same as the start: an arc needs a radius.", "x_center")
 
 
-def _end_and_center(turn: Turn, given: Given) -> Outcome:
+def _end_and_center(given: Given) -> Outcome:
     end, center = _point(given.known, _END), _point(given.known, _CENTER)
     radius, out = dist(given.start, center), dist(end, center)
     if radius <= JOINED:
@@ -89,10 +87,10 @@ def _end_and_center(turn: Turn, given: Given) -> Outcome:
     if abs(out - radius) > ARC_RADII:
         text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end or the center."
         return Outcome(finding=fault("RADII_DIFFER", text, "x_center", radius, out))
-    return _about_center(turn, given, end)
+    return _about_center(given, end)
 
 
-def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
+def _center_and_coordinate(axis: int, given: Given) -> Outcome:
     center, value = _point(given.known, _CENTER), given.known[_END[axis]]
     radius = dist(given.start, center)
     if radius <= JOINED:
@@ -101,16 +99,16 @@ def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
     if isinstance(ends, OutOfReach):
         text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], radius, value)
-    return _about_center(turn, given, *points_of(ends))
+    return _about_center(given, *points_of(ends))
 
 
-def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
+def _about_center(given: Given, *ends: Point) -> Outcome:
     """Return the arcs about a typed center to each end; SWEEP ANGLE decides what an end close to the start means."""
     start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
     close = [end for end in ends if _comes_back(start, end)]
-    arcs = [construct.even_arc(start, end, center, turn) for end in close]
-    others = [construct.even_arc(start, end, center, turn) for end in ends if end not in close]
-    full = Arc(start, start, center, turn)
+    arcs = [construct.even_arc(start, end, center, given.turn) for end in close]
+    others = [construct.even_arc(start, end, center, given.turn) for end in ends if end not in close]
+    full = Arc(start, start, center, given.turn)
     if not close:
         return _ordered(*others)
     if given.back:
@@ -151,11 +149,11 @@ def _angle_to_type(sweep: float) -> str:
     return f"{angle:.{next(enough, MAX_ANGLE_DECIMALS)}f}"
 
 
-def _center_and_sweep(turn: Turn, given: Given) -> Outcome:
+def _center_and_sweep(given: Given) -> Outcome:
     center = _point(given.known, _CENTER)
     if dist(given.start, center) <= JOINED:
         return _no_radius()
-    return Outcome((_turned(turn, given.start, center, given.known["sweep"]),))
+    return Outcome((_turned(given.turn, given.start, center, given.known["sweep"]),))
 
 
 def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
@@ -165,51 +163,57 @@ def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
     return Arc(start, construct.rotated(start, center, turn * sweep), center, turn)
 
 
-def _end_and_radius(turn: Turn, given: Given) -> Outcome | None:
+def _end_and_radius(given: Given) -> Outcome | None:
     start, end, radius = given.start, _point(given.known, _END), given.known["radius"]
     if _comes_back(start, end):
         return None
-    centers = construct.centers(start, end, radius, turn)
+    centers = construct.centers(start, end, radius, given.turn)
     if isinstance(centers, OutOfReach):
         return contradiction("RADIUS {0~1} does not reach the end: it takes {1~0}.", "radius", radius, centers.least)
     if isinstance(centers, NotDetermined):
         return None
-    return _ordered(*(Arc(start, end, center, turn) for center in points_of(centers)))
+    return _ordered(*(Arc(start, end, center, given.turn) for center in points_of(centers)))
 
 
-def _end_and_sweep(turn: Turn, given: Given) -> Outcome | None:
+def _end_and_sweep(given: Given) -> Outcome | None:
     end = _point(given.known, _END)
-    return None if _comes_back(given.start, end) else _by_sweep(turn, given, end)
+    return None if _comes_back(given.start, end) else _by_sweep(given, end)
 
 
-def _by_sweep(turn: Turn, given: Given, *ends: Point) -> Outcome | None:
+def _by_sweep(given: Given, *ends: Point) -> Outcome | None:
     """Return the arcs that turn by SWEEP ANGLE to each of the ends."""
-    centers = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], turn)) for end in ends]
-    arcs = tuple(Arc(given.start, end, center.point, turn) for end, center in centers if isinstance(center, OnePoint))
+    centers = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], given.turn)) for end in ends]
+    arcs = tuple(
+        Arc(given.start, end, center.point, given.turn) for end, center in centers if isinstance(center, OnePoint)
+    )
     return Outcome(arcs) if arcs else None
 
 
-def _end_and_center_coordinate(axis: int, turn: Turn, given: Given) -> Outcome | None:
+def _end_and_center_coordinate(axis: int, given: Given) -> Outcome | None:
     start, end = given.start, _point(given.known, _END)
     if _comes_back(start, end):
         return None
     center = construct.center_by_coordinate(start, end, axis, given.known[_CENTER[axis]])
     if not isinstance(center, OnePoint):
         return None
-    return _no_radius() if dist(start, center.point) <= JOINED else Outcome((Arc(start, end, center.point, turn),))
+    return (
+        _no_radius() if dist(start, center.point) <= JOINED else Outcome((Arc(start, end, center.point, given.turn),))
+    )
 
 
-def _radius_sweep_center(axis: int, turn: Turn, given: Given) -> Outcome:
+def _radius_sweep_center(axis: int, given: Given) -> Outcome:
     """Solve RADIUS, SWEEP ANGLE and one center coordinate: the center with the greater other coordinate first."""
     radius, value = given.known["radius"], given.known[_CENTER[axis]]
     centers = construct.on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2~0}}."
         return contradiction(text, "radius", radius, value, centers.least)
-    return Outcome(tuple(_turned(turn, given.start, center, given.known["sweep"]) for center in points_of(centers)))
+    return Outcome(
+        tuple(_turned(given.turn, given.start, center, given.known["sweep"]) for center in points_of(centers))
+    )
 
 
-def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
+def _radius_sweep_end(axis: int, given: Given) -> Outcome | None:
     """Solve RADIUS, SWEEP ANGLE and one end coordinate: the end with the greater other coordinate first."""
     chord = given.known["radius"] * construct.chord_factor(given.known["sweep"])
     if chord <= CLOSED:
@@ -218,7 +222,7 @@ def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], chord, given.known[_END[axis]])
-    return _by_sweep(turn, given, *points_of(ends))
+    return _by_sweep(given, *points_of(ends))
 
 
 def _turns(arc: Arc, sweep: float) -> bool:
@@ -229,12 +233,10 @@ def _turns(arc: Arc, sweep: float) -> bool:
 
 def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Arc)
+    solved = measured(piece)[name]
     if name == "sweep":
-        text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(abs(piece.sweep))}"
+        text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(solved)}"
         return None if _turns(piece, value) else fault("CONTRADICTION", text, name)
-    (x_end, y_end), (x_center, y_center) = piece.end, piece.center
-    coordinates = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
-    solved = coordinates.get(name, piece.radius)
     if abs(solved - value) <= ARC_RADII:
         return None
     return fault("CONTRADICTION", f"{_labels((name,))} is {{0~1}}, but {{1~0}}", name, value, solved)
@@ -303,38 +305,28 @@ def adjustment(arc: Arc, given: Given) -> Finding | None:
     return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(arc.radius - radius), lengths=(radius, arc.radius))
 
 
-_SOLVERS: Final[tuple[tuple[tuple[str, ...], ArcSolver], ...]] = (
-    (("x_end", "y_end", "x_center", "y_center"), _end_and_center),
-    (("x_center", "y_center", "x_end"), lambda *given: _center_and_coordinate(0, *given)),
-    (("x_center", "y_center", "y_end"), lambda *given: _center_and_coordinate(1, *given)),
-    (("x_center", "y_center", "sweep"), _center_and_sweep),
-    (("x_end", "y_end", "radius"), _end_and_radius),
-    (("x_end", "y_end", "sweep"), _end_and_sweep),
-    (("x_end", "y_end", "x_center"), lambda *given: _end_and_center_coordinate(0, *given)),
-    (("x_end", "y_end", "y_center"), lambda *given: _end_and_center_coordinate(1, *given)),
-    (("radius", "sweep", "x_center"), lambda *given: _radius_sweep_center(0, *given)),
-    (("radius", "sweep", "y_center"), lambda *given: _radius_sweep_center(1, *given)),
-    (("radius", "sweep", "x_end"), lambda *given: _radius_sweep_end(0, *given)),
-    (("radius", "sweep", "y_end"), lambda *given: _radius_sweep_end(1, *given)),
+ARC_TASK: Final = Task(
+    Form.ARC,
+    ("x_end", "y_end", "x_center", "y_center", "radius", "sweep"),
+    (
+        Rule(frozenset(("x_end", "y_end", "x_center", "y_center")), _end_and_center),
+        Rule(frozenset(("x_center", "y_center", "x_end")), partial(_center_and_coordinate, 0)),
+        Rule(frozenset(("x_center", "y_center", "y_end")), partial(_center_and_coordinate, 1)),
+        Rule(frozenset(("x_center", "y_center", "sweep")), _center_and_sweep),
+        Rule(frozenset(("x_end", "y_end", "radius")), _end_and_radius),
+        Rule(frozenset(("x_end", "y_end", "sweep")), _end_and_sweep),
+        Rule(frozenset(("x_end", "y_end", "x_center")), partial(_end_and_center_coordinate, 0)),
+        Rule(frozenset(("x_end", "y_end", "y_center")), partial(_end_and_center_coordinate, 1)),
+        Rule(frozenset(("radius", "sweep", "x_center")), partial(_radius_sweep_center, 0)),
+        Rule(frozenset(("radius", "sweep", "y_center")), partial(_radius_sweep_center, 1)),
+        Rule(frozenset(("radius", "sweep", "x_end")), partial(_radius_sweep_end, 0)),
+        Rule(frozenset(("radius", "sweep", "y_end")), partial(_radius_sweep_end, 1)),
+    ),
+    _disagreement,
+    "type the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
+    _center_needed,
 )
-
-
-def _task(turn: Turn) -> Task:
-    def rule(needs: tuple[str, ...], solver: ArcSolver) -> Rule:
-        return Rule(frozenset(needs), lambda given: solver(turn, given))
-
-    return Task(
-        Form.ARC,
-        ("x_end", "y_end", "x_center", "y_center", "radius", "sweep"),
-        tuple(rule(needs, solver) for needs, solver in _SOLVERS),
-        _disagreement,
-        "type the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
-        _center_needed,
-    )
-
-
-ARC_TASKS: Final = {Direction.CW: _task(Turn.CW), Direction.CCW: _task(Turn.CCW)}
-"""The rules for an arc of each direction."""
+"""The rules for an arc; `Given.turn` is its direction."""
 
 
 def arc_sketch(start: Point, known: Known) -> Line | None:

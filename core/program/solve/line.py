@@ -5,7 +5,8 @@ If two solutions fit (one end coordinate and XY LENGTH), the one with the greate
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, sin, tau
+from functools import partial
+from math import cos, degrees, pi, sin, tau
 from typing import assert_never
 
 from core.finding import Finding
@@ -14,9 +15,10 @@ from core.geometry.construct import OnePoint, OppositeDirection, OutOfReach, Two
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import LINE, Form
 from core.program.model import LineSegment, Unread
+from core.program.solve.measured import measured
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
 from core.tolerance import AGREES, ARC_RADII
-from core.units import Kind, Unit, from_radians, show
+from core.units import Kind, Unit, show
 
 _END = ("x_end", "y_end")
 
@@ -83,19 +85,7 @@ def kept_axis(segment: LineSegment) -> int | None:
 
 def shown_angle(angle: float) -> str:
     """Format an angle as the form shows it."""
-    return show(from_radians(angle), Kind.ANGLE, Unit.IN)
-
-
-def heading(line: Line) -> float:
-    """Return the direction of a line in radians, from 0 up to a full turn."""
-    angle = atan2(line.end[1] - line.start[1], line.end[0] - line.start[0])
-    return angle + tau if angle < 0.0 else angle
-
-
-def heading_at(piece: Piece, at: Point) -> float:
-    """Return the direction of travel at a point of a piece in radians, from -pi to pi."""
-    x, y = piece.direction_at(at)
-    return atan2(y, x)
+    return show(degrees(angle), Kind.ANGLE, Unit.IN)
 
 
 def counted_like(angle: float, typed: float) -> float:
@@ -104,14 +94,13 @@ def counted_like(angle: float, typed: float) -> float:
 
 
 def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
-    assert isinstance(piece, Line)
+    solved = measured(piece)[name]
     if name == "angle":
-        actual = counted_like(heading(piece), value)
+        actual = counted_like(solved, value)
         off = abs(actual - value)
         if off <= AGREES or piece.length * off <= ARC_RADII:
             return None
         return fault("CONTRADICTION", f"XY ANGLE is {shown_angle(value)}, but {shown_angle(actual)}", name)
-    solved = piece.length if name == "length" else piece.end[_END.index(name)]
     if abs(solved - value) <= ARC_RADII:
         return None
     return fault("CONTRADICTION", f"{LINE_TASK.label(name)} is {{0~1}}, but {{1~0}}", name, value, solved)
@@ -122,11 +111,11 @@ LINE_TASK = Task(
     ("x_end", "y_end", "length", "angle"),
     (
         Rule(frozenset(("x_end", "y_end")), _to_end),
-        Rule(frozenset(("x_end", "angle")), lambda given: _along(0, given)),
-        Rule(frozenset(("y_end", "angle")), lambda given: _along(1, given)),
+        Rule(frozenset(("x_end", "angle")), partial(_along, 0)),
+        Rule(frozenset(("y_end", "angle")), partial(_along, 1)),
         Rule(frozenset(("length", "angle")), _polar),
-        Rule(frozenset(("x_end", "length")), lambda given: _long(0, given)),
-        Rule(frozenset(("y_end", "length")), lambda given: _long(1, given)),
+        Rule(frozenset(("x_end", "length")), partial(_long, 0)),
+        Rule(frozenset(("y_end", "length")), partial(_long, 1)),
     ),
     _disagreement,
     "type X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",

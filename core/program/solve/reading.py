@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import radians
 
 from core.finding import Finding, Severity
 from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
 from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Typed, Unread
 from core.program.solve.solved import Origin, Solved, Value
-from core.units import Kind, Unit, to_mm, to_radians
+from core.units import Kind, Unit, to_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +76,7 @@ def _internal(value: float, kind: Kind, unit: Unit) -> float:
     """Convert a length to millimeters, a feed to millimeters per minute, an angle to radians."""
     if kind in (Kind.LENGTH, Kind.FEED):
         return to_mm(value, unit)
-    return to_radians(value) if kind is Kind.ANGLE else value
+    return radians(value) if kind is Kind.ANGLE else value
 
 
 def shared_findings(program: Program) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
-from core.geometry.piece import Piece, Point
+from core.geometry.piece import Piece, Point, Turn
 from core.program.fields import Form, field_of
 
 Known = Mapping[str, float]
@@ -19,12 +19,13 @@ Known = Mapping[str, float]
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """The data from which a segment is solved: its start, and its typed values."""
+    """The data from which a segment is solved: its start, its typed values, and the direction of an arc."""
 
     start: Point
     known: Known
     back: bool = False
     """True if each of X END and Y END that is typed is typed as the start's."""
+    turn: Turn = Turn.NONE
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,22 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, tau
+from math import inf
 from typing import Final, assert_never
 
 from core.finding import Finding, Severity
-from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import FARTHEST, TABLES, form_of
-from core.program.model import ArcSegment, BlendSegment, ChamferSegment, CornerSegment, LineSegment, Number, Segment
-from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
-from core.program.solve.line import LINE_TASK, heading, heading_at, kept_axis, line_sketch
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    ChamferSegment,
+    CornerSegment,
+    Direction,
+    LineSegment,
+    Number,
+    Segment,
+)
+from core.program.solve.arc import ARC_TASK, adjustment, arc_sketch, circle_finding, is_start
+from core.program.solve.line import LINE_TASK, kept_axis, line_sketch
+from core.program.solve.measured import heading_at, measured_fields
 from core.program.solve.reading import Reading
 from core.program.solve.rules import Given, Outcome, Task, solve
 from core.program.solve.solved import Origin, Value
 from core.tolerance import JOINED, LARGEST
-from core.units import Unit, from_mm, from_radians
+from core.units import Unit, from_mm
 
 _ENDS: Final = ("x_end", "y_end")
+
+TURNS: Final = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,10 +141,9 @@ def _result(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> 
             given = Given(before.point, own_data(LINE_TASK, reading, before.point))
             return _solved(LINE_TASK, reading, given, segment.choice, unit)
         case ArcSegment():
-            task = ARC_TASKS[segment.direction]
             back = _ends_at_start(reading, before.point, before.typed, unit)
-            given = Given(before.point, own_data(task, reading, before.point), back)
-            return _solved(task, reading, given, segment.choice, unit)
+            given = Given(before.point, own_data(ARC_TASK, reading, before.point), back, TURNS[segment.direction])
+            return _solved(ARC_TASK, reading, given, segment.choice, unit)
         case _:
             assert_never(segment)
 
@@ -202,14 +213,5 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
 
 def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
     """Fill the blank fields of a determined line or arc."""
-    reading.fill("x_end", from_mm(piece.end[0], unit))
-    reading.fill("y_end", from_mm(piece.end[1], unit))
-    if isinstance(piece, Line):
-        reading.fill("length", from_mm(piece.length, unit))
-        reading.fill("angle", from_radians(heading(piece)))
-    else:
-        reading.fill("x_center", from_mm(piece.center[0], unit))
-        reading.fill("y_center", from_mm(piece.center[1], unit))
-        reading.fill("radius", from_mm(piece.radius, unit))
-        reading.fill("sweep", from_radians(abs(piece.sweep)))
-        reading.fill("start_angle", from_radians(heading_at(piece, piece.start) % tau))
+    for name, value in measured_fields(piece, unit).items():
+        reading.fill(name, value)

@@ -17,8 +17,8 @@ from core.finding import Finding, Severity
 from core.geometry.oriented import line_through
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import form_of
-from core.program.model import ArcSegment, CornerSegment, Direction, LineSegment, Segment
-from core.program.solve.line import heading
+from core.program.model import ArcSegment, CornerSegment, LineSegment, Segment
+from core.program.solve.measured import heading_at
 from core.program.solve.reading import Reading
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
@@ -26,7 +26,7 @@ from core.program.solve.run.fitting_number import with_fitting_number
 from core.program.solve.run.from_pick import Picked, picked_answers
 from core.program.solve.run.search import Answer, Search, search
 from core.program.solve.run.typed_run import LONGEST, Element, Parallel, Run
-from core.program.solve.segment import Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
+from core.program.solve.segment import TURNS, Carried, Draft, SegmentResult, axis_kept_from, calculate, draft, drafted
 from core.program.solve.solved import Origin, RunAnswer, SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit, from_mm
@@ -45,8 +45,6 @@ KEPT = ("x_end_inc", "y_end_inc")
 
 SQUARE = 1e-9
 """Largest cosine of the angle between a line and an axis at which they count as square."""
-
-TURNS = {Direction.CW: Turn.CW, Direction.CCW: Turn.CCW}
 
 
 Stretch = tuple[tuple[Draft, ...], SolvedRun | None]
@@ -273,7 +271,7 @@ def _parallel(contour: Contour, index: int, indices: Sequence[int]) -> Parallel 
     if at in indices:
         return indices.index(at)
     piece = contour.drafts[at].result.piece if at < len(contour.drafts) else None
-    return line_through(piece.start, heading(piece)) if isinstance(piece, Line) else None
+    return line_through(piece.start, heading_at(piece, piece.start)) if isinstance(piece, Line) else None
 
 
 def parallel_fault(contour: Contour, index: int) -> Finding | None:

@@ -11,8 +11,8 @@ from math import remainder, tau
 from typing import Final
 
 from core.finding import Finding
+from core.program.solve.measured import ANGLES, measured
 from core.program.solve.run import reasons
-from core.program.solve.run.proof import ANGLES, measured
 from core.program.solve.run.search import GRAZE_SHIFT, search
 from core.program.solve.run.typed_run import Element, Run
 

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import dist, hypot, pi, sin, tau
-from typing import Final
 
 from core.finding import Finding
 from core.geometry import construct
 from core.geometry.oriented import OrientedLine, direction
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point
 from core.program.fields import FARTHEST
-from core.program.solve.line import heading_at
+from core.program.solve.measured import ANGLES, heading_at, measured
 from core.program.solve.run import reasons
 from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
@@ -32,10 +31,6 @@ class Chain:
     def length(self) -> float:
         """The total length of all pieces, in millimeters."""
         return sum(piece.length for piece in self.pieces)
-
-
-ANGLES: Final = ("angle", "start_angle", "sweep")
-"""The names of the fields in radians."""
 
 
 def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
@@ -141,24 +136,6 @@ def _field_objections(run: Run, index: int, element: Element, piece: Piece) -> l
         if abs(distance - typed) > ARC_RADII:
             findings.append(reasons.point_missed(run, index, point, typed, distance))
     return findings
-
-
-def measured(piece: Piece) -> dict[str, float]:
-    """Return the actual values of a piece by field name, in millimeters and radians."""
-    (x, y), (x_end, y_end) = piece.start, piece.end
-    values = {"x_end": x_end, "y_end": y_end, "x_end_inc": x_end - x, "y_end_inc": y_end - y}
-    if isinstance(piece, Line):
-        return values | {"length": piece.length, "angle": heading_at(piece, piece.start)}
-    cx, cy = piece.center
-    return values | {
-        "x_center": cx,
-        "y_center": cy,
-        "x_center_inc": cx - x,
-        "y_center_inc": cy - y,
-        "radius": piece.radius,
-        "sweep": abs(piece.sweep),
-        "start_angle": heading_at(piece, piece.start),
-    }
 
 
 def _distance(piece: Piece, point: Point) -> float:

@@ -13,26 +13,8 @@ from core.geometry.piece import Point, Turn
 LONGEST: Final = 12
 """The largest number of LINEs and ARCs that are solved together."""
 
-COUNTED: Final = (
-    "x_end",
-    "y_end",
-    "x_end_inc",
-    "y_end_inc",
-    "length",
-    "angle",
-    "x_center",
-    "y_center",
-    "x_center_inc",
-    "y_center_inc",
-    "radius",
-    "sweep",
-    "start_angle",
-    "point",
-    "parallel",
-    "offset",
-    "link",
-)
-"""The data that count as one each."""
+POINT: Final = frozenset(("point_x", "point_y", "point_dist"))
+"""The data that count as one together, as far as they give a point."""
 
 
 Parallel = int | OrientedLine
@@ -66,17 +48,10 @@ class Element:
         return None
 
     @property
-    def unknowns(self) -> int:
-        """The number of values that determine it once its start is known."""
-        return 3 if self.turn else 2
-
-    @cached_property
-    def data(self) -> tuple[str, ...]:
-        """The names of its typed data, each of which counts as one."""
-        present = set(self.known) & set(COUNTED)
-        extra = {"point": self.point, "parallel": self.parallel, "link": self.link}
-        present |= {name for name, value in extra.items() if value is not None}
-        return tuple(name for name in COUNTED if name in present)
+    def missing(self) -> int:
+        """The number of values that it needs beside its start and its typed data; negative if more are typed."""
+        relations = sum(value is not None for value in (self.point, self.parallel, self.link))
+        return (3 if self.turn else 2) - len(self.known.keys() - POINT) - relations
 
 
 @dataclass(frozen=True)
@@ -90,14 +65,14 @@ class Run:
     @property
     def missing(self) -> int:
         """The least number of data still needed; 0 or less if there are enough."""
-        return sum(element.unknowns - len(element.data) for element in self.elements)
+        return sum(element.missing for element in self.elements)
 
     @property
     def enough(self) -> bool:
         """True if the data may suffice: counted for the whole run, and for its last elements, however many."""
         rest = 0
         for element in reversed(self.elements):
-            rest += element.unknowns - len(element.data)
+            rest += element.missing
             if rest > 0:
                 return False
         return True
