@@ -6,9 +6,7 @@ A refused edit changes nothing.  A number outside a field's range is refused.  A
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import Any, Final
 
 from core.program.fields import (
@@ -29,12 +27,8 @@ from core.program.fields import (
     value_refusal,
 )
 from core.program.model import (
-    ArcSegment,
     Block,
-    Coolant,
     CornerSegment,
-    CutterComp,
-    Direction,
     LineSegment,
     Number,
     Part,
@@ -107,17 +101,14 @@ def choose(program: Program, where: FormPlace, name: str, value: str | int | Non
         if not (isinstance(value, int) and 0 <= value <= MAX_CHOICE):
             return Refused("SOLUTION takes the number of a solution.")
         return with_part(program, where, changed(part, {name: value}))
-    if str(value) not in field.choices:
+    picked = next((choice for choice in field.choices if choice == str(value)), None)
+    if picked is None:
         return _takes(field)
     if name == "tangent":
-        return _picked_anew(program, with_part(program, where, _tangent(part, tangent=str(value) == "YES")), where)
-    chosen = with_part(program, where, changed(part, {name: _PICKED[name](value)}))
+        return _picked_anew(program, with_part(program, where, _tangent(part, tangent=picked == "YES")), where)
+    chosen = with_part(program, where, changed(part, {name: picked}))
     return chosen if isinstance(part, Block) else _run_picked_anew(program, chosen, where)
 
-
-_PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
-    {"cutter_comp": CutterComp, "direction": Direction, "coolant": Coolant}
-)
 
 UNSHAPED: Final = ("z_end", "feed", "pick_x", "pick_y")
 """The fields of a segment that do not affect which solutions it has."""
@@ -429,14 +420,9 @@ def _field(part: Block | Segment, name: str) -> Field:
 
 
 def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segment:
-    """Put a value into a field; a relative angle clears TANGENT, a new or blanked value clears the picked solution."""
-    edited = changed(part, {name: typed})
-    if name in ("angle", "start_angle") and isinstance(typed, Relative):
-        edited = changed(edited, {"tangent": False})
-    solutions_differ = name not in UNSHAPED and (typed is None) is not (getattr(part, name) is None)
-    if solutions_differ and isinstance(edited, LineSegment | ArcSegment):
-        return replace(edited, choice=None)
-    return edited
+    """Put a value into a field; a relative angle clears TANGENT."""
+    relative = name in ("angle", "start_angle") and isinstance(typed, Relative)
+    return changed(part, {name: typed, **({"tangent": False} if relative else {})})
 
 
 def with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:

@@ -45,6 +45,7 @@ class Field:
     low: float | None = None
     high: float | None = None
     choices: tuple[str, ...] = ()
+    """The words it takes: the members of its enumeration, except for TANGENT."""
     above: float | None = None
     """An exclusive lower bound, such as 0 for a diameter."""
     relative: bool = False
@@ -105,7 +106,7 @@ def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field
 
 
 def _coolant(prompt: str) -> Field:
-    return Field("coolant", "COOLANT", Kind.CHOICE, prompt, choices=tuple(coolant.value for coolant in Coolant))
+    return Field("coolant", "COOLANT", Kind.CHOICE, prompt, choices=tuple(Coolant))
 
 
 _FEED: Final = _feed(
@@ -132,7 +133,7 @@ START: Final = (
         "CUTTER COMP.",
         Kind.CHOICE,
         "Side of the tool, seen along travel. Space lists.",
-        choices=tuple(comp.value for comp in CutterComp),
+        choices=tuple(CutterComp),
     ),
     _count("finish_tool", "FINISH TOOL", "Tool for the finish pass; 0 = none.", 0, 9999),
     _place("x_start", "X START", "X where the contour starts."),
@@ -167,7 +168,7 @@ ARC: Final = (
         "DIRECTION",
         Kind.CHOICE,
         "Direction of travel along the arc.",
-        choices=tuple(direction.value for direction in Direction),
+        choices=tuple(Direction),
     ),
     _X_END,
     _Y_END,
@@ -231,7 +232,7 @@ PARAMETERS: Final = (
         "PATH",
         Kind.CHOICE,
         "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.",
-        choices=tuple(choice.value for choice in PathChoice),
+        choices=tuple(PathChoice),
     ),
     _feed("rapid_rate", "RAPID RATE", "Rapid rate of the machine a minute; only for the times."),
 )
@@ -291,17 +292,14 @@ _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
 )
 
 
-_FORMS: Final = {
-    LineSegment: Form.LINE,
-    ArcSegment: Form.ARC,
-    BlendSegment: Form.BLEND,
-    ChamferSegment: Form.CHAMFER,
-}
+SEGMENT_FORMS: Final[Mapping[type[Segment], Form]] = MappingProxyType(
+    {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND, ChamferSegment: Form.CHAMFER}
+)
 
 
 def form_of(segment: Segment) -> Form:
     """Return the screen on which a segment is typed."""
-    return _FORMS[type(segment)]
+    return SEGMENT_FORMS[type(segment)]
 
 
 def field_of(form: Form, name: str) -> Field:
@@ -401,13 +399,20 @@ def text_refusal(text: str, field: Field, unit: Unit) -> str | None:
 
 def unread_reason(text: str, field: Field, unit: Unit) -> str:
     """Return why a text stays unread; a text that the field would now accept must be typed again."""
-    value = parse(split_relative(text, field)[0], field.kind, unit)
-    if isinstance(value, Unreadable):
-        return value.reason
-    return text_refusal(text, field, unit) or TYPE_AGAIN
+    typed = read_typed(text, field, unit)
+    return typed.reason if isinstance(typed, Unread) else TYPE_AGAIN
 
 
 def unread_sentence(unread: Unread) -> str:
     """Return the sentence about an unread text: its reason, preceded by the text unless the reason quotes it."""
     typed = printable(unread.text)
     return unread.reason if typed in unread.reason else f"{typed} cannot be read. {unread.reason}"
+
+
+def typed_trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
+    """Return the code and the sentence of the fault in a typed field, None if it can be used."""
+    if isinstance(typed, Number | Relative):
+        refusal = value_refusal(field, typed.value, unit)
+    elif (refusal := text_refusal(typed.text, field, unit)) is None:
+        return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"
+    return None if refusal is None else ("OUT_OF_RANGE", refusal)

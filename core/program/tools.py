@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import isfinite
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import TOOL, Form, field_of, text_refusal, value_refusal
-from core.program.model import Number, Program, Tool, Typed, Unread
+from core.program.fields import TOOL, Form, field_of, typed_trouble, value_refusal
+from core.program.model import Number, Program, Tool, Typed
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable, to_mm
 
@@ -23,9 +23,14 @@ from core.units import Unit, convert, printable, to_mm
 class CalledTool:
     """A tool as a block calls it: `diameter` in millimeters, None if the table has no usable one."""
 
-    type: str = ""
+    tool: Tool | None = None
     diameter: float | None = None
     findings: tuple[Finding, ...] = ()
+
+    @property
+    def type(self) -> str:
+        """The type of the tool, empty if none is called."""
+        return "" if self.tool is None else self.tool.type
 
 
 def find_tool(program: Program, number: float) -> Tool | None:
@@ -45,26 +50,15 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
     if tool is None:
         text = f"Tool {typed.value:g} is not in the tool table: add it on TOOL SETUP, or call another."
         return CalledTool(findings=(Finding("TOOL_MISSING", Severity.ERROR, text, 0, name),))
-    trouble = _diameter_trouble(tool, program.unit)
-    if trouble is not None:
-        return CalledTool(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
-    assert isinstance(tool.diameter, Number)
-    return CalledTool(tool.type, to_mm(tool.diameter.value, program.unit))
-
-
-def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
-    """Return why the diameter of a tool cannot be used, None if it can."""
-    diameter, field = tool.diameter, field_of(Form.TOOL, "diameter")
-    missing = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
-    if diameter is None:
-        return f"{missing}; it is blank."
-    if isinstance(diameter, Number) and not (isfinite(diameter.value) and diameter.value > 0.0):
-        return f"{missing}; it must be above 0, and it is {diameter.value:g}."
-    if not isinstance(diameter, Unread):
-        refusal = value_refusal(field, diameter.value, unit)
-    elif (refusal := text_refusal(diameter.text, field, unit)) is None:
-        return f"{missing}; {printable(diameter.text)} cannot be read."
-    return None if refusal is None else f"Tool {tool.number}: {refusal}"
+    if tool.diameter is None:
+        trouble = "enter its diameter on TOOL SETUP; it is blank."
+    elif (fault := typed_trouble(field_of(Form.TOOL, "diameter"), tool.diameter, program.unit)) is not None:
+        trouble = fault[1]
+    else:
+        assert isinstance(tool.diameter, Number)
+        return CalledTool(tool, to_mm(tool.diameter.value, program.unit))
+    text = f"Tool {tool.number}: {trouble}"
+    return CalledTool(tool, None, (Finding("TOOL_DIAMETER", severity, text, 0, name),))
 
 
 TOOL_TABLE: Final = "TOOLTABLE"
@@ -99,7 +93,7 @@ class ImportedTools:
     """The tools of a table in the program's unit, sorted by number; none if there is any error."""
 
     tools: tuple[Tool, ...] = ()
-    findings: tuple[Finding, ...] = field(default_factory=tuple)
+    findings: tuple[Finding, ...] = ()
 
     @property
     def errors(self) -> tuple[Finding, ...]:

@@ -10,13 +10,13 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
 from core.program.fields import (
     MAX_CHOICE,
     NUMBER_FIELDS,
+    SEGMENT_FORMS,
     STORED,
     TABLES,
     Field,
@@ -29,16 +29,10 @@ from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, synta
 from core.program.file.write import FORMAT, KIND, NEWER_FORMAT, RELATIVE, UNREAD
 from core.program.model import (
     ArcSegment,
-    BlendSegment,
     Block,
-    ChamferSegment,
-    Coolant,
-    CutterComp,
-    Direction,
     LineSegment,
     Number,
     PartSetup,
-    PathChoice,
     Program,
     ProgramParameters,
     Relative,
@@ -49,6 +43,9 @@ from core.program.model import (
 )
 from core.tolerance import LARGEST
 from core.units import Kind, Unit, printable, to_mm
+
+REQUIRED: Final = ("cutter_comp", "direction")
+"""The choices that a file must have."""
 
 _BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
 """A number that needs no quotes in a file."""
@@ -103,14 +100,14 @@ class _Table:
         what = "is missing" if value is None else "must be text in quotes on one line"
         raise self.fault(key, f"{key} {what}.")
 
-    def chosen(self, key: str, choices: type[Choice]) -> Choice:
-        """Return one of the choices of an Enum; raise an error for any other value."""
-        words = [choice.value for choice in choices]
+    def chosen(self, key: str, choices: tuple[Choice, ...]) -> Choice:
+        """Return one of the choices; raise an error for any other value."""
         value = self.data.get(key)
-        if not isinstance(value, str) or value not in words:
+        chosen = next((choice for choice in choices if choice == value), None)
+        if chosen is None:
             what = "is missing" if value is None else f"cannot be {_written(value)}"
-            raise self.fault(key, f"{key} {what}: write one of {', '.join(words)}, in quotes.")
-        return choices(value)
+            raise self.fault(key, f"{key} {what}: write one of {', '.join(choices)}, in quotes.")
+        return chosen
 
     def number(self, key: str, field: Field) -> float:
         """Return a number; raise an error if the field cannot hold it."""
@@ -158,7 +155,7 @@ def _beyond(value: float, field: Field, unit: Unit) -> bool:
     return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
 
 
-Choice = TypeVar("Choice", bound=StrEnum)
+Choice = TypeVar("Choice", bound=str)
 
 
 def loads(text: str, file: str) -> Program:
@@ -173,11 +170,11 @@ def loads(text: str, file: str) -> Program:
     if isinstance(version, bool) or version not in (FORMAT, NEWER_FORMAT):
         readable = f"format = {FORMAT} and {NEWER_FORMAT}"
         raise top.fault("format", f"format cannot be {_written(version)}: this program reads {readable}.")
-    top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
+    top = _Table(file, top.lines, (), top.data, top.chosen("units", tuple(Unit)))
     return Program(
         top.unit,
-        _parameters(top.table("parameters")),
-        _setup(top.table("setup")),
+        ProgramParameters(**_values(top.table("parameters"), Form.PARAMETERS)),
+        PartSetup(**_values(top.table("setup"), Form.SETUP)),
         _tools(top),
         tuple(_block(block) for block in top.array("block")),
     )
@@ -205,6 +202,20 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
         raise StoreError(f"{file}: brackets are nested too deep for a program file.") from None
     except ValueError as error:
         raise StoreError(f"{file}, {syntax_fault(str(error), text)}") from error
+
+
+def _values(table: _Table, form: Form, *others: str) -> dict[str, Any]:
+    """Return what is typed on a form by name; refuse any key that is neither a field's nor one of the others."""
+    table.only(_keys(form, *others))
+    values: dict[str, Any] = dict(_numbers(table, form))
+    for field in TABLES[form]:
+        if field.kind is Kind.TEXT and field.name in table.data:
+            values[field.name] = table.text(field.name)
+        elif field.name == "tangent":
+            values[field.name] = _tangent(table)
+        elif field.kind is Kind.CHOICE and (field.name in table.data or field.name in REQUIRED):
+            values[field.name] = table.chosen(field.name, field.choices)
+    return values
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
@@ -253,17 +264,6 @@ def _keys(form: Form, *others: str) -> tuple[str, ...]:
     return (*others, *(field.name for field in STORED[form]), *relative, UNREAD)
 
 
-def _parameters(table: _Table) -> ProgramParameters:
-    table.only(_keys(Form.PARAMETERS))
-    path = table.chosen("path", PathChoice) if "path" in table.data else PathChoice.CONTROL
-    return ProgramParameters(**_numbers(table, Form.PARAMETERS), path=path)
-
-
-def _setup(table: _Table) -> PartSetup:
-    table.only(_keys(Form.SETUP))
-    return PartSetup(table.text("name") if "name" in table.data else "", **_numbers(table, Form.SETUP))
-
-
 def _tools(top: _Table) -> tuple[Tool, ...]:
     tools: dict[int, Tool] = {}
     for table in top.array("tool"):
@@ -275,57 +275,37 @@ def _tools(top: _Table) -> tuple[Tool, ...]:
 
 
 def _tool(table: _Table) -> Tool:
-    table.only(_keys(Form.TOOL))
-    typed = _numbers(table, Form.TOOL)
-    number = typed.get("number")
+    values = _values(table, Form.TOOL)
+    number = values.pop("number", None)
     field = TABLES[Form.TOOL][0]
     if not isinstance(number, Number) or value_refusal(field, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is not a tool number'}: write 1 to 9999."
         )
-    kind = table.text("type") if "type" in table.data else Tool(1).type
-    others = {name: value for name, value in typed.items() if name != "number"}
-    return Tool(int(number.value), kind, **others, coolant=_coolant(table))
+    return Tool(int(number.value), **values)
 
 
 def _block(table: _Table) -> Block:
-    table.only(_keys(Form.START, "kind", "segment"))
     if table.text("kind") != KIND:
         raise table.fault("kind", f'kind must be "{KIND}".')
-    typed = _numbers(table, Form.START)
-    lookahead = typed.get("lookahead")
+    values = _values(table, Form.START, "kind", "segment")
+    lookahead = values.get("lookahead")
     if isinstance(lookahead, Number) and (
         trouble := value_refusal(field_of(Form.START, "lookahead"), lookahead.value, table.unit)
     ):
         raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
-    segments = tuple(_segment(segment) for segment in table.array("segment"))
-    comp, coolant = table.chosen("cutter_comp", CutterComp), _coolant(table)
-    return Block(**typed, cutter_comp=comp, coolant=coolant, segments=segments)
-
-
-def _coolant(table: _Table) -> Coolant | None:
-    return table.chosen("coolant", Coolant) if "coolant" in table.data else None
+    return Block(**values, segments=tuple(_segment(segment) for segment in table.array("segment")))
 
 
 def _segment(table: _Table) -> Segment:
-    match table.text("kind"):
-        case "LINE":
-            table.only(_keys(Form.LINE, "kind", "choice"))
-            return LineSegment(**_numbers(table, Form.LINE), choice=_choice(table), tangent=_tangent(table))
-        case "ARC":
-            table.only(_keys(Form.ARC, "kind", "choice"))
-            direction = table.chosen("direction", Direction)
-            numbers = _numbers(table, Form.ARC)
-            return ArcSegment(direction, **numbers, choice=_choice(table), tangent=_tangent(table))
-        case "BLEND ARC":
-            table.only(_keys(Form.BLEND, "kind"))
-            return BlendSegment(**_numbers(table, Form.BLEND))
-        case "CHAMFER":
-            table.only(_keys(Form.CHAMFER, "kind"))
-            return ChamferSegment(**_numbers(table, Form.CHAMFER))
-        case other:
-            kinds = "LINE, ARC, BLEND ARC or CHAMFER"
-            raise table.fault("kind", f"kind cannot be {printable(other)}: write {kinds}, in quotes.")
+    kind = table.text("kind")
+    segment = next((segment for segment, form in SEGMENT_FORMS.items() if form == kind), None)
+    if segment is None:
+        kinds = "LINE, ARC, BLEND ARC or CHAMFER"
+        raise table.fault("kind", f"kind cannot be {printable(kind)}: write {kinds}, in quotes.")
+    if not issubclass(segment, LineSegment | ArcSegment):
+        return segment(**_values(table, Form(kind), "kind"))
+    return segment(**_values(table, Form(kind), "kind", "choice"), choice=_choice(table))
 
 
 def _choice(table: _Table) -> int | None:

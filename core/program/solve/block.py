@@ -10,22 +10,21 @@ that `line` and `arc` document.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import dist
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.geometry.piece import Point
-from core.program.fields import TABLES, Form, field_of, form_of
-from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program
+from core.program.fields import TABLES, Form, field_of, form_of, typed_trouble
+from core.program.model import Block, Coolant, CornerSegment, CutterComp, Number, Program, Tool
 from core.program.solve.corners import Corners, put_corners_in
-from core.program.solve.reading import Reading, read_form, typed_trouble, usable
+from core.program.solve.reading import Reading, read_form, usable
 from core.program.solve.segment import Carried, Draft, draft, typed_point
-from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment, Value
+from core.program.solve.solved import Origin, SolvedBlock, SolvedRun, SolvedSegment
 from core.program.solve.stretch import Contour, place_faults, stretch_at
-from core.program.tools import CalledTool, called_tool, find_tool
+from core.program.tools import CalledTool, called_tool
 from core.tolerance import CLOSED
 from core.units import Unit
 
@@ -48,9 +47,9 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
     drafts, runs = _drafts(block, program.unit, start)
     segments = _segments(block, drafts)
     determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
-    known = start.known
+    known = start.reading.known
     return SolvedBlock(
-        values=start.values,
+        values=start.reading.values,
         segments=segments,
         closed=len(determined) == len(segments) and _closed(segments),
         determined=len(determined),
@@ -80,9 +79,11 @@ def _closed(segments: Sequence[SolvedSegment]) -> bool:
 
 def _drafts(block: Block, unit: Unit, start: _Start) -> tuple[list[Draft], tuple[SolvedRun, ...]]:
     """Solve every segment, by itself or in a run, each from the end of the one before it; return drafts and runs."""
-    typed = typed_point(start.values, ("x_start", "y_start"))
+    known = start.reading.known
+    point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
+    typed = typed_point(start.reading.values, ("x_start", "y_start"))
     feed, origin = start.feed
-    carried = Carried(start.point, typed, start.known.get("z_bottom"), feed, feed_origin=origin)
+    carried = Carried(point, typed, known.get("z_bottom"), feed, feed_origin=origin)
     numbered = enumerate(block.segments, 1)
     readings = [read_form(form_of(segment), segment, unit, number) for number, segment in numbered]
     drafts: list[Draft] = []
@@ -158,11 +159,9 @@ def _segment(index: int, draft: Draft, corners: Corners, adjusted: Finding | Non
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """START in millimeters, with the values that the form shows."""
+    """START: its fields, its tools, and what the segments take over from it."""
 
-    values: dict[str, Value]
-    point: Point | None
-    known: dict[str, float]
+    reading: Reading
     tool: CalledTool
     finish: CalledTool
     findings: tuple[Finding, ...]
@@ -179,47 +178,45 @@ def _start(block: Block, program: Program) -> _Start:
     finish = called_tool(program, block.finish_tool, "finish_tool", severity)
     for name in ZERO_IF_BLANK:
         reading.fill(name, 0.0, Origin.USUAL)
-    proposed = _propose(reading, block, program)
-    known = reading.known
-    point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
+    proposed = _propose(reading, tool.tool, program.unit)
     # wrong entries come before missing ones: only a few findings are visible at once
-    tools = (*tool.findings, *finish.findings, *_finish_values(block, program))
-    trouble = (*tools, *_depths(known), *_missing(reading, block, program), *_empty(block))
-    feed = (known.get("plunge_feed"), Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
-    coolant = _coolant(block, program)
-    return _Start(reading.values, point, known, tool, finish, reading.findings + trouble, feed, coolant)
+    trouble = (
+        *tool.findings,
+        *finish.findings,
+        *(_finish_values(block, tool.tool, finish.tool) if isinstance(block.tool, Number) else ()),
+        *_depths(reading.known),
+        *_missing(reading, tool.tool, program.unit),
+        *_empty(block),
+    )
+    plunge_feed = reading.known.get("plunge_feed")
+    feed = (plunge_feed, Origin.CALCULATED) if proposed is None else (proposed, Origin.TOOL)
+    return _Start(reading, tool, finish, reading.findings + trouble, feed, _coolant(block, tool.tool))
 
 
-def _propose(reading: Reading, block: Block, program: Program) -> float | None:
+def _propose(reading: Reading, tool: Tool | None, unit: Unit) -> float | None:
     """Fill blanks of START with the tool table's proposals; return the feed it proposes (mm/min), if any."""
-    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
     if tool is None:
         return None
     for name in TOOL_VALUES:
         typed = getattr(tool, name)
-        known = usable(field_of(Form.TOOL, name), typed, program.unit)
+        known = usable(field_of(Form.TOOL, name), typed, unit)
         if known is not None and reading.values[name] is None:
             reading.known[name] = known
             reading.fill(name, typed.value, Origin.TOOL)
-    return usable(field_of(Form.TOOL, "feed"), tool.feed, program.unit)
+    return usable(field_of(Form.TOOL, "feed"), tool.feed, unit)
 
 
-def _coolant(block: Block, program: Program) -> tuple[Coolant, Origin | None]:
+def _coolant(block: Block, tool: Tool | None) -> tuple[Coolant, Origin | None]:
     if block.coolant is not None:
         return block.coolant, None
-    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
     if tool is not None and tool.coolant is not None:
         return tool.coolant, Origin.TOOL
     return Coolant.OFF, Origin.USUAL
 
 
-def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
+def _finish_values(block: Block, tool: Tool | None, finish: Tool | None) -> tuple[Finding, ...]:
     """Warn if TOOL SETUP has other speed, feeds or coolant for the finish tool than the block, which it cuts with."""
-    called = [typed.value for typed in (block.tool, block.finish_tool) if isinstance(typed, Number)]
-    if len(called) < 2 or called[1] in (0.0, called[0]):
-        return ()
-    tool, finish = (find_tool(program, number) for number in called)
-    if finish is None:
+    if finish is None or finish is tool:
         return ()
     used = {name: getattr(block, name, None) or getattr(tool, name, None) for name in FINISH_VALUES}
     others = [name for name in FINISH_VALUES if getattr(finish, name) not in (None, used[name])]
@@ -233,25 +230,20 @@ def _finish_values(block: Block, program: Program) -> tuple[Finding, ...]:
     return (Finding("FINISH_VALUES", Severity.WARNING, text, 0, "finish_tool"),)
 
 
-def _missing(reading: Reading, block: Block, program: Program) -> tuple[Finding, ...]:
-    blanks = [name for name in NEEDED if reading.values[name] is None]
-    refused = {name: text for name in blanks if (text := _tool_value_refusal(name, block, program))}
-    missing = {name: f"{field_of(Form.START, name).label} is blank: enter it on START." for name in blanks}
-    return tuple(
-        Finding("TOOL_VALUE" if name in refused else "MISSING", Severity.ERROR, refused.get(name, text), 0, name)
-        for name, text in missing.items()
-    )
-
-
-def _tool_value_refusal(name: str, block: Block, program: Program) -> str:
-    """Return why the value that TOOL SETUP has for a blank field of START cannot be used; empty if it has none."""
-    tool = find_tool(program, block.tool.value) if isinstance(block.tool, Number) else None
-    typed = None if tool is None or name not in TOOL_VALUES else getattr(tool, name)
-    field = field_of(Form.START, name)
-    trouble = None if typed is None else typed_trouble(field, typed, program.unit)
-    if tool is None or trouble is None:
-        return ""
-    return f"{field.label} of tool {tool.number} on TOOL SETUP{trouble[1].removeprefix(field.label)}"
+def _missing(reading: Reading, tool: Tool | None, unit: Unit) -> Iterator[Finding]:
+    """Report the blank fields of START that are needed: there is no proposal, or it cannot be used."""
+    for name in NEEDED:
+        if reading.values[name] is not None:
+            continue
+        field = field_of(Form.START, name)
+        proposal = None if tool is None or name not in TOOL_VALUES else getattr(tool, name)
+        trouble = None if proposal is None else typed_trouble(field, proposal, unit)
+        if tool is None or trouble is None:
+            text = f"{field.label} is blank: enter it on START."
+            yield Finding("MISSING", Severity.ERROR, text, 0, name)
+        else:
+            text = f"{field.label} of tool {tool.number} on TOOL SETUP{trouble[1].removeprefix(field.label)}"
+            yield Finding("TOOL_VALUE", Severity.ERROR, text, 0, name)
 
 
 def _depths(known: dict[str, float]) -> tuple[Finding, ...]:

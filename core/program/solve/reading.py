@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from math import radians
 
 from core.finding import Finding, Severity
-from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
-from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Typed, Unread
+from core.program.fields import NUMBER_FIELDS, Field, Form, typed_trouble
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Relative, Segment, Typed
 from core.program.solve.solved import Origin, Solved, Value
 from core.units import Kind, Unit, to_mm
 
@@ -61,15 +61,6 @@ def usable(field: Field, typed: Typed, unit: Unit) -> float | None:
     if not isinstance(typed, Number) or typed_trouble(field, typed, unit) is not None:
         return None
     return _internal(typed.value, field.kind, unit)
-
-
-def typed_trouble(field: Field, typed: Number | Relative | Unread, unit: Unit) -> tuple[str, str] | None:
-    """Return the code and the sentence of the fault in a typed field, None if it can be used."""
-    if isinstance(typed, Number | Relative):
-        refusal = value_refusal(field, typed.value, unit)
-    elif (refusal := text_refusal(typed.text, field, unit)) is None:
-        return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"
-    return None if refusal is None else ("OUT_OF_RANGE", refusal)
 
 
 def _internal(value: float, kind: Kind, unit: Unit) -> float:
