@@ -120,7 +120,7 @@ def _annotated(block: DerivedBlock, table: Table | None, program: Program) -> Ta
     from core.pipeline.derive import advice_for_block
 
     advice = None if table is None else advice_for_block(block, program, table)
-    return table if table is None or advice is None else replace(table, notes=advice.sentences)
+    return table if table is None or advice is None else replace(table, notes=advice)
 
 
 def post(options: argparse.Namespace) -> int:

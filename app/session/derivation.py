@@ -46,10 +46,10 @@ def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callabl
     advice = advice_for_block(block, program, table, wanted=wanted)
     if advice is None:
         return
-    if advice.sentences:
-        yield replace(table, notes=advice.sentences)
+    if advice:
+        yield replace(table, notes=advice)
     if wanted():
-        yield replace(table, notes=(*advice.sentences, *better_path(block)), complete=True)
+        yield replace(table, notes=(*advice, *better_path(block)), complete=True)
 
 
 def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import Form, default_value, field_of, value_refusal
+from core.program.fields import Form, default_value, field_of
 from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
+from core.program.solve.reading import usable
 from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.program.tools import called_tool
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
@@ -58,8 +59,8 @@ def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
 def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     """Report a SAFE Z below the clearance over Z START, which posting raises: a warning if typed, else information."""
     typed = program.setup.safe_z
-    safe = _length(typed, Form.SETUP, "safe_z", program)
-    clearance = _parameter("retract_clearance", program)
+    safe = _in_force(program, Form.SETUP, "safe_z")
+    clearance = _in_force(program, Form.PARAMETERS, "retract_clearance")
     if safe is None or clearance is None or solved.z_start is None:
         return
     clear = solved.z_start + clearance
@@ -117,7 +118,7 @@ def _finish_tool_without_allowance(block: Block, program: Program) -> Iterator[F
     rough, finish = (called_tool(program, getattr(block, name), name).diameter for name in ("tool", "finish_tool"))
     if rough is not None and finish is not None and finish < rough:
         return
-    if not any(_parameter(name, program) for name in ("finish_xy", "finish_z")):
+    if not any(_in_force(program, Form.PARAMETERS, name) for name in ("finish_xy", "finish_z")):
         text = f"FINISH TOOL {tool.value:g} has nothing to cut: FINISH XY and FINISH Z are 0. F4 sets them."
         yield Finding("NOTHING_LEFT", Severity.INFO, text, 0, "finish_tool")
 
@@ -128,7 +129,7 @@ def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     if _pecks(solved):
         consequences["peck_clearance"] = "between pecks it rapids right to the last floor"
     for name, consequence in consequences.items():
-        value = _parameter(name, program)
+        value = _in_force(program, Form.PARAMETERS, name)
         if (
             value is None
             or value > VISIBLE
@@ -152,7 +153,10 @@ def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[F
     if block.cutter_comp not in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT):
         return
     finishing = solved.finish_diameter is not None
-    offset, least = _parameter("max_offset", program), _parameter("finish_xy", program) if finishing else 0.0
+    offset, least = (
+        _in_force(program, Form.PARAMETERS, "max_offset"),
+        _in_force(program, Form.PARAMETERS, "finish_xy") if finishing else 0.0,
+    )
     if offset is None or least is None or offset > least + ON_PATH:
         return
     plain = block.cutter_comp.removeprefix("PROFILE ")
@@ -184,16 +188,10 @@ def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
     yield Finding("NO_LENGTH", Severity.ERROR, text, 1, "x_end", solved.segments[0].end)
 
 
-def _parameter(name: str, program: Program) -> float | None:
-    """Return a length of PROGRAM PARAMETERS or its default in millimeters; None if it is refused."""
-    return _length(getattr(program.parameters, name), Form.PARAMETERS, name, program)
-
-
-def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
-    """Return a length or its default in millimeters; None if it is refused."""
-    if typed is None:
-        usual = default_value(name, program.unit)
-        return None if usual is None else to_mm(usual, program.unit)
-    if not isinstance(typed, Number) or value_refusal(field_of(form, name), typed.value, program.unit):
-        return None
-    return to_mm(typed.value, program.unit)
+def _in_force(program: Program, form: Form, name: str) -> float | None:
+    """Return a number of PROGRAM PARAMETERS or PART SETUP in millimeters, as typed or its default; None if refused."""
+    typed: Typed = getattr(program.setup if form is Form.SETUP else program.parameters, name)
+    usual = default_value(name, program.unit)
+    if typed is None and usual is not None:
+        typed = Number(usual)
+    return usable(field_of(form, name), typed, program.unit)

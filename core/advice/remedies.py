@@ -14,6 +14,7 @@ import numpy as np
 from core.advice.lookahead_table import CuttingSetup, Row, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.progress import Stopped
 from core.tolerance import CLOSED
 from core.verify.judge import judge
 
@@ -64,10 +65,6 @@ class StartMoved:
     effect: tuple[str, tuple[float, ...]]
 
 
-class SearchCanceled(Exception):
-    """The search was canceled: the remedies are no longer needed."""
-
-
 def never_canceled() -> bool:
     """Return True: the default of `wanted`, with which the search is never canceled."""
     return True
@@ -76,7 +73,7 @@ def never_canceled() -> bool:
 def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> Row | None:
     """Return the row of the look-ahead that the table recommends; first check that the answer is still wanted."""
     if not wanted():
-        raise SearchCanceled
+        raise Stopped
     table = judge_lookaheads(setup)
     return None if table.recommended is None else table.row(table.recommended)
 
@@ -144,7 +141,7 @@ def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
 def _clean(setup: CuttingSetup, size: int, wanted: Callable[[], bool]) -> bool:
     """True if one of the usual look-aheads gives a clean finish path with a diameter of `size` steps."""
     if not wanted():
-        raise SearchCanceled
+        raise Stopped
     setup = _with_tool(setup, size)
     distinct = {
         id(control.path): control.whole for control in setup.paths(setup.radius, USUAL_LOOKAHEADS) if len(control.path)

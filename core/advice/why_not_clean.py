@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import Final, NamedTuple
+from dataclasses import replace
+from typing import Final
 
 from core.advice.lookahead_table import CuttingSetup, Row, Table
 from core.advice.remedies import (
-    SearchCanceled,
     StartMoved,
-    ToolFits,
     larger_tool_without_blends,
     largest_tool,
     longest_segments,
@@ -23,6 +21,7 @@ from core.advice.remedies import (
 )
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
+from core.progress import Stopped
 
 MAX_NAMED_PLACES: Final = 4
 """How many of the places that are too small are named in sentences."""
@@ -30,100 +29,50 @@ MAX_NAMED_PLACES: Final = 4
 _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Advice:
-    """Sentences for the operator, and the data behind them.
-
-    `why` says why CAL's value is not clean; it is empty if CAL is clean.  The rest is filled only if no value is clean:
-    `too_small` names inside radii and corners that the tool does not enter; the others are remedies that have been cut
-    and judged clean, None if none was found.  If neither another start nor leaving out the blend moves helps alone,
-    `start_without_blends` is both at once.  If that does not help, a tool is searched for, from the middle of a side
-    if the start is an inside corner; if no tool is found either, `start_at_end` is tried for an open contour.  Of a
-    contour that crosses itself nothing but `start_at_end` is tried.
-    """
-
-    why: tuple[Finding, ...]
-    too_small: tuple[Finding, ...] = ()
-    tool: ToolFits | None = None
-    start: StartMoved | None = None
-    lookahead_without_blends: int | None = None
-    start_at_end: StartMoved | None = None
-    start_without_blends: StartMoved | None = None
-    tool_without_blends: ToolFits | None = None
-    sentences: tuple[Finding, ...] = ()
-
-
 def advice_for(
     setup: CuttingSetup, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
-) -> Advice | None:
-    """Return the advice for a contour from its look-ahead table; empty if the contour cannot be offset at all.
+) -> tuple[Finding, ...] | None:
+    """Return the advice for a contour from its look-ahead table: why CAL is not clean, and what would help.
 
-    `wanted` is called before each trial: once it returns False, the search stops and the answer is None.
+    It is empty if CAL is clean or if the contour cannot be offset at all.  Remedies are searched for only if no value
+    is clean.  `wanted` is called before each trial: once it returns False, the search stops and the answer is None.
     """
     if not len(table.rows[0].compensated.raw):
-        return Advice(())
+        return ()
     why = why_not_clean(table, calculated)
     if table.recommended is not None:
-        return Advice(why, sentences=why)
+        return why
     try:
-        return _with_remedies(why, setup, table, wanted)
-    except SearchCanceled:
+        return (*why, *_remedies(setup, table, wanted))
+    except Stopped:
         return None
 
 
-def _with_remedies(why: tuple[Finding, ...], setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> Advice:
+def _remedies(setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> tuple[Finding, ...]:
+    """Return what would help, each remedy cut and judged clean, after the places that the tool does not enter.
+
+    If neither another start nor leaving out the blend moves helps alone, both are tried at once.  If that does not
+    help, a tool is searched for, from the middle of a side if the start is an inside corner; if no tool is found
+    either, the end is tried as the start.  Of a contour that crosses itself nothing but the end is tried.
+    """
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
     if nearest.verdict.crosses_itself:
-        at_end = start_at_end(setup, wanted)
-        mend = _crossing_first(nearest.verdict.crossing_at) if at_end is None else _start_at_end_sentence(at_end)
-        return Advice(why, start_at_end=at_end, sentences=(*why, mend))
-    too_small = _too_small(nearest, setup.radius)
+        return _start_at_end_sentence(setup, wanted) or (_crossing_first(nearest.verdict.crossing_at),)
     value, start = lookahead_without_blends(setup, wanted), start_mid_side(setup, wanted)
-    both = start_mid_side_without_blends(setup, wanted) if start is None and value is None else None
-    helpless = start is None and value is None and both is None
-    tools = _tools(setup, nearest, wanted) if helpless else _Tools(None, None, "")
-    remedies = (
-        *_blends_sentence(value),
-        *_start_sentence(start),
-        *_start_sentence(both, without_blends=True),
-        *_tool_sentences(tools),
-    )
-    at_end = None if remedies else start_at_end(setup, wanted)
+    remedies = (*_blends_sentence(value), *_start_sentence(start))
     if not remedies:
-        remedies = (_nothing_helps(closed=setup.closed) if at_end is None else _start_at_end_sentence(at_end),)
-    sentences = (*why, *_first_named(too_small), *remedies)
-    return Advice(why, too_small, tools.tool, start, value, at_end, both, tools.without_blends, sentences)
-
-
-class _Tools(NamedTuple):
-    """The largest tool, a larger one that fits without blend moves, and the words for the start that they need."""
-
-    tool: ToolFits | None
-    without_blends: ToolFits | None
-    where: str
-
-
-def _tools(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool]) -> _Tools:
-    """Return the largest tools, with another start if the contour's own is an inside corner."""
-    where = ""
-    if _starts_at_inside_corner(nearest):
-        row = longest_segments(setup.surface)[0]
-        where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
-        setup = replace(setup, surface=restarted(setup.surface, row))
-    tool = largest_tool(setup, wanted)
-    return _Tools(tool, larger_tool_without_blends(setup, tool, wanted), where)
+        remedies = _start_sentence(start_mid_side_without_blends(setup, wanted), without_blends=True)
+    remedies = (
+        remedies
+        or tuple(_tool_sentences(setup, nearest, wanted))
+        or _start_at_end_sentence(setup, wanted)
+        or (_nothing_helps(closed=setup.closed),)
+    )
+    return (*_too_small(nearest, setup.radius), *remedies)
 
 
 def _starts_at_inside_corner(row: Row) -> bool:
     return any(finding.code == "START_INSIDE_CORNER" for finding in row.compensated.findings)
-
-
-def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the first places that are too small, with their total if there are more."""
-    if len(too_small) <= MAX_NAMED_PLACES:
-        return too_small
-    count = replace(too_small[0], text=f"There are {len(too_small)} such places.", segment=None)
-    return (*too_small[:MAX_NAMED_PLACES], count)
 
 
 def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
@@ -148,7 +97,10 @@ def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
 
 
 def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
-    """Return the inside radii and corners that the tool does not enter in the path that gouges least."""
+    """Return the inside radii and corners that the tool does not enter in the path that gouges least.
+
+    If there are many, the first ones are named and all are counted.
+    """
     small = []
     for finding in row.compensated.findings:
         if finding.code == "VANISHED" and finding.segment is not None:
@@ -157,6 +109,9 @@ def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
         if finding.code == "CORNER_MISSED" and finding.segment is not None:
             text = f"The tool does not fit into the inside corner after segment {int(finding.segment)}."
             small.append(replace(finding, code="TOO_SMALL", text=text))
+    if len(small) > MAX_NAMED_PLACES:
+        count = replace(small[0], text=f"There are {len(small)} such places.", segment=None)
+        small = [*small[:MAX_NAMED_PLACES], count]
     return tuple(small)
 
 
@@ -176,22 +131,34 @@ def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -
     return (replace(remedy, segment=start.segment, at=start.at, lengths=lengths),)
 
 
-def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
-    """Yield the tool that fits, then the larger one, which needs more changes."""
-    fitting = ((tools.tool, "TOOL_FITS", ""), (tools.without_blends, "TOOL_BLENDLESS", f" {_NO_BLENDS}"))
-    for tool, code, blends in fitting:
-        if tool is not None:
-            largest = f"the largest that does not gouge{blends}{tools.where}: {{value}}, with look-ahead {tool.value}."
-            text = f"Tool too big; {largest}{tool.left_uncut}"
-            yield replace(_remedy(code, text), field="tool", value=tool.diameter, lengths=tool.lengths)
+def _tool_sentences(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool]) -> Iterator[Finding]:
+    """Yield the largest tool that fits, then a larger one that fits without blend moves, which needs more changes.
+
+    Both are searched for with another start if the contour's own is an inside corner.
+    """
+    where = ""
+    if _starts_at_inside_corner(nearest):
+        row = longest_segments(setup.surface)[0]
+        where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
+        setup = replace(setup, surface=restarted(setup.surface, row))
+    tool = largest_tool(setup, wanted)
+    larger = larger_tool_without_blends(setup, tool, wanted)
+    for fits, code, blends in ((tool, "TOOL_FITS", ""), (larger, "TOOL_BLENDLESS", f" {_NO_BLENDS}")):
+        if fits is not None:
+            largest = f"the largest that does not gouge{blends}{where}: {{value}}, with look-ahead {fits.value}."
+            text = f"Tool too big; {largest}{fits.left_uncut}"
+            yield replace(_remedy(code, text), field="tool", value=fits.diameter, lengths=fits.lengths)
 
 
-def _start_at_end_sentence(start: StartMoved) -> Finding:
+def _start_at_end_sentence(setup: CuttingSetup, wanted: Callable[[], bool]) -> tuple[Finding, ...]:
+    start = start_at_end(setup, wanted)
+    if start is None:
+        return ()
     text = (
         "START may be mistyped: at X {x} Y {y}, where the contour ends, it would close "
         f"and look-ahead {start.value} would be clean."
     )
-    return replace(_remedy("START_AT_END", text), segment=0.0, at=start.at)
+    return (replace(_remedy("START_AT_END", text), segment=0.0, at=start.at),)
 
 
 def _crossing_first(at: Point | None) -> Finding:

@@ -18,7 +18,7 @@ from core.advice.path_findings import (
     z_step_findings,
 )
 from core.advice.remedies import largest_tool, never_canceled
-from core.advice.why_not_clean import Advice, advice_for
+from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
@@ -196,7 +196,7 @@ def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
 
 def advice_for_block(
     block: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = never_canceled
-) -> Advice | None:
+) -> tuple[Finding, ...] | None:
     """Return what a derived block needs; `table` is its look-ahead table if known.  None if nothing is compensated.
 
     `wanted` is asked before each remedy is tried: once it returns False, the rest is not tried and the answer is None.

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from core.geometry.path import EMPTY
 from core.output.passes import CenterPath, Cutter, Floor, Job
 from core.pipeline.derived import Derived, DerivedBlock
-from core.pipeline.parameters import parameter, setup_value
+from core.pipeline.parameters import parameter
 from core.program.model import Number, Program, Typed
 from core.program.tools import find_tool
-from core.units import Kind, Unit, from_mm, show, to_mm
+from core.units import Kind, Unit, from_mm, show
 
 
 def jobs(derived: Derived) -> tuple[Job, ...]:
@@ -42,9 +42,9 @@ def job(block: DerivedBlock, program: Program) -> Job:
         peck_clearance=parameter(program, "peck_clearance"),
         plunge_feed=solved.plunge_feed or 0.0,
         speed=solved.speed or 0.0,
-        safe_z=to_mm(setup_value(program, "safe_z"), program.unit),
+        safe_z=parameter(program, "safe_z"),
         finish_tool=finish_tool,
-        work_offset=int(setup_value(program, "work_offset")),
+        work_offset=int(parameter(program, "work_offset")),
         coolant=solved.coolant,
         lookahead="" if block.side is None else tag,
         rapid_rate=parameter(program, "rapid_rate"),

@@ -68,12 +68,10 @@ def fixed_scene(proof: Proof) -> Scene:
 
 
 def _parts(moves: Moves, plane: Plane, chosen: NDArray[np.bool_]) -> Iterator[Path]:
-    """Yield the paths of consecutive chosen moves on the plane."""
-    wanted = np.flatnonzero(chosen[1:]) + 1
-    if not len(wanted):
-        return
-    for rows in np.split(wanted, np.flatnonzero(np.diff(wanted) > 1) + 1):
-        yield moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path(plane)
+    """Yield the paths of consecutive chosen moves on the plane; row 0 is the start point."""
+    rows = np.flatnonzero(chosen[1:]) + 1
+    for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else ():
+        yield moves.part(int(part[0]) - 1, int(part[-1]) + 1).path(plane)
 
 
 def _stretch_scene(result: Judged) -> Scene:
@@ -89,7 +87,7 @@ def _stretch_scene(result: Judged) -> Scene:
 def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
     """Add the moves of a line, and the cutter where they end, or where a line above left it."""
     moves, plane = proof.run.moves, proof.plane
-    layers = [Layer(path, Style.CURRENT) for path in _moves_of(moves, plane, line)]
+    layers = [Layer(path, Style.CURRENT) for path in _parts(moves, plane, moves.lines == line)]
     at, row = cutter_at_line(proof, line)
     held = _stretch_at(proof, row)
     circles = () if held is None else (Circle(at, held.radius),)
@@ -101,14 +99,6 @@ def dotted_path(proof: Proof, plane: Plane) -> tuple[Layer, ...]:
     """Return the feed moves of a run on a plane, dotted, to lie under the scene of another control's run."""
     moves = proof.run.moves
     return tuple(Layer(path, Style.UNTAKEN, dashed=True) for path in _parts(moves, plane, ~moves.rapid))
-
-
-def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
-    rows = np.flatnonzero(moves.lines == line)
-    if not len(rows):
-        return
-    for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
-        yield moves.part(max(int(part[0]) - 1, 0), int(part[-1]) + 1).path(plane)
 
 
 def cutter_at_line(proof: Proof, line: int) -> tuple[Point, int]:

@@ -5,29 +5,21 @@ from __future__ import annotations
 from typing import Final
 
 from core.pipeline.derived import DerivedBlock
-from core.program.fields import default_value
+from core.program.fields import Form, default_value, field_of
 from core.program.model import Number, Program
-from core.units import to_mm
+from core.units import Kind, to_mm
 
 MAX_SIDE_PASSES: Final = 1000
 """More passes than this are a typing mistake in MAX OFFSET or POCKET OVERLAP."""
 
 
 def parameter(program: Program, name: str) -> float:
-    """Return a program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
-    typed = getattr(program.parameters, name)
-    value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
-    if value is None:
-        return 0.0
-    return value if name == "pocket_overlap" else to_mm(value, program.unit)
-
-
-def setup_value(program: Program, name: str) -> float:
-    """Return a number of PART SETUP as typed or its default, in program units."""
-    typed = getattr(program.setup, name)
+    """Return a number of PROGRAM PARAMETERS or PART SETUP as typed or its default; lengths in millimeters."""
+    form, part = (Form.SETUP, program.setup) if hasattr(program.setup, name) else (Form.PARAMETERS, program.parameters)
+    typed = getattr(part, name)
     value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
     assert value is not None
-    return value
+    return to_mm(value, program.unit) if field_of(form, name).kind in (Kind.LENGTH, Kind.FEED) else value
 
 
 def stocks(block: DerivedBlock, program: Program) -> tuple[float, ...]:

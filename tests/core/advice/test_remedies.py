@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.advice.remedies import (
-    SearchCanceled,
     largest_tool,
     lookahead_without_blends,
     restarted,
     start_mid_side,
 )
 from core.geometry.piece import Side
+from core.progress import Stopped
 from tests.core.comp.contours import lines, mixed, shut
 
 DIAMETER_STEP = 0.001
@@ -75,5 +75,5 @@ def test_blend_moves_are_left_out_only_where_there_are_any(blend):
 
 
 def test_a_remedy_nobody_waits_for_is_not_tried():
-    with pytest.raises(SearchCanceled):
+    with pytest.raises(Stopped):
         largest_tool(CuttingSetup(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0), wanted=lambda: False)

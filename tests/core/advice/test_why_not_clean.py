@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 from math import cos, pi, sin
 
@@ -11,9 +13,9 @@ from hypothesis import strategies as st
 
 from core.advice.lookahead_table import CuttingSetup, judge_lookaheads
 from core.advice.remedies import restarted
-from core.advice.why_not_clean import MAX_NAMED_PLACES, Advice, advice_for
+from core.advice.why_not_clean import MAX_NAMED_PLACES, advice_for
 from core.comp.lookahead import calculated
-from core.finding import Severity
+from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from core.units import Unit, sentence
@@ -36,18 +38,29 @@ def setup(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blen
     return CuttingSetup(contour, side, radius, closed, blend, 0.0)
 
 
-def advice_of(cutting: CuttingSetup) -> Advice:
+def advice_of(cutting: CuttingSetup) -> tuple[Finding, ...]:
     advice = advice_for(cutting, calculated(len(cutting.surface), closed=cutting.closed), judge_lookaheads(cutting))
     assert advice is not None
     return advice
 
 
-def codes(advice: Advice) -> list[str]:
-    return [finding.code for finding in advice.sentences]
+def codes(advice: Sequence[Finding]) -> list[str]:
+    return [finding.code for finding in advice]
 
 
-def text_of(advice: Advice) -> str:
-    return " ".join(sentence(finding, Unit.MM) for finding in advice.sentences)
+def text_of(advice: Sequence[Finding]) -> str:
+    return " ".join(sentence(finding, Unit.MM) for finding in advice)
+
+
+def remedy(advice: Sequence[Finding], code: str) -> Finding | None:
+    """The remedy with this code, if it is offered."""
+    return next((finding for finding in advice if finding.code == code), None)
+
+
+def look_ahead(finding: Finding) -> int:
+    """The look-ahead that a remedy is offered with."""
+    (value,) = re.findall(r"look-ahead (\d+)", finding.text)
+    return int(value)
 
 
 def test_an_inside_square_should_start_in_the_middle_of_a_side():
@@ -55,9 +68,8 @@ def test_an_inside_square_should_start_in_the_middle_of_a_side():
     advice = advice_of(cutting)
     assert codes(advice) == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
     assert "START is in an inside corner, where no look-ahead helps." in text_of(advice)
-    assert advice.start is not None
-    assert (advice.start.segment, advice.start.at) == (1, (1.0, 0.0))
-    assert judge_lookaheads(replace(cutting, surface=restarted(SQUARE, 0))).row(advice.start.value).clean
+    assert (advice[1].segment, advice[1].at) == (1, (1.0, 0.0))
+    assert judge_lookaheads(replace(cutting, surface=restarted(SQUARE, 0))).row(look_ahead(advice[1])).clean
     assert restarted(SQUARE, 0).points.tolist() == [[1, 0], [2, 0], [2, 2], [0, 2], [0, 0], [1, 0]]
 
 
@@ -74,21 +86,22 @@ def test_a_contour_started_within_an_arc_keeps_the_centers_of_its_arcs():
 def test_a_start_at_a_chamfer_can_be_moved():
     chamfered = lines((0.1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0))
     advice = advice_of(setup(chamfered, Side.LEFT, closed=True))
-    assert advice.start is not None
-    assert advice.start.value == 2
-    row = int(advice.start.segment) - 1
+    start = remedy(advice, "START_MID_SIDE")
+    assert start is not None
+    assert start.segment is not None
+    assert look_ahead(start) == 2
+    row = int(start.segment) - 1
     assert judge_lookaheads(setup(restarted(chamfered, row), Side.LEFT, closed=True)).row(2).clean
 
 
 def test_the_largest_tool_of_a_slot_is_its_width():
     cutting = setup(SLOT, Side.LEFT, closed=False)
     advice = advice_of(cutting)
-    assert advice.tool is not None
-    assert advice.tool.diameter == pytest.approx(0.4)
+    assert advice[-1].value == pytest.approx(0.4)
     assert codes(advice) == ["CAL_NOT_CLEAN", "TOO_SMALL", "TOOL_FITS"]
     assert "inside corner after segment 2" in text_of(advice)
-    assert judge_lookaheads(replace(cutting, radius=advice.tool.diameter / 2)).row(advice.tool.value).clean
-    assert judge_lookaheads(replace(cutting, radius=(advice.tool.diameter + DIAMETER_STEP) / 2)).recommended is None
+    assert judge_lookaheads(replace(cutting, radius=0.2)).row(look_ahead(advice[-1])).clean
+    assert judge_lookaheads(replace(cutting, radius=0.2 + DIAMETER_STEP / 2)).recommended is None
 
 
 def test_an_inside_radius_smaller_than_the_tool_is_named():
@@ -97,11 +110,12 @@ def test_an_inside_radius_smaller_than_the_tool_is_named():
         [Line((3, 0), (0.2, 0)), Arc((0.2, 0), (0.2, 0.4), (0.2, 0.2), Turn.CW), Line((0.2, 0.4), (3, 0.4))]
     )
     advice = advice_of(setup(groove, Side.RIGHT, closed=False))
-    assert [finding.segment for finding in advice.too_small] == [2]
-    assert advice.too_small[0].value == pytest.approx(0.2)
+    (small,) = [finding for finding in advice if finding.code == "TOO_SMALL"]
+    assert small.segment == 2
+    assert small.value == pytest.approx(0.2)
     assert "Inside radius 0.200 of segment 2 is too small for tool radius 0.250." in text_of(advice)
-    assert advice.tool is not None
-    assert advice.tool.diameter == pytest.approx(0.4, abs=1.5 * DIAMETER_STEP)
+    assert codes(advice)[-1] == "TOOL_FITS"
+    assert advice[-1].value == pytest.approx(0.4, abs=1.5 * DIAMETER_STEP)
 
 
 def test_a_hole_smaller_than_the_tool_needs_a_smaller_tool():
@@ -110,25 +124,27 @@ def test_a_hole_smaller_than_the_tool_needs_a_smaller_tool():
     assert judge_lookaheads(cutting).recommended is None
     advice = advice_of(cutting)
     assert "no path that can be cut" in text_of(advice)
-    assert advice.tool is not None
-    assert 2.0 - 2 * DIAMETER_STEP <= advice.tool.diameter <= 2.0
+    assert codes(advice)[-1] == "TOOL_FITS"
+    assert advice[-1].value is not None
+    assert 2.0 - 2 * DIAMETER_STEP <= advice[-1].value <= 2.0
 
 
 def test_a_star_needs_a_smaller_tool_and_another_start():
     advice = advice_of(setup(STAR, Side.LEFT, closed=True))
-    assert advice.start is None
-    assert advice.tool is not None
-    assert advice.tool.diameter < 0.5
+    assert remedy(advice, "START_MID_SIDE") is None
+    tool = remedy(advice, "TOOL_FITS")
+    assert tool is not None
+    assert tool.value is not None
+    assert tool.value < 0.5
     assert "when the contour is started in the middle of segment" in text_of(advice)
-    assert advice_of(setup(STAR, Side.LEFT, 0.05, closed=True)).start is not None
-    assert not advice_of(setup(STAR, Side.RIGHT, closed=True)).sentences
+    assert remedy(advice_of(setup(STAR, Side.LEFT, 0.05, closed=True)), "START_MID_SIDE") is not None
+    assert not advice_of(setup(STAR, Side.RIGHT, closed=True))
 
 
 def test_blend_moves_that_gouge_can_be_left_out():
     channel = lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6))
     advice = advice_of(setup(channel, Side.LEFT, closed=False, blend=0.5))
-    assert advice.lookahead_without_blends == 1
-    assert "BLEND OFFSET 0" in text_of(advice)
+    assert "Without blend moves (BLEND OFFSET 0) look-ahead 1 is clean." in text_of(advice)
 
 
 def test_a_tool_that_fits_only_without_blend_moves_is_named():
@@ -137,13 +153,12 @@ def test_a_tool_that_fits_only_without_blend_moves_is_named():
     cutting = replace(setup(slot, Side.LEFT, 1.5, closed=True, blend=3.0), overlap=3.0)
     advice = advice_of(cutting)
     assert codes(advice)[-1] == "TOOL_BLENDLESS"
-    assert (advice.tool, advice.start, advice.start_without_blends) == (None, None, None)
-    assert advice.tool_without_blends is not None
-    assert advice.tool_without_blends.diameter == pytest.approx(2.5)
+    assert not {"TOOL_FITS", "START_MID_SIDE", "START_BLENDLESS"}.intersection(codes(advice))
+    assert advice[-1].value == pytest.approx(2.5)
     text = (
         "Tool too big; the largest that does not gouge without blend moves (BLEND OFFSET 0): 2.500, with look-ahead 1."
     )
-    assert sentence(advice.sentences[-1], Unit.MM) == text
+    assert sentence(advice[-1], Unit.MM) == text
     assert judge_lookaheads(replace(cutting, radius=1.25, blend=0.0)).row(1).clean
     assert judge_lookaheads(replace(cutting, radius=1.25)).recommended is None
 
@@ -153,14 +168,15 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_named():
     cutting = replace(setup(square, Side.LEFT, 40.0, closed=True, blend=3.0), overlap=3.0)
     advice = advice_of(cutting)
     assert codes(advice)[-2:] == ["TOOL_FITS", "TOOL_BLENDLESS"]
-    assert advice.tool is not None
-    assert advice.tool_without_blends is not None
-    assert advice.tool.diameter < 45.0
-    assert advice.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
+    fits, larger = advice[-2:]
+    assert fits.value is not None
+    assert larger.value is not None
+    assert fits.value < 45.0
+    assert larger.value == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
     blends = "without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1"
     assert f"the largest that does not gouge {blends}" in text_of(advice)
-    small = replace(cutting, surface=restarted(square, 0), radius=advice.tool_without_blends.diameter / 2)
-    assert judge_lookaheads(replace(small, blend=0.0)).row(advice.tool_without_blends.value).clean
+    small = replace(cutting, surface=restarted(square, 0), radius=larger.value / 2)
+    assert judge_lookaheads(replace(small, blend=0.0)).row(look_ahead(larger)).clean
     assert judge_lookaheads(small).recommended is None
 
 
@@ -181,7 +197,7 @@ def test_another_start_without_blend_moves_keeps_the_tool():
 def test_a_slightly_larger_tool_without_blend_moves_is_not_named(blend):
     advice = advice_of(setup(SLOT, Side.LEFT, closed=False, blend=blend))
     assert codes(advice)[-1] == "TOOL_FITS"
-    assert advice.tool_without_blends is None
+    assert "TOOL_BLENDLESS" not in codes(advice)
 
 
 def test_advice_without_a_remedy_says_so():
@@ -212,12 +228,10 @@ def test_a_mistyped_start_of_a_closed_contour_is_reported():
     around = ((2, 0), (2, 2), (0, 2), (0, 1.2), (-0.1, 0.6), (0, 0))
     advice = advice_of(setup(lines((0, 1.5), *around), Side.RIGHT, closed=False))
     assert codes(advice)[-1] == "START_AT_END"
-    assert advice.start_at_end is not None
-    assert advice.start_at_end.at == (0.0, 0.0)
-    assert advice.sentences[-1].segment == 0
+    assert (advice[-1].segment, advice[-1].at) == (0, (0.0, 0.0))
     assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would close" in text_of(advice)
     whole = setup(lines((0, 0), *around), Side.RIGHT, closed=True)
-    assert judge_lookaheads(whole).row(advice.start_at_end.value).clean
+    assert judge_lookaheads(whole).row(look_ahead(advice[-1])).clean
 
 
 @pytest.mark.parametrize("first", [(0.5, 1), (0, 1)])
@@ -225,17 +239,15 @@ def test_no_mistyped_start_is_reported_when_two_numbers_differ_or_it_does_not_he
     """Both numbers differ, or the corrected start is an inside corner too."""
     side = Side.LEFT if first == (0, 1) else Side.RIGHT
     advice = advice_of(setup(lines(first, (2, 0), (2, 2), (0, 2), (0, 0)), side, closed=False))
-    assert advice.start_at_end is None
     assert "START_AT_END" not in codes(advice)
 
 
 def test_many_small_places_are_counted():
     work = gear(50)
     advice = advice_of(setup(work.contour, work.side, 6.0, closed=True))
-    named = [finding for finding in advice.sentences if finding.code == "TOO_SMALL"]
-    assert len(advice.too_small) > MAX_NAMED_PLACES
+    named = [finding for finding in advice if finding.code == "TOO_SMALL"]
     assert len(named) == MAX_NAMED_PLACES + 1
-    assert f"There are {len(advice.too_small)} such places." in named[-1].text
+    assert named[-1].text == "There are 24 such places."
 
 
 sizes, radii, blends = st.floats(0.5, 4.0), st.floats(0.05, 0.6), st.sampled_from((0.0, 0.3, 2.0))
@@ -298,45 +310,45 @@ needy = st.one_of(
 def test_every_remedy_makes_the_path_clean(cutting: CuttingSetup) -> None:
     advice = advice_of(cutting)
     plain = replace(cutting, blend=0.0)
-    assert all(finding.severity is not Severity.ERROR for finding in advice.sentences)
-    for name, start, tried in (
-        ("start", advice.start, cutting),
-        ("start without blends", advice.start_without_blends, plain),
+    assert all(finding.severity is not Severity.ERROR for finding in advice)
+    for name, code, tried in (
+        ("start", "START_MID_SIDE", cutting),
+        ("start without blends", "START_BLENDLESS", plain),
     ):
+        start = remedy(advice, code)
         if start is not None:
             exercised(name)
             side = cutting.surface.numbers.tolist().index(start.segment)
-            row = judge_lookaheads(replace(tried, surface=restarted(cutting.surface, side))).row(start.value)
+            row = judge_lookaheads(replace(tried, surface=restarted(cutting.surface, side))).row(look_ahead(start))
             assert row.clean
-            (told,) = [finding for finding in advice.sentences if finding.code.startswith("START_")]
-            assert told.text.endswith(f"look-ahead {row.value} then {row.effect[0]}.")
-    for name, tool, tried in (
-        ("tool", advice.tool, cutting),
-        ("tool without blends", advice.tool_without_blends, plain),
-    ):
+            assert start.text.endswith(f"look-ahead {row.value} then {row.effect[0]}.")
+    for name, code, tried in (("tool", "TOOL_FITS", cutting), ("tool without blends", "TOOL_BLENDLESS", plain)):
+        tool = remedy(advice, code)
         if tool is not None:
             exercised(name)
-            small = replace(tried, radius=tool.diameter / 2)
+            assert tool.value is not None
+            small = replace(tried, radius=tool.value / 2)
             moved = [
                 small,
                 *(replace(small, surface=restarted(small.surface, row)) for row in range(len(small.surface))),
             ]
             assert any(
-                judge_lookaheads(finding).row(tool.value).clean for finding in (moved if cutting.closed else moved[:1])
+                judge_lookaheads(trial).row(look_ahead(tool)).clean
+                for trial in (moved if cutting.closed else moved[:1])
             )
-    if advice.lookahead_without_blends is not None:
+    blendless = remedy(advice, "BLENDLESS")
+    if blendless is not None:
         exercised("look-ahead without blends")
-        assert judge_lookaheads(plain).row(advice.lookahead_without_blends).clean
-    if advice.tool is not None and advice.tool_without_blends is not None:
-        assert advice.tool_without_blends.diameter > advice.tool.diameter
+        assert judge_lookaheads(plain).row(look_ahead(blendless)).clean
+    tools = [finding.value or 0.0 for finding in advice if finding.code in ("TOOL_FITS", "TOOL_BLENDLESS")]
+    assert tools == sorted(set(tools))
 
 
 def test_a_clean_look_ahead_is_named_when_the_calculated_one_gouges():
     notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
     advice = advice_of(setup(notch, Side.LEFT, closed=False))
     assert text_of(advice) == "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.900 uncut."
-    assert (advice.tool, advice.start) == (None, None)
-    assert not advice_of(setup(notch, Side.RIGHT, closed=False)).sentences
+    assert not advice_of(setup(notch, Side.RIGHT, closed=False))
 
 
 @pytest.mark.parametrize("tries", range(8))
@@ -369,5 +381,6 @@ def test_the_largest_tool_has_the_radius_of_the_inside_corners():
     )
     for radius in (17.5, 20.0):
         advice = advice_of(setup(pocket, Side.LEFT, radius, closed=True))
-        assert advice.tool is not None
-        assert advice.tool.diameter == 12.0
+        tool = remedy(advice, "TOOL_FITS")
+        assert tool is not None
+        assert tool.value == 12.0

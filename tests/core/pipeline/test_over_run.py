@@ -68,7 +68,7 @@ def test_the_table_recommends_what_keeps_the_part():
     assert all(row.clean for row in table.rows)
     assert table.recommended == 1
     assert [row.deleted for row in table.rows[:3]] == [(), (), (2.0, 3.0)]
-    assert advice_for_block(found, part, table).sentences == ()
+    assert advice_for_block(found, part, table) == ()
     assert [row["uncut"] for row in table_document(found, table, Unit.IN)["values"][:3]] == pytest.approx([0, 0, 8])
 
 
