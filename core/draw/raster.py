@@ -17,7 +17,7 @@ from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
 from core.draw.chords import Chords, chords
 from core.draw.scene import BEYOND, DOTTED, Area, Layer, Scene, Style
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Points, Rows
+from core.geometry.path import Floats, Rows
 
 DASH: Final = (3.0, 1.8)
 """A dash's period and its lit part, in cell widths."""
@@ -83,24 +83,15 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
 
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
-    """Return the bits that the X and the Y axis light inside the window."""
+    """Return the bits that the X axis, left to right, and the Y axis, top to bottom, light inside the window."""
     (x, y), limit, (wide, high) = view.center, BEYOND / view.scale, look.dot
     across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * TALL / 2
-    level = upright = None
+    axes: list[tuple[complex, complex]] = []
     if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
         level = int((half_height - up) / high + NUDGE)
+        axes.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
     if abs(across) <= half_width and max(half_height, abs(across)) <= limit:
         upright = int((across + half_width) / wide + NUDGE)
-    return _crossing(look, columns, rows, level, upright)
-
-
-def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: int | None) -> Rows:
-    """Return the bits of dashed lines along one row of dots, left to right, and along one column, top to bottom."""
-    (wide, high), half_width, half_height = look.dot, columns / 2, rows * TALL / 2
-    axes: list[tuple[complex, complex]] = []
-    if level is not None:
-        axes.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
-    if upright is not None:
         axes.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
     starts, runs = np.array(axes, np.complex128).reshape(-1, 2).T
     lines = Chords(starts, runs, np.zeros(len(axes), np.intp), np.zeros(len(axes)))
@@ -111,10 +102,6 @@ def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: 
 def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     """Clip the chords to the window (Liang and Barsky's parameters)."""
     starts, run = lines.starts, lines.runs
-    ends = starts + run
-    if _inside(np.concatenate((starts, ends)), half_width, half_height):
-        # equal to the result below, to the last digit
-        return Chords(starts, ends - starts, lines.layers, lines.along)
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
         (starts.real, run.real, half_width),
@@ -128,12 +115,6 @@ def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     along, ends = lines.along[keep] + enter * np.abs(run), starts + leave * run
     starts = starts + enter * run
     return Chords(starts, ends - starts, lines.layers[keep], along)
-
-
-def _inside(points: Points, half_width: float, half_height: float) -> bool:
-    # comparisons with NaN are false
-    across, up = np.abs(points.real).max(initial=0.0), np.abs(points.imag).max(initial=0.0)
-    return bool(across <= half_width and up <= half_height)
 
 
 def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:

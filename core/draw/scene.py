@@ -223,8 +223,13 @@ def contour_scene(
         *_parts(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),
     )
-    travel = (*_travel(path if len(path) else surface), *_plunge(leads, path))
-    marks = (*travel, *_trouble(start, meetings, gouges))
+    marks = (
+        *_travel(path if len(path) else surface),
+        *_plunge(leads, path),
+        *(Mark(at, Style.START, Symbol.START) for at in (start,) if at is not None),
+        *(Mark(at, Style.DELETED, Symbol.DELETED) for at in meetings),
+        *(Mark(at, Style.GOUGE, Symbol.GOUGE) for at in gouges),
+    )
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
 
 
@@ -234,15 +239,6 @@ def _without(parts: PathParts, deleted: PathParts) -> PathParts:
     return PathParts(parts.path, parts.in_part & ~gone)
 
 
-def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> list[Mark]:
-    """Return the marks of START and, over it, of deletions and gouges."""
-    return [
-        *_spots(() if start is None else (start,), Style.START, Symbol.START),
-        *_spots(meetings, Style.DELETED, Symbol.DELETED),
-        *_spots(gouges, Style.GOUGE, Symbol.GOUGE),
-    ]
-
-
 def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:
     return (Layer(path, style, dashed) for path in paths if len(path))
 
@@ -250,10 +246,6 @@ def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Ite
 def _parts(parts: PathParts, style: Style, *, dashed: bool = False) -> Iterator[Layer]:
     if len(parts.path):
         yield Layer(parts.path, style, dashed, parts.in_part)
-
-
-def _spots(points: Sequence[Point], style: Style, symbol: Symbol) -> list[Mark]:
-    return [Mark(at, style, symbol) for at in points]
 
 
 def _travel(path: Path) -> Iterator[Mark]:
@@ -275,9 +267,5 @@ def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
     """Yield the mark where the cutter plunges: the start of the first lead, or of the path."""
     first = next((lead for lead in leads if len(lead)), path)
     if len(first):
-        yield Mark(_point(first.points[0]), Style.LEAD, Symbol.PLUNGE)
-
-
-def _point(row: Floats) -> Point:
-    x, y = row.tolist()
-    return (x, y)
+        x, y = first.points[0].tolist()
+        yield Mark((x, y), Style.LEAD, Symbol.PLUNGE)

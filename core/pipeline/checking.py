@@ -145,12 +145,13 @@ class Answer:
         """Return the machine-readable object, in program units."""
         moves = [] if self.moves is None else [_move(move, self.unit) for move in self.moves]
         findings = [_finding(finding, self.unit) for finding in self.findings]
+        depth = None if self.gouge is None else {"depth": from_mm(self.gouge[0], self.unit), "line": self.gouge[1]}
         return {
             "control": self.name,
             "units": self.unit.value,
             "state": self.state.value,
             "stopped_at": self.stopped_at,
-            "deepest_gouge": None if self.gouge is None else _gouge(self.gouge, self.unit),
+            "deepest_gouge": depth,
             "parts_from": None if self.parting is None else _parts_from(self.parting, self.parting_of, self.unit),
             "stretches": self.stretches,
             "moves": moves,
@@ -162,8 +163,13 @@ def answer(text: bytes, asked: Asked) -> Answer:
     """Return one control's answer."""
     done = run(text, asked.control, asked.tools, asked.unit, asked.library)
     assert not isinstance(done, UnknownControl), done.text
-    row = _answer(done, judge_run(done), _foreign(done.control, text), "", shop=asked.shop)
-    return _with_option(with_largest_tool(row, done, text, asked), asked)
+    return _complete(_answer(done, judge_run(done), _foreign(done.control, text), shop=asked.shop), done, text, asked)
+
+
+def _complete(row: Answer, done: ControlRun, text: bytes, asked: Asked) -> Answer:
+    """Return the answer with the largest tool that fits, and with the option that gives a tool its size if asked."""
+    row = with_largest_tool(row, done, text, asked)
+    return _with_remedy(row, with_tool_option) if asked.names_options else row
 
 
 def with_largest_tool(row: Answer, done: ControlRun, text: bytes, asked: Asked, progress: Progress = silent) -> Answer:
@@ -198,11 +204,6 @@ def _only_leads_gouge(row: Answer, done: ControlRun) -> bool:
     return contours.isdisjoint(finding.line for finding in row.findings if finding.code == "GOUGE")
 
 
-def _with_option(row: Answer, asked: Asked) -> Answer:
-    """Return the answer; a stop for lack of a tool's size names the option that gives it."""
-    return _with_remedy(row, with_tool_option) if asked.names_options else row
-
-
 def _with_remedy(row: Answer, with_remedy: Callable[[str], str]) -> Answer:
     """Return the answer with a remedy in the text of the alarm that stops the control."""
     if row.why is None or row.stopped_at is None:
@@ -233,7 +234,7 @@ def _tool_without_size(text: str) -> str:
 
 def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
     """Return the answer of a control that has run a text, with the key that gives a tool its size if it needs one."""
-    return _with_remedy(_answer(done, results, _foreign(done.control, text), "", shop=False), with_tool_key)
+    return _with_remedy(_answer(done, results, _foreign(done.control, text), shop=False), with_tool_key)
 
 
 def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progress = silent) -> tuple[Answer, ...]:
@@ -249,49 +250,51 @@ def answer_all(text: bytes, asked: Asked, reference: str = "", progress: Progres
 def _compared(row: Compared | OtherLanguage, asked: Asked, text: bytes) -> Answer:
     if isinstance(row, OtherLanguage):
         message = f"The program is in another control's language, and its contour is not compared: {row.why}."
-        findings = (Finding("LANGUAGE", Severity.INFO, message, line=1, column=1),)
-        return Answer(
-            row.control,
-            Unit.MM,
-            None,
-            findings,
-            None,
-            "reads another language",
-            parts=f"not compared: {row.why}",
-            state=State.OTHER_LANGUAGE,
-        )
+        findings = (_language(Severity.INFO, message),)
+        outcome, parts = "reads another language", f"not compared: {row.why}"
+        state = State.OTHER_LANGUAGE
+        return Answer(row.control, Unit.MM, None, findings, None, outcome, parts=parts, state=state)
     parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
-        compared_row = _answer(row.run, row.results, (), parts, shop=asked.shop)
-        compared_row = _with_option(with_largest_tool(compared_row, row.run, text, asked), asked)
-        return replace(compared_row, parting=row.parts, parting_of=row.of)
-    by = shown_name(row.by)
-    message = f"The program is in another control's language: only its contour was run, as {by} reads it, "
-    message += "with straight leads that cutcomp adds."
-    findings = (Finding("LANGUAGE", Severity.INFO, message, line=1, column=1),)
-    parts = f"its contour only{'; ' if parts else ''}{parts}"
-    contour_row = _answer(row.run, row.results, findings, parts, shop=asked.shop)
-    return replace(contour_row, parting=row.parts, parting_of=row.of)
+        answer_row = _complete(_answer(row.run, row.results, (), shop=asked.shop), row.run, text, asked)
+    else:
+        message = f"The program is in another control's language: only its contour was run, as {shown_name(row.by)} "
+        message += "reads it, with straight leads that cutcomp adds."
+        answer_row = _answer(row.run, row.results, (_language(Severity.INFO, message),), shop=asked.shop)
+        parts = f"its contour only{'; ' if parts else ''}{parts}"
+    return replace(answer_row, parts=parts, parting=row.parts, parting_of=row.of)
+
+
+def _language(severity: Severity, message: str) -> Finding:
+    return Finding("LANGUAGE", severity, message, line=1, column=1)
 
 
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     if reads(control, text):
         return ()
     message = "The program is not written in this control's language. Comparing all controls takes its contour."
-    return (Finding("LANGUAGE", Severity.WARNING, message, line=1, column=1),)
+    return (_language(Severity.WARNING, message),)
 
 
-def _answer(
-    done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool
-) -> Answer:
+def _answer(done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], *, shop: bool) -> Answer:
     merged = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
-    why = None if done.stopped_at is None else _last_error(done.findings)
+    errors = [finding for finding in done.findings if finding.severity is Severity.ERROR]
+    why = errors[-1] if errors and done.stopped_at is not None else None
     merged = _without_repeats(merged, done.unit)
-    row = Answer(done.control, done.unit, done.moves, _by_line(merged), done.stopped_at, _outcome(done, results, why))
     gouge = deepest_gouge(results)
-    state = _state(done, results, why, merged)
-    deepest = gouge if gouge[0] else None
-    return replace(row, stretches=len(done.stretches), parts=parts, why=why, state=state, gouge=deepest)
+    state, outcome = _outcome(done, results, why, merged)
+    return Answer(
+        done.control,
+        done.unit,
+        done.moves,
+        _by_line(merged),
+        done.stopped_at,
+        outcome,
+        stretches=len(done.stretches),
+        why=why,
+        state=state,
+        gouge=gouge if gouge[0] else None,
+    )
 
 
 def _without_repeats(findings: tuple[Finding, ...], unit: Unit) -> tuple[Finding, ...]:
@@ -317,56 +320,41 @@ def _with_few_alike(findings: Iterable[Finding], unit: Unit) -> Iterator[Finding
     yield from map(more_alike, left_out, left_out.values())
 
 
-def _state(
-    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, findings: tuple[Finding, ...]
-) -> State:  # fmt: skip
-    """Return the state of a run, the worst first: an alarm before a gouge, a gouge before what cannot be judged."""
-    stopped = done.stopped_at is not None
-    cases = (
-        (any(finding.code == NOTHING for finding in done.findings), State.EMPTY),
-        (stopped and why is not None and why.code in NOT_FOLLOWED, State.NOT_FOLLOWED),
-        (stopped, State.ALARM),
-        (deepest_gouge(results)[0] > 0.0, State.GOUGES),
-        (first_unjudged(results)[0], State.UNJUDGED),
-        (any(result.verdict.wrong_side for result in results), State.WRONG_SIDE),
-        (any(finding.code in RADIUS_ZERO for finding in done.findings), State.UNCOMPENSATED),
-        (any(finding.severity is Severity.ERROR for finding in findings), State.ERRORS),
-        (not done.moves.lines.any(), State.EMPTY),
-    )
-    return next((state for holds, state in cases if holds), State.CLEAN)
-
-
 def _by_line(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     return tuple(sorted(findings, key=lambda finding: finding.line or 0))
 
 
-def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None) -> str:
+def _outcome(
+    done: ControlRun, results: tuple[Judged, ...], why: Finding | None, findings: tuple[Finding, ...]
+) -> tuple[State, str]:  # fmt: skip
+    """Return the state of a run and the words for it, the worst first: an alarm before a gouge, a gouge before what
+    cannot be judged."""
     if any(finding.code == NOTHING for finding in done.findings):
-        return "has nothing to run"
+        return State.EMPTY, "has nothing to run"
     cut, line = deepest_gouge(results)
     place = f"at line {line}" if line else "in a lead"
     gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
         rule = "" if why is None else why.code
-        stops = "cannot be followed past" if rule in NOT_FOLLOWED else "alarms at"
-        return f"{f'{gouges}, then ' if gouges else ''}{stops} line {done.stopped_at} ({rule})"
+        state, stops = (
+            (State.NOT_FOLLOWED, "cannot be followed past") if rule in NOT_FOLLOWED else (State.ALARM, "alarms at")
+        )
+        return state, f"{f'{gouges}, then ' if gouges else ''}{stops} line {done.stopped_at} ({rule})"
     if gouges:
-        return gouges
+        return State.GOUGES, gouges
     unjudged, at = first_unjudged(results)
     if unjudged:
-        return f"cannot be judged at line {at}" if at else "cannot be judged"
-    wrong = any(result.verdict.wrong_side for result in results)
-    if wrong:
-        return "runs on the wrong side"
-    if not done.moves.lines.any():
-        return "moves nothing"
-    if not any(finding.code in RADIUS_ZERO for finding in done.findings):
-        return "runs"
-    return f"runs, {'not all' if any(stretch.radius for stretch in done.stretches) else 'nothing'} compensated"
-
-
-def _last_error(findings: tuple[Finding, ...]) -> Finding | None:
-    return next((finding for finding in reversed(findings) if finding.severity is Severity.ERROR), None)
+        return State.UNJUDGED, f"cannot be judged at line {at}" if at else "cannot be judged"
+    if any(result.verdict.wrong_side for result in results):
+        return State.WRONG_SIDE, "runs on the wrong side"
+    words = "runs" if done.moves.lines.any() else "moves nothing"
+    if any(finding.code in RADIUS_ZERO for finding in done.findings):
+        some = any(stretch.radius for stretch in done.stretches)
+        part = f", {'not all' if some else 'nothing'} compensated" if words == "runs" else ""
+        return State.UNCOMPENSATED, words + part
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return State.ERRORS, words
+    return State.CLEAN if words == "runs" else State.EMPTY, words
 
 
 def _parting(parting: Parting, of: str, unit: Unit) -> str:
@@ -396,11 +384,6 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
     return document
 
 
-def _gouge(gouge: tuple[float, int | None], unit: Unit) -> dict[str, object]:
-    depth, line = gouge
-    return {"depth": from_mm(depth, unit), "line": line}
-
-
 def _parts_from(parting: Parting, of: str, unit: Unit) -> dict[str, object]:
     return {
         "control": shown_name(of),
@@ -423,17 +406,10 @@ def _finding(finding: Finding, unit: Unit) -> dict[str, object]:
 
 def unreadable(file: str, why: str) -> dict[str, object]:
     """Return the machine-readable object of a file that could not be read."""
-    finding: dict[str, object] = {
-        "rule": "UNREADABLE",
-        "severity": "error",
-        "line": None,
-        "column": None,
-        "text": why,
-        "lengths": [],
-    }
+    finding: dict[str, object] = {"rule": "UNREADABLE", "severity": "error", "line": None, "column": None}
     nothing: dict[str, object] = {"control": None, "units": None, "state": State.UNREADABLE.value, "stopped_at": None}
     nothing |= {"deepest_gouge": None, "parts_from": None, "stretches": 0, "moves": []}
-    return {"file": file, **nothing, "findings": [finding]}
+    return {"file": file, **nothing, "findings": [{**finding, "text": why, "lengths": []}]}
 
 
 def lines(row: Answer) -> Iterator[str]:

@@ -38,6 +38,7 @@ from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
 from core.units import Kind, decimals_shown, to_mm
 from core.verify.judge import judge_together
+from core.verify.verdict import Verdict
 
 OUTLINED = 0.4
 """Share of the work on a block that is done when its fields are solved."""
@@ -89,11 +90,9 @@ def _work(block: DerivedBlock, program: Program, progress: Progress) -> BlockPat
         return BlockPaths(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert block.radius is not None
     contour = _Contour(surface, block.side, block.solved.closed, block.lookahead.value, program)
-    control = contour.control(block.radius)
-    best = contour.best(block.radius) if program.parameters.path is PathChoice.BEST else None
-    loops = contour.loops(control, best)
+    control, best, loops = contour.paths(block.radius)
     progress(0.3)
-    verdict = judge_together(surface, block.side, block.radius, [loop.whole for loop in loops])
+    verdict = contour.verdict(block.radius, loops)
     progress(0.6)
     return BlockPaths(surface, loops, control, verdict, _rough(block, contour, progress), best)
 
@@ -108,31 +107,28 @@ class _Contour:
     lookahead: int
     program: Program
 
-    def control(self, radius: float) -> Compensated:
-        """Return the control's path."""
-        return compensate(
-            self.surface,
-            self.side,
-            radius,
-            self.lookahead,
-            closed=self.closed,
-            blend=parameter(self.program, "blend_offset"),
-            overlap=parameter(self.program, "blend_overlap"),
-        )
+    def paths(self, radius: float) -> tuple[Compensated, BestPath | None, tuple[Loop, ...]]:
+        """Return the control's path, the best path if PATH is BEST, and the loops that are posted, with their blends.
 
-    def best(self, radius: float) -> BestPath:
-        """Return the true offset."""
-        return best_path(self.surface, self.side, radius, closed=self.closed)
-
-    def loops(self, control: Compensated, best: BestPath | None) -> tuple[Loop, ...]:
-        """Return what is posted: the control's path, or every loop of the best one, each with its own blends."""
-        if best is None:
-            return (Loop(control.path, control.lead_in, control.lead_out),) if len(control.path) else ()
+        Those are the control's path, or every loop of the best one.
+        """
         blend, overlap = parameter(self.program, "blend_offset"), parameter(self.program, "blend_overlap")
-        return tuple(
+        control = compensate(
+            self.surface, self.side, radius, self.lookahead, closed=self.closed, blend=blend, overlap=overlap
+        )
+        if self.program.parameters.path is not PathChoice.BEST:
+            posted = Loop(control.path, control.lead_in, control.lead_out)
+            return control, None, (posted,) if len(control.path) else ()
+        best = best_path(self.surface, self.side, radius, closed=self.closed)
+        loops = tuple(
             Loop(loop, blend_in(loop, self.side, blend), blend_out(loop, self.side, blend, overlap, closed=ring))
             for loop, ring in zip(best.loops, best.closed, strict=True)
         )
+        return control, best, loops
+
+    def verdict(self, radius: float, loops: tuple[Loop, ...]) -> Verdict:
+        """Return the verdict on a cutter that runs these loops."""
+        return judge_together(self.surface, self.side, radius, [loop.whole for loop in loops])
 
 
 def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[RoughPass, ...]:
@@ -141,11 +137,8 @@ def _rough(block: DerivedBlock, contour: _Contour, progress: Progress) -> tuple[
     passes = []
     for stock in stocks(block, contour.program):
         radius = block.solved.tool_diameter / 2 + stock
-        control = contour.control(radius)
-        best = contour.best(radius) if contour.program.parameters.path is PathChoice.BEST else None
-        loops = contour.loops(control, best)
-        verdict = judge_together(contour.surface, contour.side, radius, [loop.whole for loop in loops])
-        passes.append(RoughPass(stock, loops, control, verdict))
+        control, _, loops = contour.paths(radius)
+        passes.append(RoughPass(stock, loops, control, contour.verdict(radius, loops)))
         progress(0.6)
     return tuple(passes)
 

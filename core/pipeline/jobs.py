@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from core.advice.block_paths import Loop
 from core.geometry.path import EMPTY
 from core.output.passes import CenterPath, Cutter, Floor, Job
 from core.pipeline.derived import Derived, DerivedBlock
@@ -20,20 +21,20 @@ def jobs(derived: Derived) -> tuple[Job, ...]:
 
 def job(block: DerivedBlock, program: Program) -> Job:
     """Return one block's job; a value that is not known yet is zero and has a finding."""
-    solved, tag = block.solved, f"{block.lookahead.tag} {block.lookahead.value}"
+    solved, work, tag = block.solved, block.paths, f"{block.lookahead.tag} {block.lookahead.value}"
     finish_tool = _whole(block.block.finish_tool)
     return Job(
         block=block.number,
         comp=str(block.block.cutter_comp),
         cutter=_cutter(block.block.tool, solved.tool_diameter, program),
         finisher=_cutter(block.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
-        surface=block.paths.surface if block.paths else EMPTY,
+        surface=work.surface if work else EMPTY,
         floors=tuple(
             Floor(segment.number, segment.z_start, segment.z_end, segment.feed)
             for segment in solved.segments[: solved.determined]
         ),
-        finish=_finish_runs(block),
-        rough=_rough_runs(block),
+        finish=tuple(map(_center_path, work.loops)) if work else (),
+        rough=tuple(_center_path(loop, rough.stock) for rough in (work.rough if work else ()) for loop in rough.loops),
         z_start=solved.z_start or 0.0,
         z_bottom=solved.z_bottom or 0.0,
         peck_depth=solved.peck_depth,
@@ -84,13 +85,5 @@ def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter |
     return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
 
 
-def _finish_runs(block: DerivedBlock) -> tuple[CenterPath, ...]:
-    loops = () if block.paths is None else block.paths.loops
-    return tuple(CenterPath(loop.path, loop.lead_in, loop.lead_out) for loop in loops)
-
-
-def _rough_runs(block: DerivedBlock) -> tuple[CenterPath, ...]:
-    passes = () if block.paths is None else block.paths.rough
-    return tuple(
-        CenterPath(loop.path, loop.lead_in, loop.lead_out, rough.stock) for rough in passes for loop in rough.loops
-    )
+def _center_path(loop: Loop, stock: float = 0.0) -> CenterPath:
+    return CenterPath(loop.path, loop.lead_in, loop.lead_out, stock)

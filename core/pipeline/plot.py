@@ -38,7 +38,6 @@ from core.output.dxf import dxf
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.solve.solution import untaken_pieces
-from core.program.solve.solved import SolvedRun
 from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict
@@ -59,10 +58,9 @@ NARROW: Final = 44
 
 def nearest_segment(block: DerivedBlock, at: Point) -> int | None:
     """Return the number of the segment nearest to a point (mm); None if the block has no determined segment."""
-    if not block.solved.pieces:
+    surface = _surface(block)
+    if not len(surface):
         return None
-    numbers, pieces = zip(*block.solved.pieces, strict=True)
-    surface = Path.from_pieces(pieces, numbers)
     arrays = piece_arrays(surface)
     apart = distance(arrays, np.full(len(arrays), complex(*at)))
     return int(surface.numbers[arrays.rows[int(apart.argmin())]])
@@ -83,9 +81,10 @@ def dxf_of(derived: Derived) -> str:
 def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
     """Return the block with the cursor on `segment` (0 is START, None nowhere), or with the path of a table row."""
     work, solved = block.paths, block.solved
-    loops, control, verdict = (
-        ((), None, None) if work is None else (work.loops, _posted_control_path(work), work.verdict)
-    )
+    loops, control, verdict = ((), None, None) if work is None else (work.loops, work.compensated, work.verdict)
+    if work is not None and work.best is not None:
+        # the control's path is not posted: its deletions do not matter
+        control = None
     if row is not None:
         control, verdict = row.compensated, row.verdict
         loops = (Loop(control.path, control.lead_in, control.lead_out),)
@@ -248,11 +247,6 @@ def _over_run(surface: Path, verdict: Verdict) -> PathParts:
     return parts_between(surface, PartEnds(numbers[runs], starts[runs], numbers[runs], ends[runs]))
 
 
-def _posted_control_path(work: BlockPaths) -> Compensated | None:
-    """Return the control's path if it is the one that is posted: only then do its deletions matter."""
-    return work.compensated if work.best is None else None
-
-
 def _dashed_paths(work: BlockPaths | None) -> list[Path]:
     """Return the roughing passes, and the control's path if another one is posted."""
     if work is None:
@@ -276,7 +270,9 @@ def _sketches(block: DerivedBlock) -> PathParts:
         if segment.piece is not None:
             pieces.append(segment.piece)
         elif run is not None:
-            pieces += _run_sketches(run) if run.first == segment.number else []
+            # all solutions, or what is known of the pieces
+            answers = [piece for answer in run.answers for _, piece in answer.pieces]
+            pieces += (answers or run.sketch) if run.first == segment.number else ()
         else:
             pieces += segment.choices or ((segment.sketch,) if segment.sketch is not None else ())
     return _apart(pieces)
@@ -291,12 +287,6 @@ def _apart(pieces: Sequence[Piece]) -> PathParts:
         pieces[-1]
     ]
     return PathParts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
-
-
-def _run_sketches(run: SolvedRun) -> list[Piece]:
-    """Return all solutions of a run that is not determined, or what is known of its pieces."""
-    answers = [piece for answer in run.answers for _, piece in answer.pieces]
-    return answers or list(run.sketch)
 
 
 def _deleted(control: Compensated) -> PathParts:
