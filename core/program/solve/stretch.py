@@ -318,10 +318,11 @@ def _result(contour: Contour, attempt: _Attempt, own_draft: Draft) -> Stretch:
     sketch = tuple(piece for piece in (*_sketches(attempt), _chord_to_end(attempt.run)) if piece is not None)
     run = SolvedRun(indices[0] + 1, indices[-1] + 1, answers, taken, code, missing, () if taken is not None else sketch)
     if taken is not None:
-        pieces = dict(answers[taken].pieces)
-        return _determined(contour, attempt, pieces, own_draft.before), run
-    assert finding is not None
-    return _waiting(contour, attempt, own_draft, finding), run
+        results = _determined(contour, dict(answers[taken].pieces), own_draft.before)
+    else:
+        assert finding is not None
+        results = _waiting(contour, attempt, own_draft, finding)
+    return _drafts(contour, attempt, own_draft.before, results), run
 
 
 def _picked(contour: Contour, attempt: _Attempt) -> Picked | None:
@@ -399,51 +400,52 @@ def _on_same_curve(branch: Branch, joint: int) -> bool:
     return circles and centers[0] is not None and centers[1] is not None
 
 
-def _determined(contour: Contour, attempt: _Attempt, pieces: dict[int, Piece], before: Carried) -> tuple[Draft, ...]:
-    """Return the drafts of a solved stretch with their blanks filled."""
+def _determined(contour: Contour, pieces: dict[int, Piece], before: Carried) -> dict[int, SegmentResult]:
+    """Fill the blanks of a solved stretch's segments; return their results by index."""
+    start = before.point
+    for number, piece in pieces.items():
+        segment, reading = contour.segments[number - 1], contour.readings[number - 1]
+        kept = axis_kept_from(start, segment, reading)
+        if kept is not None:
+            reading.fill(KEPT[kept].removesuffix("_inc"), from_mm(piece.end[kept], contour.unit), Origin.SAME)
+        calculate(reading, piece, contour.unit)
+        start = None
+    return {number - 1: SegmentResult(piece, piece.end) for number, piece in pieces.items()}
+
+
+def _waiting(contour: Contour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> dict[int, SegmentResult]:
+    """Return the results of an undetermined stretch by index; the finding goes to the segment it names."""
+    results = {
+        index: SegmentResult(sketch=sketch) for index, sketch in zip(attempt.indices, _sketches(attempt), strict=True)
+    }
+    first, lacking = attempt.indices[0], finding.code == "MISSING"
+    assert finding.segment is not None
+    at = int(finding.segment) - 1
+    faulty = finding.code in ("MISSING", "NOT_YET") and bool(contour.readings[at].findings)
+    missing = (finding.field,) if lacking and finding.field else ()
+    results[at] = replace(results[at], missing=missing, findings=() if faulty else (finding,))
+    if lacking:
+        results[first] = replace(results[first], missing=own_draft.result.missing or results[first].missing)
+    return results
+
+
+def _drafts(
+    contour: Contour, attempt: _Attempt, before: Carried, results: dict[int, SegmentResult]
+) -> tuple[Draft, ...]:
+    """Return the drafts of a stretch's segments, including corners, each from what the one before passes on."""
     drafts: list[Draft] = []
     for index in range(attempt.indices[0], attempt.indices[-1] + 1):
         segment, reading = contour.segments[index], contour.readings[index]
         if isinstance(segment, CornerSegment):
             drafts.append(draft(segment, reading, before, contour.unit))
-        else:
-            piece = pieces[index + 1]
-            start = before.point if index == attempt.indices[0] else None
-            kept = axis_kept_from(start, segment, reading)
-            if kept is not None:
-                value = from_mm(piece.end[kept], contour.unit)
-                reading.fill(KEPT[kept].removesuffix("_inc"), value, Origin.SAME)
-            calculate(reading, piece, contour.unit)
-            drafts.append(drafted(segment, reading, before, SegmentResult(piece, piece.end), contour.unit))
+            before = drafts[-1].after
+            continue
+        drafts.append(drafted(segment, reading, before, results[index], contour.unit))
         before = drafts[-1].after
+        if results[index].piece is None and index != attempt.indices[-1]:
+            joint = attempt.search.known.joint(attempt.indices.index(index) + 1)
+            before = replace(before, point=joint or before.point)
     return tuple(drafts)
-
-
-def _waiting(contour: Contour, attempt: _Attempt, own_draft: Draft, finding: Finding) -> tuple[Draft, ...]:
-    """Return the drafts of an undetermined stretch; the finding goes to the segment it names."""
-    sketches = dict(zip(attempt.indices, _sketches(attempt), strict=True))
-    before, drafts = own_draft.before, []
-    for index in range(attempt.indices[0], attempt.indices[-1] + 1):
-        segment, reading = contour.segments[index], contour.readings[index]
-        if isinstance(segment, CornerSegment):
-            drafts.append(draft(segment, reading, before, contour.unit))
-        else:
-            result = SegmentResult(sketch=sketches[index])
-            if finding.segment == index + 1:
-                faulty = finding.code in ("MISSING", "NOT_YET") and bool(reading.findings)
-                missing = (finding.field,) if finding.code == "MISSING" and finding.field else ()
-                result = replace(result, missing=missing, findings=() if faulty else (finding,))
-            if index == attempt.indices[0] and finding.code == "MISSING":
-                result = replace(result, missing=own_draft.result.missing or result.missing)
-            drafts.append(drafted(segment, reading, before, result, contour.unit))
-        before = drafts[-1].after
-        if not isinstance(segment, CornerSegment) and attempt.indices[-1] != index:
-            before = replace(before, point=_known_joint(attempt, index) or before.point)
-    return tuple(drafts)
-
-
-def _known_joint(attempt: _Attempt, index: int) -> Point | None:
-    return attempt.search.known.joint(attempt.indices.index(index) + 1)
 
 
 def _chord_to_end(run: Run) -> Line | None:

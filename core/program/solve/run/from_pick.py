@@ -84,11 +84,11 @@ def _answers(problem: ChainProblem, joint: int, pick: Point) -> list[Answer]:
         chain = None if root is None else problem.chain(root)
         if root is None or chain is None or objections(problem.run, chain):
             continue
-        if any(same_pieces(chain.pieces, answer.pieces, SAME * 10) for answer in answers):
+        if any(same_pieces(chain, answer.pieces, SAME * 10) for answer in answers):
             continue
         if _free(problem, root):
             return []
-        answers.append(Answer(0, chain.pieces, chain.length))
+        answers.append(Answer(0, chain))
     return answers
 
 

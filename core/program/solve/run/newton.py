@@ -16,7 +16,7 @@ from core.geometry.oriented import OrientedLine
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.solve.measured import heading_at
 from core.program.solve.run.branch import Branch
-from core.program.solve.run.proof import Chain, objections
+from core.program.solve.run.proof import Pieces, objections
 from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import ARC_RADII, JOINED
 
@@ -162,10 +162,10 @@ class ChainProblem:
         missed = [sin(placed.leaving - heading) * self.scale]
         return [*missed, abs(side) - element.known["offset"]] if "offset" in element.known else missed
 
-    def numbers_of(self, chain: Chain) -> Numbers:
-        """Return the values of the unknowns in a chain."""
+    def numbers_of(self, pieces: Pieces) -> Numbers:
+        """Return the values of the unknowns in a chain of pieces."""
         numbers = [0.0] * self.count
-        for part, piece in zip(self.parts, chain.pieces, strict=True):
+        for part, piece in zip(self.parts, pieces, strict=True):
             heading = heading_at(piece, piece.start)
             sweep = abs(piece.sweep) if isinstance(piece, Arc) else 0.0
             size = piece.radius if isinstance(piece, Arc) else piece.length
@@ -174,7 +174,7 @@ class ChainProblem:
                     numbers[slot.index] = value
         return numbers
 
-    def chain(self, numbers: Numbers) -> Chain | None:
+    def chain(self, numbers: Numbers) -> Pieces | None:
         """Return the pieces of a root; None if a size or chord vanishes, or a sweep is not within one turn."""
         pieces: list[Piece] = []
         start = self.run.start
@@ -191,7 +191,7 @@ class ChainProblem:
             else:
                 pieces.append(Line(start, end))
             start = end
-        return Chain(tuple(pieces))
+        return tuple(pieces)
 
 
 def _measured(placed: _Placed) -> Iterator[tuple[str, float]]:
@@ -274,8 +274,8 @@ POLISHED: Final = 1e-11
 """Largest residual, as a fraction of the run's size, that needs no polishing."""
 
 
-def polished(run: Run, chain: Chain) -> Chain:
-    """Restore digits that a nearly singular step has lost; return the same chain if that does not improve it."""
+def polished(run: Run, chain: Pieces) -> Pieces:
+    """Restore digits that a nearly singular step has lost; return the same pieces if that does not improve it."""
     problem = ChainProblem(run, Branch(run))
     numbers = problem.numbers_of(chain)
     if max(map(abs, problem.residuals(numbers)), default=0.0) <= POLISHED * problem.scale:
@@ -284,5 +284,5 @@ def polished(run: Run, chain: Chain) -> Chain:
     better = None if root is None else problem.chain(root)
     if better is None or objections(run, better):
         return chain
-    near = all(dist(a.end, b.end) <= ARC_RADII for a, b in zip(chain.pieces, better.pieces, strict=True))
+    near = all(dist(a.end, b.end) <= ARC_RADII for a, b in zip(chain, better, strict=True))
     return better if near else chain

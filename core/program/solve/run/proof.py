@@ -6,7 +6,6 @@ A branch that disagrees is dropped, so that surplus data choose among branches. 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import dist, hypot, pi, sin, tau
 
 from core.finding import Finding
@@ -20,21 +19,12 @@ from core.program.solve.run.branch import Branch
 from core.program.solve.run.typed_run import Element, Run
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED, LARGEST
 
-
-@dataclass(frozen=True, slots=True)
-class Chain:
-    """A run's pieces, joined end to start; `objections` finds what disagrees with it."""
-
-    pieces: tuple[Piece, ...]
-
-    @property
-    def length(self) -> float:
-        """The total length of all pieces, in millimeters."""
-        return sum(piece.length for piece in self.pieces)
+Pieces = tuple[Piece, ...]
+"""A run's pieces, joined end to start; `objections` finds what disagrees with them."""
 
 
-def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
-    """Return the chain of a complete branch and its objections; no chain if a piece cannot be made."""
+def chain_of(branch: Branch) -> tuple[Pieces | None, tuple[Finding, ...]]:
+    """Return the pieces of a complete branch and the objections to them; none if a piece cannot be made."""
     run = branch.run
     pieces: list[Piece] = []
     findings: list[Finding] = []
@@ -57,8 +47,7 @@ def chain_of(branch: Branch) -> tuple[Chain | None, tuple[Finding, ...]]:
         if piece is None:
             return None, tuple(findings)
         pieces.append(piece)
-    chain = Chain(tuple(pieces))
-    return chain, (*findings, *objections(run, chain))
+    return tuple(pieces), (*findings, *objections(run, tuple(pieces)))
 
 
 def _line(run: Run, index: int, start: Point, end: Point, branch: Branch) -> tuple[Line | None, list[Finding]]:
@@ -101,18 +90,18 @@ def _full(element: Element, start: Point) -> bool:
     return typed and dist(start, (known["x_end"], known["y_end"])) <= JOINED
 
 
-def objections(run: Run, chain: Chain) -> tuple[Finding, ...]:
-    """Return a finding for every typed number that the chain does not match."""
+def objections(run: Run, pieces: Pieces) -> tuple[Finding, ...]:
+    """Return a finding for every typed number that the pieces do not match."""
     findings: list[Finding] = []
     before = run.heading
-    for index, (element, piece) in enumerate(zip(run.elements, chain.pieces, strict=True)):
+    for index, (element, piece) in enumerate(zip(run.elements, pieces, strict=True)):
         findings += _field_objections(run, index, element, piece)
         leaving = heading_at(piece, piece.start)
         if element.link is not None and before is not None:
             turned = leaving - before - element.link
             if not _same_heading(turned, _reach(piece)):
                 findings.append(reasons.not_linked(run, index, element.link, leaving - before))
-        findings += _parallel(run, chain, index)
+        findings += _parallel(run, pieces, index)
         before = heading_at(piece, piece.end)
     return tuple(findings)
 
@@ -156,9 +145,9 @@ def _same_heading(off: float, reach: float) -> bool:
     return off <= AGREES or off * reach <= ARC_RADII
 
 
-def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
+def _parallel(run: Run, pieces: Pieces, index: int) -> list[Finding]:
     """Return the disagreement with PARALLEL TO or OFFSET, if any."""
-    element, piece = run.elements[index], chain.pieces[index]
+    element, piece = run.elements[index], pieces[index]
     parallel = element.parallel
     if parallel is None or not isinstance(piece, Line):
         return []
@@ -166,7 +155,7 @@ def _parallel(run: Run, chain: Chain, index: int) -> list[Finding]:
         heading, (nx, ny) = parallel.heading, parallel.normal
         apart = abs(nx * piece.start[0] + ny * piece.start[1] - parallel.offset)
     else:
-        target = chain.pieces[parallel]
+        target = pieces[parallel]
         heading, apart = heading_at(target, target.start), _distance(target, piece.start)
     actual = heading_at(piece, piece.start)
     off = actual - heading

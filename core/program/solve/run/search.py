@@ -11,7 +11,7 @@ from core.finding import Finding
 from core.geometry.piece import Piece, Point
 from core.program.solve.run.branch import Branch, DeadEnd
 from core.program.solve.run.newton import polished
-from core.program.solve.run.proof import Chain, chain_of
+from core.program.solve.run.proof import Pieces, chain_of
 from core.program.solve.run.steps import next_branches
 from core.program.solve.run.typed_run import Run
 
@@ -34,8 +34,12 @@ class Answer:
     """
 
     choice: int
-    pieces: tuple[Piece, ...]
-    length: float
+    pieces: Pieces
+
+    @property
+    def length(self) -> float:
+        """The total length of its pieces, in millimeters."""
+        return sum(piece.length for piece in self.pieces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +77,9 @@ def search(run: Run) -> Search:
             chain, objections = chain_of(branch)
             if chain is not None and not objections:
                 exact = run.missing == 0 and not any(branch.grazes)
-                _add(answers, branch, polished(run, chain) if exact else chain)
+                chain = polished(run, chain) if exact else chain
+                if not any(same_pieces(chain, other.pieces, SAME) for other in answers):
+                    answers.append(Answer(_choice_of(branch), chain))
             else:
                 dropped.append((0 if chain is not None else 1, len(objections), objections[0]))
     if waiting:
@@ -83,19 +89,12 @@ def search(run: Run) -> Search:
     return Search(tuple(answers), tuple(drop[2] for drop in dropped), stuck, first)
 
 
-def _add(answers: list[Answer], branch: Branch, chain: Chain) -> None:
-    """Add an answer unless the same one is already there."""
-    if not any(same_pieces(chain.pieces, other.pieces, SAME) for other in answers):
-        answers.append(Answer(choice_of(branch), chain.pieces, chain.length))
-
-
-def choice_of(branch: Branch) -> int:
-    """Return the choice number of a branch."""
+def _choice_of(branch: Branch) -> int:
     code = sum(root << place for place, root in enumerate(branch.choices))
     return code + sum(1 << (GRAZE_SHIFT + place) for place, grazing in enumerate(branch.grazes) if grazing)
 
 
-def same_pieces(first: tuple[Piece, ...], second: tuple[Piece, ...], within: float) -> bool:
+def same_pieces(first: Pieces, second: Pieces, within: float) -> bool:
     """True if the ends and centers of two answers' pieces agree within `within` millimeters."""
     return all(
         dist(a, b) <= within
