@@ -80,8 +80,15 @@ class Intended:
         return self.lines[int(line) - 1].segment if line and line <= len(self.lines) else None
 
 
-def read_back(intended: Intended) -> tuple[Finding, ...]:
-    """Return the control's answer to its program: errors if it is refused, and the notes on it."""
+ComparedPaths = dict[tuple[int, bytes], Finding | None]
+"""What comparing a path gave, by the block's path and the points of the control's."""
+
+
+def read_back(intended: Intended, compared: ComparedPaths | None = None) -> tuple[Finding, ...]:
+    """Return the control's answer to its program: errors if it is refused, and the notes on it.
+
+    `compared` keeps the comparisons for another reading of a program that differs in its comments only.
+    """
     made = run(intended.text.encode("ascii"), intended.control, intended.tools, intended.unit)
     assert not isinstance(made, UnknownControl), made.text
     stopped = _stopped(made, intended)
@@ -93,14 +100,16 @@ def read_back(intended: Intended) -> tuple[Finding, ...]:
         return (not_written(text),)
     if (different := different_move(made, intended)) is not None:
         return (different,)
-    answers: dict[tuple[int, bytes], Finding | None] = {}
+    compared = {} if compared is None else compared
+    answers: ComparedPaths = {}
     for cut, stretch in zip(cuts, made.stretches, strict=True):
         moves = made.moves.part(stretch.first, stretch.last)
         key = (id(cut.compensated), moves.points[:, :2].tobytes())
         if not _level(made, stretch, cut, intended):
             return (not_written("A compensated run does not stay at its depth."),)
-        if key not in answers:
-            answers[key] = compare_path(moves.path(), cut, intended)
+        if key not in compared:
+            compared[key] = compare_path(moves.path(), cut, intended)
+        answers[key] = compared[key]
     findings = [answer for answer in answers.values() if answer is not None]
     errors = dict.fromkeys(answer for answer in findings if answer.severity is Severity.ERROR)
     differing = [answer for answer in findings if answer.severity is not Severity.ERROR]

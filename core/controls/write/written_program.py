@@ -23,7 +23,7 @@ from core.controls.write.contour_pass import (
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
 from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
-from core.controls.write.read_back import Intended, read_back
+from core.controls.write.read_back import ComparedPaths, Intended, read_back
 from core.finding import Finding, Severity
 from core.units import to_mm
 
@@ -122,11 +122,12 @@ def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | 
 def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
     """Return the program, with the notes in it, once its control confirms it."""
     notes: tuple[Finding, ...] = ()
+    compared: ComparedPaths = {}
     for _ in range(WRITTEN_AGAIN):
         intended = write(notes)
         if isinstance(intended, Finding):
             return NotWritten((intended,))
-        answer = read_back(intended)
+        answer = read_back(intended, compared)
         if errors := tuple(finding for finding in answer if finding.severity is Severity.ERROR):
             return NotWritten(errors)
         if answer == notes:

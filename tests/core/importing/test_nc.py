@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import cache
 from math import pi
 from pathlib import Path
 
@@ -11,7 +12,6 @@ import pytest
 
 from core.controls.compared_contours import apart
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.registry import names
 from core.geometry.path import Path as GeometryPath
 from core.geometry.piece import Piece, Side
 from core.importing.nc import read_nc
@@ -24,12 +24,13 @@ from core.pipeline.post import post_center_path, post_control_program
 from core.program.file.read import loads
 from core.program.model import CutterComp, Number, Program
 from core.units import Unit, from_mm
+from tests.core.controls.some_controls import ENTRY_VARIANTS
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
 POSTED = [example for example in EXAMPLES if example.stem in ("flange", "overrun-square", "plate-mm")]
 """The examples that can be posted for controls: the others gouge or lose segments to the look-ahead."""
 
-CASES = [(example, control) for example in POSTED for control in names()]
+CASES = [(example, control) for example in POSTED for control in ENTRY_VARIANTS]
 
 
 TOOLS = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM))
@@ -37,6 +38,12 @@ TOOLS = ToolTable.of(CutterTool(1, 4.0, unit=Unit.MM))
 
 def program(example: Path) -> Program:
     return loads(example.read_text(), example.name)
+
+
+@cache
+def derived_example(example: Path) -> tuple[Program, Derived]:
+    original = program(example)
+    return original, derive(original)
 
 
 def tools_of(part: Program) -> ToolTable:
@@ -76,8 +83,7 @@ def imported(read: NcProgram) -> Program:
 
 @pytest.mark.parametrize(("example", "control"), CASES, ids=lambda case: getattr(case, "stem", case))
 def test_a_posted_control_program_is_imported_as_its_contour(example: Path, control: str) -> None:
-    original = program(example)
-    derived = derive(original)
+    original, derived = derived_example(example)
     posted = post_control_program(derived, name=example.stem, control=control)
     assert isinstance(posted, Posted), posted.text
     tools = tools_of(original).with_tools(offsets_in(posted.text, original.unit))
