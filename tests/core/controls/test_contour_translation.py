@@ -134,7 +134,7 @@ def test_tools_of_several_sizes_keep_theirs() -> None:
 
 
 @must_exercise(0.5)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(LEGS, st.sampled_from(Side), st.sampled_from(["rosettacnc:normal", "linuxcnc"]))
 def test_the_path_is_that_of_klartext(legs: list[tuple[float, float, int, float]], side: Side, control: str) -> None:
     """Arcs at outside corners, meetings at inside ones: such a control makes the very path, or stops."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -23,14 +24,16 @@ CONTROLS = [
     "nine-series:b-g39.1",
     "linuxcnc",
 ]
-SEEDS = range(100)
+SEEDS = range(60)
 
 
+@cache
 def text(seed: int) -> str:
     """A random program that every control can read: no G41.1."""
     return re.sub(r"(G4[12])\.1 D-?[0-9.]+", r"\1 D1", program(seed)).replace("M2", "M30")
 
 
+@cache
 def run(source: str, control: str, diameter: float = 2 * RADIUS) -> ControlRun:
     return ran(source, control, t1=diameter)
 

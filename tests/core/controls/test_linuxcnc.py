@@ -17,7 +17,7 @@ from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
 from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROGRAMS
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
-from tests.core.controls.hand import findings_of, ran, same, shape
+from tests.core.controls.hand import findings_of, ran, ran_up_to, same, shape
 from tests.core.controls.macro_programs import whole
 from tests.core.controls.programs import MODAL, stopped
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
@@ -30,12 +30,12 @@ DIAMETERS = {1: 0.5, 2: 0.25}
 
 @needs_witness
 def test_random_programs_match_the_interpreter(tmp_path: Path) -> None:
-    results = {name: outcome(text, tmp_path) for name, text in programs(360)}
+    results = {name: outcome(text, tmp_path) for name, text in programs(180)}
     wrong = {
         name: result for name, result in results.items() if not result[0].startswith(("same moves", "both refuse"))
     }
     assert not wrong
-    assert sum(result[0] == "same moves" for result in results.values()) >= 200
+    assert sum(result[0] == "same moves" for result in results.values()) >= 100
 
 
 @needs_witness
@@ -122,14 +122,14 @@ def test_stops_tool_data_and_shifts_match_the_interpreter(name: str, tmp_path: P
 
 @needs_witness
 def test_random_stops_match_the_interpreter_or_are_refused(tmp_path: Path) -> None:
-    results = {seed: outcome(stopped(seed), tmp_path) for seed in range(60)}
+    results = {seed: outcome(stopped(seed), tmp_path) for seed in range(40)}
     accepted = ("same moves", "both refuse")
     assert not {
         seed: result
         for seed, result in results.items()
         if not result[0].startswith(accepted) and result[1] != ARC_RUN_AT_STOP
     }
-    assert sum(result[0] == "same moves" for result in results.values()) >= 25
+    assert sum(result[0] == "same moves" for result in results.values()) >= 16
 
 
 _REFUSED_BY_BOTH = "a stop before a tangent move that is too short"
@@ -214,7 +214,12 @@ def test_a_program_that_the_interpreter_refuses_is_refused_or_reported(name: str
     assert ours.stopped_at is not None or findings_of(ours, "END")
 
 
-M_PAIRS = list(combinations(["M0", "M30", "M60", "M3", "M5", "M19", "M7", "M8", "M9", "M48", "M53", "M62 P1"], 2))
+M_GROUPS = (("M0", "M30", "M60"), ("M3", "M5", "M19"), ("M7", "M8", "M9"), ("M48", "M53"), ("M62 P1",))
+M_PAIRS = [
+    *(pair for group in M_GROUPS for pair in combinations(group, 2)),
+    *combinations((group[0] for group in M_GROUPS), 2),
+]
+"""All pairs within a group, and one pair of every two groups."""
 
 
 @needs_witness
@@ -260,7 +265,7 @@ def test_recursive_subprograms_are_stopped() -> None:
 
 def test_endless_repeats_are_stopped() -> None:
     text = "G20 F9\nM98 P1 L9999999\nM2\nO1\nS1\nM99\n"
-    assert findings_of(ran(text, "linuxcnc"), "LIMIT")
+    assert findings_of(ran_up_to(text, 20_000), "LIMIT")
 
 
 def test_a_feed_before_g20_is_in_the_unit_in_force_before() -> None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from core.controls.iso.expressions import ExpressionReader, FaultError, MacroParameters, ParameterStore
 from core.controls.iso.flow import o_words_of
+from core.controls.makers import linuxcnc
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome
@@ -173,11 +174,11 @@ def looped(line: str, kind: str) -> str:
 @pytest.mark.parametrize("kind", ["while", "M98"])
 def test_loops_with_expressions_are_stopped_sooner(kind: str) -> None:
     plain, long = "G1 X1 Y2", "G1 X[1+2*sin[30]/2.5] Y[2+3*[3+4]-5] F[100+2*2]"
-    slow, fast = (ran_up_to(looped(line, kind), 20_000) for line in (long, plain))
+    slow, fast = (ran_up_to(looped(line, kind), 5_000) for line in (long, plain))
     assert findings_of(slow, "LIMIT")
     assert findings_of(fast, "LIMIT")
-    assert len(fast.moves) > 18_000
-    assert 1_000 < len(slow.moves) < 3_000
+    assert len(fast.moves) > 4_500
+    assert 250 < len(slow.moves) < 750
     for run in (slow, fast):
         assert "does not judge the run. Fix the loop or repeat fewer times." in findings_of(run, "LIMIT")[0].text
 
@@ -199,7 +200,9 @@ def test_the_message_of_a_stopped_loop_says_what_to_do() -> None:
 
 
 def test_a_long_subprogram_may_run_often() -> None:
-    body = "\n".join(f"G1 X{index % 7} Y{index}" for index in range(1000))
-    run = ran(f"G20 F9\nM98 P1 L201\nM2\nO1\n{body}\nM99\n", "linuxcnc")
+    """A tenth of the blocks that the control may repeat, and of those that the program does."""
+    assert linuxcnc.DIALECT.max_repeated_blocks >= 400_000
+    body = "\n".join(f"G1 X{index % 7} Y{index}" for index in range(100))
+    run = ran_up_to(f"G20 F9\nM98 P1 L201\nM2\nO1\n{body}\nM99\n", 40_000)
     assert run.stopped_at is None
-    assert len(run.moves) == 201_001
+    assert len(run.moves) == 20_101
