@@ -106,17 +106,19 @@ def test_a_ramp_and_a_helix(tmp_path):
 
 
 @pytest.mark.parametrize("unit", list(Unit))
-@pytest.mark.parametrize("radius", [1e-5, 1e-4, 3e-4, 1e-3, 0.005, 0.01, 0.03, 0.1])
 @pytest.mark.parametrize("sweep", [1e-6, 1e-3, 0.1, 2.0, 4.0, 2 * pi - 1e-6])
-def test_tiny_arcs_are_accepted_and_never_become_circles(radius, sweep, unit, tmp_path):
-    """Radius in millimeters.  Read as written, the path is as long as meant, to a few last digits for each line."""
-    pieces = [_swept((1.0, 1.0), 0.1, radius, sweep), _swept((1.0, 1.0), 2.0, radius, -sweep)]
-    for piece in pieces:
-        text = posted(job(path_of(piece), peck_depth=0.0), unit)
-        ran(text, tmp_path)
-        length, lines = measured(text)
-        digit = 1e-5 if unit is Unit.IN else 1e-4
-        assert abs(length - piece.length / SCALE[unit]) <= 6 * digit * max(lines, 1)
+def test_tiny_arcs_are_accepted_and_never_become_circles(sweep, unit, tmp_path):
+    """Read as written, the path is as long as meant, to a few last digits for each line."""
+    texts = []
+    for radius in (1e-5, 1e-4, 3e-4, 1e-3, 0.005, 0.01, 0.03, 0.1):
+        for piece in (_swept((1.0, 1.0), 0.1, radius, sweep), _swept((1.0, 1.0), 2.0, radius, -sweep)):
+            texts.append(posted(job(path_of(piece), peck_depth=0.0), unit))
+            length, lines = measured(texts[-1])
+            digit = 1e-5 if unit is Unit.IN else 1e-4
+            assert abs(length - piece.length / SCALE[unit]) <= 6 * digit * max(lines, 1), radius
+    assert all(text.endswith("M30\n") for text in texts)
+    # one after the other as one program
+    ran("".join(text.removesuffix("M30\n") for text in texts) + "M30\n", tmp_path)
 
 
 def measured(text: str) -> tuple[float, int]:
