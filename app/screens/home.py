@@ -31,7 +31,7 @@ from app.screens.base import BaseScreen
 from app.session.messages import Sentence, Tone
 from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
-from app.widgets.option_rows import LETTERS_TOGETHER
+from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
@@ -68,8 +68,7 @@ class HomeScreen(BaseScreen):
         self.trouble = ""
         self._was_in_front = False
         self._in_hand: Path | None = None
-        self._letters = ""
-        self._last_letter = 0.0
+        self._typed = TypedLetters()
 
     def compose_body(self) -> ComposeResult:
         """Lay out the folder's name, its files, and the drawing of the program with the cursor."""
@@ -221,25 +220,12 @@ class HomeScreen(BaseScreen):
         self.show_folder(self.folder.parent, at=self.folder)
 
     def on_key(self, event: events.Key) -> None:
-        """Jump to the next name that begins with the typed letters; if none does, start over with the last letter."""
-        letter = (event.character or "").lower()
-        together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
-        if not (letter.isalnum() or (together and letter and letter in "-_. ")) or not self.listed:
-            return
-        self._last_letter = event.time
-        if self._jump(together + letter, 0 if together else 1) or self._jump(letter, 1):
+        """Jump to the next name that begins with the letters typed."""
+        table = self.query_one("#programs", DataTable)
+        row = self._typed.row(event, [(each.name.lower(),) for each in self.listed], table.cursor_row)
+        if row is not None:
             event.stop()
-
-    def _jump(self, letters: str, step: int) -> bool:
-        """Jump to the next name that begins with these letters, from `step` lines down; return whether one exists."""
-        table, count = self.query_one("#programs", DataTable), len(self.listed)
-        rows = ((table.cursor_row + step + more) % count for more in range(count))
-        row = next((row for row in rows if self.listed[row].name.lower().startswith(letters)), None)
-        if row is None:
-            return False
-        self._letters = letters
-        table.move_cursor(row=row)
-        return True
+            table.move_cursor(row=row)
 
     def prompt_text(self) -> Sentence:
         """Return what a kept copy offers, what is wrong with the folder or file, or what the keys do."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from rich.segment import Segment
@@ -21,6 +22,32 @@ LETTERS_TOGETHER: Final = 1.0
 """Longest pause in seconds between two letters of one name."""
 
 
+@dataclass(slots=True)
+class TypedLetters:
+    """The letters typed one soon after the other; they name the next row that begins with them."""
+
+    letters: str = ""
+    last: float = 0.0
+
+    def row(self, event: events.Key, names: Sequence[tuple[str, ...]], here: int) -> int | None:
+        """Return that row, `here` if there is none; None for a key that is not part of a name.
+
+        Letters that no name begins with start over with the last one.
+        """
+        letter = (event.character or "").lower()
+        together = self.letters if event.time - self.last < LETTERS_TOGETHER else ""
+        if not (letter.isalnum() or (together and letter and letter in "-_.: ")):
+            return None
+        self.last = event.time
+        for letters, step in ((together + letter, 0 if together else 1), (letter, 1)):
+            rows = ((here + step + more) % len(names) for more in range(len(names)))
+            row = next((row for row in rows if any(name.startswith(letters) for name in names[row])), None)
+            if row is not None:
+                self.letters = letters
+                return row
+        return here
+
+
 class OptionRows(OptionList):
     """The list; its cursor line has one text color, or is reversed if the terminal has few colors or none.
 
@@ -30,7 +57,7 @@ class OptionRows(OptionList):
 
     def __init__(self, *options: Option | None, id: str | None = None, classes: str | None = None) -> None:
         super().__init__(*options, id=id, classes=classes, compact=True, markup=False)
-        self._letters, self._last_letter = "", 0.0
+        self._typed = TypedLetters()
 
     def render_line(self, y: int) -> Strip:
         """Return a line; while the list has the focus, the cursor line has the cursor's look."""
@@ -50,27 +77,12 @@ class OptionRows(OptionList):
         )
 
     def jump(self, event: events.Key) -> bool:
-        """Move the cursor to the next option whose text or id begins with the letters typed; False for another key.
-
-        Letters that no option begins with start over with the last one.
-        """
-        letter = (event.character or "").lower()
-        together = self._letters if event.time - self._last_letter < LETTERS_TOGETHER else ""
-        if not (letter.isalnum() or (together and letter and letter in "-_.: ")):
-            return False
-        self._last_letter = event.time
-        for letters, step in ((together + letter, 0 if together else 1), (letter, 1)):
-            rows = ((step + more + (self.highlighted or 0)) % self.option_count for more in range(self.option_count))
-            row = next((row for row in rows if self._begins_with(row, letters)), None)
-            if row is not None:
-                self._letters, self.highlighted = letters, row
-                break
-        return True
-
-    def _begins_with(self, row: int, letters: str) -> bool:
-        option = self.get_option_at_index(row)
-        names = (str(option.prompt).strip().lower(), option.id or "")
-        return any(name.startswith(letters) for name in names)
+        """Move the cursor to the next option whose text or id begins with the letters typed; False for another key."""
+        names = [(str(option.prompt).strip().lower(), option.id or "") for option in self.options]
+        row = self._typed.row(event, names, self.highlighted or 0)
+        if row is not None and names:
+            self.highlighted = row
+        return row is not None
 
     def action_cursor_up(self) -> None:
         """Go up a line, but not from the first one to the last."""
