@@ -200,7 +200,7 @@ async def test_letters_typed_in_quick_succession_spell_one_name(folder):
         assert isinstance(home, HomeScreen)
         await user.press("p", "i")
         assert home.chosen.name == "pin.nc"
-        home._last_letter = 0.0
+        home._typed.last = 0.0
         await user.press(*"part-c")
         assert home.chosen.name == "part-c.nc"
         # no name continues or begins with this letter
