@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from math import inf
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -225,8 +226,14 @@ class DerivationActions(WorkActions):
     @work(thread=True, group="advice", exclusive=True, description="advice")
     def _advise_in_thread(self, block: DerivedBlock, program: Program, table: Table) -> None:
         worker = get_current_worker()
-        for noted in advised(block, program, table, lambda: not worker.is_cancelled):
-            if not worker.is_cancelled:
+
+        def check(_: float) -> None:
+            if worker.is_cancelled:
+                raise Stopped
+
+        with suppress(Stopped):
+            for noted in advised(block, program, table, check):
+                check(1.0)
                 self.post_message(TableMade(block, noted, advised=True))
 
     async def action_back(self) -> None:

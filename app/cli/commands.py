@@ -119,8 +119,7 @@ def _annotated(block: DerivedBlock, table: Table | None, program: Program) -> Ta
     """Return the table with what the contour needs as its notes."""
     from core.pipeline.derive import advice_for_block
 
-    advice = None if table is None else advice_for_block(block, program, table)
-    return table if table is None or advice is None else replace(table, notes=advice)
+    return None if table is None else replace(table, notes=advice_for_block(block, program, table))
 
 
 def post(options: argparse.Namespace) -> int:

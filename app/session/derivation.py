@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -36,20 +36,18 @@ def lookahead_table(block: DerivedBlock, program: Program, progress: Progress = 
     return look_ahead_table(block, program, progress)
 
 
-def advised(block: DerivedBlock, program: Program, table: Table, wanted: Callable[[], bool]) -> Iterator[Table]:
+def advised(block: DerivedBlock, program: Program, table: Table, progress: Progress) -> Iterator[Table]:
     """Yield the table with notes as they are found: first remedies, then what a better path would cut.
 
-    Call `wanted` before each remedy and before the better path; stop as soon as it returns False.
+    Call `progress` before each remedy and before the better path; it may raise Stopped.
     """
     from core.pipeline.derive import advice_for_block, better_path
 
-    advice = advice_for_block(block, program, table, wanted=wanted)
-    if advice is None:
-        return
+    advice = advice_for_block(block, program, table, progress)
     if advice:
         yield replace(table, notes=advice)
-    if wanted():
-        yield replace(table, notes=(*advice, *better_path(block)), complete=True)
+    progress(1.0)
+    yield replace(table, notes=(*advice, *better_path(block)), complete=True)
 
 
 def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:

@@ -58,10 +58,3 @@ class BlockPaths:
     verdict: Verdict | None
     rough: tuple[RoughPass, ...] = ()
     best: BestPath | None = None
-
-    @property
-    def center(self) -> Path:
-        """The first loop with its blends; the empty path without loops."""
-        from core.geometry.path import EMPTY
-
-        return self.loops[0].whole if self.loops else EMPTY

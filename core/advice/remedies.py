@@ -1,11 +1,11 @@
 """Remedies for a contour that no look-ahead value cuts clean: each is cut and judged before it is offered.
 
 The number of trials is bounded, so a remedy that exists may not be found; but every remedy offered does work.
+Before each trial `progress` is called, which may raise Stopped; how far the search is, is not known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -14,7 +14,7 @@ import numpy as np
 from core.advice.lookahead_table import CuttingSetup, Row, judge_lookaheads
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.progress import Stopped
+from core.progress import Progress, silent
 from core.tolerance import CLOSED
 from core.verify.judge import judge
 
@@ -65,15 +65,9 @@ class StartMoved:
     effect: tuple[str, tuple[float, ...]]
 
 
-def never_canceled() -> bool:
-    """Return True: the default of `wanted`, with which the search is never canceled."""
-    return True
-
-
-def _recommended(setup: CuttingSetup, wanted: Callable[[], bool]) -> Row | None:
-    """Return the row of the look-ahead that the table recommends; first check that the answer is still wanted."""
-    if not wanted():
-        raise Stopped
+def _recommended(setup: CuttingSetup, progress: Progress) -> Row | None:
+    """Return the row of the look-ahead that the table recommends."""
+    progress(0.0)
     table = judge_lookaheads(setup)
     return None if table.recommended is None else table.row(table.recommended)
 
@@ -83,14 +77,14 @@ def without_blends(setup: CuttingSetup) -> CuttingSetup:
     return replace(setup, blend=0.0)
 
 
-def lookahead_without_blends(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> int | None:
+def lookahead_without_blends(setup: CuttingSetup, progress: Progress = silent) -> int | None:
     """Return the recommended look-ahead without blend moves; None if none is clean or there is no blend."""
-    row = _recommended(without_blends(setup), wanted) if setup.blend > 0.0 else None
+    row = _recommended(without_blends(setup), progress) if setup.blend > 0.0 else None
     return None if row is None else row.value
 
 
 def larger_tool_without_blends(
-    setup: CuttingSetup, than: ToolFits | None, wanted: Callable[[], bool] = never_canceled
+    setup: CuttingSetup, than: ToolFits | None, progress: Progress = silent
 ) -> ToolFits | None:
     """Return the largest clean tool with BLEND OFFSET 0, or None.
 
@@ -100,19 +94,17 @@ def larger_tool_without_blends(
         return None
     given = 0 if than is None else _steps(setup, than.diameter)
     least = 0 if than is None else max(int(given * LARGER_BY), given + 1)
-    return largest_tool(without_blends(setup), wanted, least=least)
+    return largest_tool(without_blends(setup), progress, least=least)
 
 
-def largest_tool(
-    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
-) -> ToolFits | None:
+def largest_tool(setup: CuttingSetup, progress: Progress = silent, *, least: int = 0) -> ToolFits | None:
     """Find the largest clean diameter below the cutter's, in whole steps, by bisection.
 
     The smallest inside radius, often the limit, is tried first: if it is the limit, a larger tool that is clean only
     because it deletes such arcs is not searched for.  If a tool of `least` steps is not clean, the result is None.
     """
     clean, fails = least, _steps(setup, 2.0 * setup.radius)
-    if clean >= fails or (clean and not _clean(setup, clean, wanted)):
+    if clean >= fails or (clean and not _clean(setup, clean, progress)):
         return None
     limit = _smallest_inside_radius(setup)
     tries = [] if limit is None else [_steps(setup, 2.0 * limit), _steps(setup, 2.0 * limit) + 1]
@@ -120,11 +112,11 @@ def largest_tool(
         size = tries.pop(0) if tries else (clean + fails) // 2
         if not clean < size < fails:
             continue
-        if _clean(setup, size, wanted):
+        if _clean(setup, size, progress):
             clean = size
         else:
             fails = size
-    row = _recommended(_with_tool(setup, clean), wanted) if clean else None
+    row = _recommended(_with_tool(setup, clean), progress) if clean else None
     if row is None:
         return None
     fits = 0 if limit is None else _steps(setup, 2.0 * limit)
@@ -138,10 +130,9 @@ def _smallest_inside_radius(setup: CuttingSetup) -> float | None:
     return min(radii, default=None)
 
 
-def _clean(setup: CuttingSetup, size: int, wanted: Callable[[], bool]) -> bool:
+def _clean(setup: CuttingSetup, size: int, progress: Progress) -> bool:
     """True if one of the usual look-aheads gives a clean finish path with a diameter of `size` steps."""
-    if not wanted():
-        raise Stopped
+    progress(0.0)
     setup = _with_tool(setup, size)
     distinct = {
         id(control.path): control.whole for control in setup.paths(setup.radius, USUAL_LOOKAHEADS) if len(control.path)
@@ -158,30 +149,26 @@ def _steps(setup: CuttingSetup, diameter: float) -> int:
     return int(diameter / setup.diameter_step + 1e-6)
 
 
-def start_mid_side(
-    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled, max_starts: int = MAX_STARTS
-) -> StartMoved | None:
+def start_mid_side(setup: CuttingSetup, progress: Progress = silent, max_starts: int = MAX_STARTS) -> StartMoved | None:
     """Find the longest side of a closed contour whose middle is a clean start, among the `max_starts` longest."""
     if not setup.closed:
         return None
     for side in longest_segments(setup.surface)[:max_starts]:
-        row = _recommended(replace(setup, surface=restarted(setup.surface, side)), wanted)
+        row = _recommended(replace(setup, surface=restarted(setup.surface, side)), progress)
         if row is not None:
             middle = setup.surface[side].point_at(0.5)
             return StartMoved(float(setup.surface.numbers[side]), middle, row.value, row.effect)
     return None
 
 
-def start_mid_side_without_blends(
-    setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled
-) -> StartMoved | None:
+def start_mid_side_without_blends(setup: CuttingSetup, progress: Progress = silent) -> StartMoved | None:
     """Do the same without blend moves; None if there are none to leave out."""
     if setup.blend <= 0.0:
         return None
-    return start_mid_side(without_blends(setup), wanted, MAX_STARTS_WITHOUT_BLENDS)
+    return start_mid_side(without_blends(setup), progress, MAX_STARTS_WITHOUT_BLENDS)
 
 
-def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
+def start_at_end(setup: CuttingSetup, progress: Progress = silent) -> StartMoved | None:
     """Return the end of an open contour, if the contour is clean and closed when START is moved there.
 
     Only if START and the end share one coordinate, so that a single mistyped number explains the gap, and the first
@@ -193,7 +180,7 @@ def start_at_end(setup: CuttingSetup, wanted: Callable[[], bool] = never_cancele
     points = np.concatenate((surface.points[-1:], surface.points[1:]))
     centers = np.concatenate((points[:1], surface.centers[1:]))
     closed = replace(setup, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
-    row = _recommended(closed, wanted)
+    row = _recommended(closed, progress)
     x, y = points[0].tolist()
     return None if row is None else StartMoved(float(surface.numbers[0]), (x, y), row.value, row.effect)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
@@ -13,7 +13,6 @@ from core.advice.remedies import (
     largest_tool,
     longest_segments,
     lookahead_without_blends,
-    never_canceled,
     restarted,
     start_at_end,
     start_mid_side,
@@ -21,7 +20,7 @@ from core.advice.remedies import (
 )
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
-from core.progress import Stopped
+from core.progress import Progress, silent
 
 MAX_NAMED_PLACES: Final = 4
 """How many of the places that are too small are named in sentences."""
@@ -29,26 +28,21 @@ MAX_NAMED_PLACES: Final = 4
 _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 
 
-def advice_for(
-    setup: CuttingSetup, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
-) -> tuple[Finding, ...] | None:
+def advice_for(setup: CuttingSetup, calculated: int, table: Table, progress: Progress = silent) -> tuple[Finding, ...]:
     """Return the advice for a contour from its look-ahead table: why CAL is not clean, and what would help.
 
     It is empty if CAL is clean or if the contour cannot be offset at all.  Remedies are searched for only if no value
-    is clean.  `wanted` is called before each trial: once it returns False, the search stops and the answer is None.
+    is clean.  `progress` may raise Stopped before each trial.
     """
     if not len(table.rows[0].compensated.raw):
         return ()
     why = why_not_clean(table, calculated)
     if table.recommended is not None:
         return why
-    try:
-        return (*why, *_remedies(setup, table, wanted))
-    except Stopped:
-        return None
+    return (*why, *_remedies(setup, table, progress))
 
 
-def _remedies(setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> tuple[Finding, ...]:
+def _remedies(setup: CuttingSetup, table: Table, progress: Progress) -> tuple[Finding, ...]:
     """Return what would help, each remedy cut and judged clean, after the places that the tool does not enter.
 
     If neither another start nor leaving out the blend moves helps alone, both are tried at once.  If that does not
@@ -57,15 +51,15 @@ def _remedies(setup: CuttingSetup, table: Table, wanted: Callable[[], bool]) -> 
     """
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
     if nearest.verdict.crosses_itself:
-        return _start_at_end_sentence(setup, wanted) or (_crossing_first(nearest.verdict.crossing_at),)
-    value, start = lookahead_without_blends(setup, wanted), start_mid_side(setup, wanted)
+        return _start_at_end_sentence(setup, progress) or (_crossing_first(nearest.verdict.crossing_at),)
+    value, start = lookahead_without_blends(setup, progress), start_mid_side(setup, progress)
     remedies = (*_blends_sentence(value), *_start_sentence(start))
     if not remedies:
-        remedies = _start_sentence(start_mid_side_without_blends(setup, wanted), without_blends=True)
+        remedies = _start_sentence(start_mid_side_without_blends(setup, progress), without_blends=True)
     remedies = (
         remedies
-        or tuple(_tool_sentences(setup, nearest, wanted))
-        or _start_at_end_sentence(setup, wanted)
+        or tuple(_tool_sentences(setup, nearest, progress))
+        or _start_at_end_sentence(setup, progress)
         or (_nothing_helps(closed=setup.closed),)
     )
     return (*_too_small(nearest, setup.radius), *remedies)
@@ -131,7 +125,7 @@ def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -
     return (replace(remedy, segment=start.segment, at=start.at, lengths=lengths),)
 
 
-def _tool_sentences(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool]) -> Iterator[Finding]:
+def _tool_sentences(setup: CuttingSetup, nearest: Row, progress: Progress) -> Iterator[Finding]:
     """Yield the largest tool that fits, then a larger one that fits without blend moves, which needs more changes.
 
     Both are searched for with another start if the contour's own is an inside corner.
@@ -141,8 +135,8 @@ def _tool_sentences(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool
         row = longest_segments(setup.surface)[0]
         where = f" when the contour is started in the middle of segment {setup.surface.numbers[row]:g}"
         setup = replace(setup, surface=restarted(setup.surface, row))
-    tool = largest_tool(setup, wanted)
-    larger = larger_tool_without_blends(setup, tool, wanted)
+    tool = largest_tool(setup, progress)
+    larger = larger_tool_without_blends(setup, tool, progress)
     for fits, code, blends in ((tool, "TOOL_FITS", ""), (larger, "TOOL_BLENDLESS", f" {_NO_BLENDS}")):
         if fits is not None:
             largest = f"the largest that does not gouge{blends}{where}: {{value}}, with look-ahead {fits.value}."
@@ -150,8 +144,8 @@ def _tool_sentences(setup: CuttingSetup, nearest: Row, wanted: Callable[[], bool
             yield replace(_remedy(code, text), field="tool", value=fits.diameter, lengths=fits.lengths)
 
 
-def _start_at_end_sentence(setup: CuttingSetup, wanted: Callable[[], bool]) -> tuple[Finding, ...]:
-    start = start_at_end(setup, wanted)
+def _start_at_end_sentence(setup: CuttingSetup, progress: Progress) -> tuple[Finding, ...]:
+    start = start_at_end(setup, progress)
     if start is None:
         return ()
     text = (

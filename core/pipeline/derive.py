@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from core.advice.block_paths import BlockPaths, Loop, RoughPass
@@ -17,7 +16,7 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.remedies import largest_tool, never_canceled
+from core.advice.remedies import largest_tool
 from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
@@ -188,16 +187,16 @@ def cutting_setup(block: DerivedBlock, program: Program) -> CuttingSetup | None:
 
 
 def advice_for_block(
-    block: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = never_canceled
-) -> tuple[Finding, ...] | None:
-    """Return what a derived block needs; `table` is its look-ahead table if known.  None if nothing is compensated.
+    block: DerivedBlock, program: Program, table: Table | None = None, progress: Progress = silent
+) -> tuple[Finding, ...]:
+    """Return what a derived block needs; `table` is its look-ahead table if known.  Empty if nothing is compensated.
 
-    `wanted` is asked before each remedy is tried: once it returns False, the rest is not tried and the answer is None.
+    `progress` may raise Stopped before each remedy is tried.
     """
     setup = cutting_setup(block, program)
     if setup is None:
-        return None
-    return advice_for(setup, block.lookahead.calculated, table or judge_lookaheads(setup), wanted)
+        return ()
+    return advice_for(setup, block.lookahead.calculated, table or judge_lookaheads(setup), progress)
 
 
 def remedy_for_gouge(block: DerivedBlock, program: Program) -> Finding | None:

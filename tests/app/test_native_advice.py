@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from threading import Event
 
+import pytest
+
 import app.derivation_actions as app_module
 from app.derivation_actions import QUIET
 from app.screens.contour import ContourScreen
 from core.program.model import Block, CutterComp, LineSegment, Number, Program, Tool
+from core.progress import Stopped
 from tests.app.widget_pilot import Operator, operator
 
 
@@ -68,8 +71,8 @@ async def test_the_largest_tool_that_fits_is_named_in_the_list_and_on_tool():
 async def test_a_key_ends_the_search_for_advice(monkeypatch):
     searches, go = [], Event()
 
-    def searching(_, __, table, wanted):
-        searches.append(wanted)
+    def searching(_, __, table, progress):
+        searches.append(progress)
         assert go.wait(10)
         yield replace(table, complete=True)
 
@@ -78,7 +81,8 @@ async def test_a_key_ends_the_search_for_advice(monkeypatch):
         while not searches:
             await user.pilot.pause(QUIET / 10)
         await user.press("tab", "2")
-        assert not searches[0]()
+        with pytest.raises(Stopped):
+            searches[0](0.0)
         go.set()
         await user.pilot.pause(QUIET / 10)
         assert not user.session.lookahead_table.complete

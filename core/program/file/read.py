@@ -219,35 +219,23 @@ def _values(table: _Table, form: Form, *others: str) -> dict[str, Any]:
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
-    """Return the typed numbers of a form by name: numbers from the table, texts from its `unread` table."""
-    fields = NUMBER_FIELDS[form]
-    typed: dict[str, Typed] = {
-        field.name: Number(table.number(field.name, field)) for field in fields if field.name in table.data
-    }
-    typed |= _relative_numbers(table, fields)
-    return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
-
-
-def _relative_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
-    """Return the relative numbers of a form by name."""
-    relative: dict[str, Typed] = {}
-    for field in fields:
-        key = field.name + RELATIVE
-        if not field.relative or key not in table.data:
-            continue
-        if field.name in table.data:
-            raise table.fault(key, f"{field.name} appears twice, as {field.name} and as {key}: remove one.")
-        relative[field.name] = Relative(table.number(key, field))
-    return relative
-
-
-def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
-    unread = table.table(UNREAD)
+    """Return the typed numbers of a form by name, absolute or relative, and the texts from its `unread` table."""
+    fields, unread = NUMBER_FIELDS[form], table.table(UNREAD)
     unread.only(tuple(field.name for field in fields))
-    for key in unread.data:
-        if key in table.data or key + RELATIVE in table.data:
-            raise unread.fault(key, f"{key} appears twice, as a number and as unread text: remove one.")
-    return {field.name: _unread(unread, field) for field in fields if field.name in unread.data}
+    typed: dict[str, Typed] = {}
+    for field in fields:
+        name, relative = field.name, field.name + RELATIVE
+        if name in table.data:
+            typed[name] = Number(table.number(name, field))
+        if field.relative and relative in table.data:
+            if name in typed:
+                raise table.fault(relative, f"{name} appears twice, as {name} and as {relative}: remove one.")
+            typed[name] = Relative(table.number(relative, field))
+        if name in unread.data:
+            if name in typed:
+                raise unread.fault(name, f"{name} appears twice, as a number and as unread text: remove one.")
+            typed[name] = _unread(unread, field)
+    return typed
 
 
 def _unread(table: _Table, field: Field) -> Unread:

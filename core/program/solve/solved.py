@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.finding import Finding, Severity
+from core.finding import Finding
 from core.geometry.piece import Piece, Point
 from core.program.model import Coolant, Number, Relative, Unread
 
@@ -139,9 +139,3 @@ class SolvedBlock:
     def whole(self) -> bool:
         """True if every segment is determined, so that the whole surface is known."""
         return self.determined == len(self.segments)
-
-    @property
-    def postable(self) -> bool:
-        """True if there is a surface, every segment is determined and no finding is an error."""
-        sound = all(finding.severity is not Severity.ERROR for finding in self.every_finding)
-        return self.whole and bool(self.pieces) and sound

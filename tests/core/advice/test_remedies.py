@@ -75,5 +75,8 @@ def test_blend_moves_are_left_out_only_where_there_are_any(blend):
 
 
 def test_a_remedy_nobody_waits_for_is_not_tried():
+    def canceled(_: float) -> None:
+        raise Stopped
+
     with pytest.raises(Stopped):
-        largest_tool(CuttingSetup(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0), wanted=lambda: False)
+        largest_tool(CuttingSetup(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0), canceled)

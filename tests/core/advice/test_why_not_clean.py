@@ -18,6 +18,7 @@ from core.comp.lookahead import calculated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
+from core.progress import Stopped
 from core.units import Unit, sentence
 from tests.bench.families import gear
 from tests.core.comp.contours import lines, mixed, shut
@@ -39,9 +40,7 @@ def setup(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blen
 
 
 def advice_of(cutting: CuttingSetup) -> tuple[Finding, ...]:
-    advice = advice_for(cutting, calculated(len(cutting.surface), closed=cutting.closed), judge_lookaheads(cutting))
-    assert advice is not None
-    return advice
+    return advice_for(cutting, calculated(len(cutting.surface), closed=cutting.closed), judge_lookaheads(cutting))
 
 
 def codes(advice: Sequence[Finding]) -> list[str]:
@@ -355,14 +354,16 @@ def test_a_clean_look_ahead_is_named_when_the_calculated_one_gouges():
 def test_unwanted_advice_stops_before_the_next_remedy(tries):
     """Nothing helps this shape: the advice asks before each remedy and stops at the first no."""
     cutting = setup(STAR, Side.LEFT, closed=True, blend=0.1)
-    answers: list[bool] = []
+    asked: list[float] = []
 
-    def wanted() -> bool:
-        answers.append(len(answers) < tries)
-        return answers[-1]
+    def check(done: float) -> None:
+        asked.append(done)
+        if len(asked) > tries:
+            raise Stopped
 
-    assert advice_for(cutting, 8, judge_lookaheads(cutting), wanted) is None
-    assert answers == [True] * tries + [False]
+    with pytest.raises(Stopped):
+        advice_for(cutting, 8, judge_lookaheads(cutting), check)
+    assert len(asked) == tries + 1
 
 
 def test_the_largest_tool_has_the_radius_of_the_inside_corners():

@@ -10,6 +10,7 @@ from core.pipeline.derive import advice_for_block, cutting_setup, derive, look_a
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
+from core.progress import Stopped
 from core.units import Unit, sentence
 from core.verify.judge import judge
 from tests.bench.keys import gear
@@ -124,13 +125,12 @@ def test_a_clean_contour_gets_empty_advice():
 
 def test_a_block_without_compensation_gets_no_advice():
     part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
-    assert advice_for_block(derive(part).blocks[0], part) is None
+    assert advice_for_block(derive(part).blocks[0], part) == ()
 
 
 def test_the_advice_for_the_notch_names_the_clean_look_ahead():
     part = program(block(NOTCH, CutterComp.LEFT))
     advice = advice_for_block(derive(part).blocks[0], part)
-    assert advice is not None
     assert [finding.code for finding in advice] == ["CAL_NOT_CLEAN"]
     text = "CAL 2 gouges. Enter look-ahead 3, which does not gouge but leaves 0.9000 uncut."
     assert sentence(advice[0], part.unit) == text
@@ -142,15 +142,16 @@ def test_unwanted_advice_stops_before_the_next_remedy(tries):
     """The gear tries six starts and one without blend moves; the advice asks before each and stops at the first no."""
     part = gear(200)
     derived = derive(part).blocks[0]
-    answers: list[bool] = []
+    asked: list[float] = []
 
-    def wanted() -> bool:
-        answer = bool(len(answers) < tries)
-        answers.append(answer)
-        return answer
+    def check(done: float) -> None:
+        asked.append(done)
+        if len(asked) > tries:
+            raise Stopped
 
-    assert advice_for_block(derived, part, wanted=wanted) is None
-    assert answers == [True] * tries + [False]
+    with pytest.raises(Stopped):
+        advice_for_block(derived, part, progress=check)
+    assert len(asked) == tries + 1
 
 
 def test_the_first_tool_roughs_before_a_finish_tool():

@@ -77,7 +77,7 @@ def test_the_best_path_has_a_cutter_only_for_segments_it_follows():
 
 def test_the_cutter_of_start_is_at_the_plunge():
     derived_block = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
-    assert cutter_at(derived_block, 0) == tuple(derived_block.paths.center.points[0].tolist())
+    assert cutter_at(derived_block, 0) == tuple(derived_block.paths.loops[0].whole.points[0].tolist())
 
 
 def test_the_whole_part_is_drawn_with_the_numbers_of_its_segments():

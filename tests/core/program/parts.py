@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+from core.finding import Severity
 from core.program.fields import PICK, STORED, Field, Form
 from core.program.model import (
     ArcSegment,
@@ -172,3 +173,9 @@ def _programs(unit: Unit) -> st.SearchStrategy[Program]:
 
 programs: st.SearchStrategy[Program] = st.sampled_from(Unit).flatmap(_programs)
 """A random program such as the edits can make."""
+
+
+def postable(block: SolvedBlock) -> bool:
+    """True if there is a surface, every segment is determined and no finding is an error."""
+    sound = all(finding.severity is not Severity.ERROR for finding in block.every_finding)
+    return block.whole and bool(block.pieces) and sound

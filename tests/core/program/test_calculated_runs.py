@@ -19,6 +19,7 @@ from core.program.model import LineSegment, Number, Program, Unread
 from core.program.solve.block import solve_block
 from core.program.solve.solution import solution_at, untaken_pieces
 from core.units import Unit, sentence
+from tests.core.program.parts import postable
 from tests.core.program.run_files import (
     codes,
     document,
@@ -104,7 +105,7 @@ def _turned(case: dict[str, Any], angle: float) -> dict[str, Any]:
 def test_a_golden_case_without_answer_says_why(case: dict[str, Any]) -> None:
     block = solved(case)
     assert case["finding"] in codes(block)
-    assert not block.postable
+    assert not postable(block)
 
 
 @pytest.mark.parametrize("case", SOLVED, ids=name)

@@ -9,7 +9,7 @@ from core.program.model import BlendSegment, LineSegment, Segment, Unread
 from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence
-from tests.core.program.parts import arc, blend, line, program
+from tests.core.program.parts import arc, blend, line, postable, program
 
 
 def solved(*segments: Segment) -> SolvedBlock:
@@ -78,7 +78,7 @@ def test_blends_of_arcs_keep_their_centers():
 def test_a_blend_at_a_wrong_place_is_refused(segments, at, words):
     block = solved(*segments)
     assert f"BLEND_PLACE {at} radius: A BLEND ARC {words}" in texts(block)
-    assert not block.postable
+    assert not postable(block)
     assert block.determined < len(segments)
 
 

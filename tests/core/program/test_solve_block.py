@@ -34,7 +34,7 @@ from core.program.solve.block import NEEDED, solve_block
 from core.program.solve.reading import read_form, shared_findings
 from core.program.solve.solved import Origin, Solved, SolvedBlock
 from core.units import Kind, Unit, sentence, to_mm
-from tests.core.program.parts import arc, blend, line, number, program, programs, tags
+from tests.core.program.parts import arc, blend, line, number, postable, program, programs, tags
 
 
 def solved(given_program: Program) -> SolvedBlock:
@@ -65,7 +65,7 @@ POCKET = program(
 
 def test_a_pocket_is_solved_whole():
     block = solved(POCKET)
-    assert block.postable
+    assert postable(block)
     assert block.closed
     assert block.determined == 11
     assert block.every_finding == ()
@@ -136,7 +136,7 @@ def test_later_segments_continue_from_typed_values_after_a_gap():
     )
     assert block.determined == 1
     assert [number_ for number_, _ in block.pieces] == [1]
-    assert not block.postable
+    assert not postable(block)
     assert not block.closed
     assert codes(block) == [("MISSING", 2)]
     assert block.segments[2].piece is None
@@ -163,7 +163,7 @@ def test_a_contour_without_length_is_not_closed():
     block = solved(program(line(x_end=0.0, y_end=0.0)))
     assert not block.closed
     assert block.determined == 1
-    assert not block.postable
+    assert not postable(block)
     assert codes(block) == [("ZERO_LENGTH", 1)]
 
 
@@ -171,7 +171,7 @@ def test_a_segment_without_length_is_skipped():
     block = solved(program(line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0)))
     assert block.determined == 3
     assert [number_ for number_, _ in block.pieces] == [1, 3]
-    assert block.postable
+    assert postable(block)
 
 
 def test_unreadable_text_blocks_posting_and_is_reported_once():
@@ -187,7 +187,7 @@ def test_unreadable_text_in_a_feed_leaves_the_shape_known():
     block = solved(program(LineSegment(x_end=Number(1.0), y_end=Number(0.0), feed=Unread("x", "Type a number."))))
     assert block.segments[0].piece == Line((0.0, 0.0), (1.0, 0.0))
     assert codes(block) == [("UNREADABLE", 1)]
-    assert not block.postable
+    assert not postable(block)
 
 
 def test_a_number_out_of_its_range_is_not_used():
@@ -221,7 +221,7 @@ def test_any_program_is_solved_without_raising(given_program):
         for segment in solution.segments:
             assert all(finding.segment == segment.number for finding in segment.findings)
         assert all(finding.segment == 0 for finding in solution.findings)
-        assert solution.determined == len(solution.segments) or not solution.postable
+        assert solution.determined == len(solution.segments) or not postable(solution)
 
 
 def test_an_empty_segment_is_reported_as_the_next_to_complete():
@@ -229,7 +229,7 @@ def test_an_empty_segment_is_reported_as_the_next_to_complete():
     for segment in segments:
         block = solved(program(line(x_end=1.0, y_end=0.0), segment))
         assert block.determined == 1
-        assert not block.postable
+        assert not postable(block)
         assert next(finding.segment for finding in block.every_finding) == 2
 
 
@@ -299,7 +299,7 @@ def test_blank_fields_that_mean_zero_are_filled_in():
     block = solve_block(given.blocks[0], given)
     assert (block.values["finish_tool"], block.values["peck_depth"]) == (Solved(0.0, Origin.USUAL),) * 2
     assert (block.peck_depth, block.finish_diameter) == (0.0, None)
-    assert block.postable
+    assert postable(block)
 
 
 @pytest.mark.parametrize(
@@ -326,7 +326,7 @@ def test_a_block_without_segments_is_not_postable():
     block = solve_block(given.blocks[0], given)
     (finding,) = block.findings
     assert (finding.code, finding.segment) == ("NO_SEGMENTS", 0)
-    assert not block.postable
+    assert not postable(block)
     assert not block.closed
 
 
