@@ -38,7 +38,7 @@ class CellSheet:
 
 def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     """Write a scene's axis names, scale bar, labels and marks over a picture's cells."""
-    columns, rows, look = sheet.columns, sheet.rows, cells(mode)
+    columns, rows, look = sheet.columns, sheet.rows, CELLS[mode]
     if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
         if scene.axes:
             _name_axes(sheet, view)
@@ -159,11 +159,6 @@ class Cells:
         return self.across * self.down > 1
 
 
-def cells(mode: Mode) -> Cells:
-    """Return the cells of a mode."""
-    return _CELLS[mode]
-
-
 def _table(characters: dict[int, str], other: str) -> Characters:
     return np.array([characters.get(code, other) for code in range(256)])
 
@@ -197,6 +192,7 @@ def _ascii() -> Cells:
     return Cells(1, 1, np.array([0]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
-_CELLS: Final[Mapping[Mode, Cells]] = MappingProxyType(
+CELLS: Final[Mapping[Mode, Cells]] = MappingProxyType(
     {Mode.BRAILLE: _braille(), Mode.BLOCK: _block(), Mode.ASCII: _ascii()}
 )
+"""The way each mode fills a cell."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.draw.areas import inside
-from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
+from core.draw.characters import CELLS, Cells, CellSheet, Mode, write_signs
 from core.draw.chords import Chords, chords
 from core.draw.scene import BEYOND, DOTTED, Area, Layer, Scene, Style
 from core.draw.view import TALL, View
@@ -59,7 +59,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     """
     if columns < 1 or rows < 1:
         return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
-    look = cells(mode)
+    look = CELLS[mode]
     layers = scene.outlined
     axes = _axes(view, look, columns, rows) if scene.axes else NO_AXES
     drawn = _thickened(chords(layers, view, columns, rows), layers, look)

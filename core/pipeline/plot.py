@@ -14,7 +14,7 @@ from core.advice.block_paths import BlockPaths, Loop
 from core.advice.lookahead_table import Row
 from core.comp.compensated import Compensated
 from core.draw.areas import gouged, material, uncut
-from core.draw.characters import Mode, cells, scale_bar
+from core.draw.characters import CELLS, Mode, scale_bar
 from core.draw.raster import Picture, draw
 from core.draw.scene import (
     Area,
@@ -131,7 +131,23 @@ class Subject:
 
     def drawn(self, columns: int, rows: int, mode: Mode) -> Drawn | None:
         """Return the picture in columns x rows cells; None if there is nothing to see."""
-        return _block_drawn(self, columns, rows, mode)
+        scene = replace(block_scene(self.block, self.segment, self.unit, self.row), unit=None)
+        scene = _outlined(scene, self) if self.outline else replace(scene, axes=self.near is None)
+        bounds = scene.extent(without=DRAWN_AGAIN)
+        if bounds is None or columns < 1 or rows < 1:
+            return None
+        view, look = _view_of(self, bounds, columns, rows), CELLS[mode]
+        dot = view.scale * look.dot[0]
+        dots = (self.block.radius or 0.0) / dot
+        if dots < FEWEST_DOTS:
+            scene = _outlined(scene, self)
+        elif not self.outline:
+            labels = _segment_labels(self.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
+            scene = replace(scene, areas=_areas(self, dot), labels=labels)
+        if self.cross is not None:
+            scene = replace(scene, marks=(*scene.marks, Mark(self.cross, Style.CURRENT, Symbol.CENTER)))
+        picture = draw(scene, view, columns, rows, mode)
+        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, look.bar), bounds)
 
 
 class Drawn(NamedTuple):
@@ -161,27 +177,7 @@ class SceneSubject:
             return None
         view = self.view or View.fit(bounds, columns, rows)
         picture = draw(replace(self.scene, unit=None), view, columns, rows, mode)
-        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, cells(mode).bar), bounds)
-
-
-def _block_drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn | None:
-    scene = replace(block_scene(subject.block, subject.segment, subject.unit, subject.row), unit=None)
-    scene = _outlined(scene, subject) if subject.outline else replace(scene, axes=subject.near is None)
-    bounds = scene.extent(without=DRAWN_AGAIN)
-    if bounds is None or columns < 1 or rows < 1:
-        return None
-    view, look = _view_of(subject, bounds, columns, rows), cells(mode)
-    dot = view.scale * look.dot[0]
-    dots = (subject.block.radius or 0.0) / dot
-    if dots < FEWEST_DOTS:
-        scene = _outlined(scene, subject)
-    elif not subject.outline:
-        labels = _segment_labels(subject.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
-        scene = replace(scene, areas=_areas(subject, dot), labels=labels)
-    if subject.cross is not None:
-        scene = replace(scene, marks=(*scene.marks, Mark(subject.cross, Style.CURRENT, Symbol.CENTER)))
-    picture = draw(scene, view, columns, rows, mode)
-    return Drawn(picture, view, scale_bar(view.scale, columns, subject.unit, look.bar), bounds)
+        return Drawn(picture, view, scale_bar(view.scale, columns, self.unit, CELLS[mode].bar), bounds)
 
 
 def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:

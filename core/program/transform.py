@@ -68,13 +68,6 @@ class Motion:
         turned = phase(self.turn) * 180.0 / pi
         return (turned - degrees if self.mirrored else turned + degrees) % 360.0
 
-    def times(self, count: int) -> Motion:
-        """Return this motion repeated `count` times."""
-        motion = Motion()
-        for _ in range(count):
-            motion = motion.then(self)
-        return motion
-
     def then(self, other: Motion) -> Motion:
         """Return the motion that does this one first, then the other."""
         turn = self.turn.conjugate() if other.mirrored else self.turn
@@ -139,9 +132,9 @@ def repeat_segments(program: Program, number: int, first: int, last: int, motion
     if any(isinstance(segment, BlendSegment | ChamferSegment) for segment in corner):
         return Refused("Begin and end the copied segments with a LINE or an ARC.")
     shapes, kept = solved.segments[first - 1 : last], block.segments[first - 1 : last]
-    end, made = _end(shapes[-1]), list[Segment]()
-    for count in range(1, copies + 1):
-        step = motion.times(count)
+    end, made, step = _end(shapes[-1]), list[Segment](), Motion()
+    for _ in range(copies):
+        step = step.then(motion)
         begin = step.point(_begin(shapes[0]))
         copy = list(_transformed(kept, shapes, step, program.unit, explicit=True))
         if dist(begin, end) > SAME_PLACE:

@@ -12,7 +12,7 @@ from typing import assert_never
 from core.finding import Finding, Severity
 from core.geometry.corner import NoCorner, Reason, chamfer, fillet
 from core.geometry.piece import Piece
-from core.program.fields import TABLES, form_of
+from core.program.fields import form_of
 from core.program.model import BlendSegment, CornerSegment, Segment
 
 
@@ -51,9 +51,8 @@ def put_corners_in(
 
 
 def _fault(segment: CornerSegment, what: str, text: str, value: float | None = None, *lengths: float) -> Finding:
-    kind = "BLEND" if isinstance(segment, BlendSegment) else "CHAMFER"
-    size = TABLES[form_of(segment)][0].name
-    return Finding(f"{kind}_{what}", Severity.ERROR, text, field=size, value=value, lengths=lengths)
+    verb, _, label = _words(segment)
+    return Finding(f"{verb.upper()}_{what}", Severity.ERROR, text, field=label.lower(), value=value, lengths=lengths)
 
 
 def _misplaced(segments: Sequence[Segment], index: int, segment: CornerSegment) -> Finding | None:
@@ -88,7 +87,7 @@ def _no_neighbor(
     pieces: Sequence[Piece | None], index: int, segment: CornerSegment, determined: Set[int]
 ) -> Finding | None:
     """Return a fault if a determined neighbor has no length, or none left."""
-    verb, what = _words(segment)
+    verb, _, what = _words(segment)
     for neighbor in (index - 1, index + 1):
         if pieces[neighbor] is None and neighbor in determined:
             text = f"Segment {neighbor + 1} has no length left to {verb}: correct it or delete this {form_of(segment)}."
@@ -96,14 +95,13 @@ def _no_neighbor(
     return None
 
 
-def _words(segment: CornerSegment) -> tuple[str, str]:
-    """Return the verb for what is done to the corner, and the label of its size field."""
-    return ("blend", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "LENGTH")
+def _words(segment: CornerSegment) -> tuple[str, str, str]:
+    """Return the verb for what is done to the corner, the noun for what fills it, and the label of its size field."""
+    return ("blend", "arc", "RADIUS") if isinstance(segment, BlendSegment) else ("chamfer", "chamfer", "LENGTH")
 
 
 def _refused(refused: NoCorner, segment: CornerSegment, number: int, size: float) -> Finding:
-    verb, what = _words(segment)
-    noun = "arc" if isinstance(segment, BlendSegment) else "chamfer"
+    verb, noun, what = _words(segment)
     pair = f"segments {number - 1} and {number + 1}"
     match refused.reason:
         case Reason.TANGENT:
