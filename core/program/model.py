@@ -137,7 +137,7 @@ CornerSegment = BlendSegment | ChamferSegment
 """The kinds of segments that lie at the corner of their two neighbors and shorten both."""
 
 Segment = LineSegment | ArcSegment | CornerSegment
-"""The kinds of segment.  A new kind also needs its form in `fields`, its rules in `solve`, and its keys in `file.read`;
+"""The kinds of segment.  A new kind also needs its form in `fields` and its rules in `solve`;
 a new curve needs a piece in `geometry.piece`."""
 
 

@@ -19,7 +19,7 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.geometry import construct
 from core.geometry.construct import NotDetermined, OnePoint, OutOfReach
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.piece import Arc, Piece, Point, Turn
 from core.program.fields import Form, field_of
 from core.program.solve.line import points_of, shown_angle
 from core.program.solve.measured import measured
@@ -327,9 +327,3 @@ ARC_TASK: Final = Task(
     _center_needed,
 )
 """The rules for an arc; `Given.turn` is its direction."""
-
-
-def arc_sketch(start: Point, known: Known) -> Line | None:
-    """Return the chord to draw dashed for an undetermined arc, to as much of its end as is typed."""
-    end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
-    return None if end == start else Line(start, end)

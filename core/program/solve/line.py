@@ -122,8 +122,8 @@ LINE_TASK = Task(
 )
 
 
-def line_sketch(start: Point, known: Known) -> Line | None:
-    """Return the line to draw dashed for an undetermined LINE, toward as much of its end as is typed."""
+def sketch_of(start: Point, known: Known) -> Line | None:
+    """Return the line or chord to draw dashed for an undetermined segment, toward as much of its end as is typed."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     if end == start and "length" in known and "angle" in known:
         end = (start[0] + known["length"] * cos(known["angle"]), start[1] + known["length"] * sin(known["angle"]))

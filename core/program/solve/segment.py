@@ -19,8 +19,8 @@ from core.program.model import (
     Number,
     Segment,
 )
-from core.program.solve.arc import ARC_TASK, adjustment, arc_sketch, circle_finding, is_start
-from core.program.solve.line import LINE_TASK, kept_axis, line_sketch
+from core.program.solve.arc import ARC_TASK, adjustment, circle_finding, is_start
+from core.program.solve.line import LINE_TASK, kept_axis, sketch_of
 from core.program.solve.measured import heading_at, measured_fields
 from core.program.solve.reading import Reading
 from core.program.solve.rules import Given, Outcome, Task, solve
@@ -182,11 +182,7 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
     if piece.length <= JOINED:
         text = "No length: skipped. Type its end, or F1 deletes it."
         return SegmentResult(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
-    return _whole(piece, given, pieces if len(pieces) > 1 else ())
-
-
-def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> SegmentResult:
-    """Return the result of a determined line or arc, with findings on an arc's numbers."""
+    choices = pieces if len(pieces) > 1 else ()
     if isinstance(piece, Line):
         return SegmentResult(piece, piece.end, choices=choices)
     finding = circle_finding(piece, given)
@@ -206,9 +202,8 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
     """Return the result if nothing fits; missing data are not reported while a typed shape field has a fault."""
     faulty = any(finding.field in task.shape for finding in reading.findings)
     findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
-    sketch = line_sketch if task is LINE_TASK else arc_sketch
-    known = own_data(task, reading, start)
-    return SegmentResult(missing=outcome.missing, sketch=sketch(start, known), findings=findings)
+    sketch = sketch_of(start, own_data(task, reading, start))
+    return SegmentResult(missing=outcome.missing, sketch=sketch, findings=findings)
 
 
 def calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
