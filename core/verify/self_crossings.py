@@ -55,26 +55,14 @@ def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
 
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     """Return pairs i < j that may meet away from a joint: any near pieces, and neighbors that may turn back."""
-    bounds = surface.boxes
-    i, j = sorted_pairs(near_pairs_within(bounds, JOINED))
-    again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
-    again = again[_turned(surface, again, again + 1) > pi - TURN]
-    apart = (j - i >= 2).nonzero()[0]
-    i, j = np.concatenate((i[apart], again)), np.concatenate((j[apart], again + 1))
+    i, j = sorted_pairs(near_pairs_within(surface.boxes, JOINED))
+    # a curve must turn through half a turn to come back
+    back = _turned(surface, i, i + 1) > pi - TURN
+    apart = (j - i >= 2) | back
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
-        if seam.any() and not _turned(surface, np.array([-1]), np.array([0])).item() > pi - TURN:
-            # a curve must turn through half a turn to come back
-            i, j = i[~seam], j[~seam]
-    return i, j
-
-
-def _may_come_back(surface: PieceArrays) -> Flags:
-    """Return (n - 1,) True for pieces that may meet the next one again: one is an arc, or the next nearly reverses."""
-    vector, length, bent = surface.vector, surface.length, surface.arcs
-    back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
-    back |= bent[:-1] | bent[1:]
-    return back
+        apart &= ~seam | (_turned(surface, j, i) > pi - TURN)
+    return i[apart], j[apart]
 
 
 def _turned(surface: PieceArrays, rows: Rows, following: Rows) -> Floats:
@@ -90,14 +78,6 @@ def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
     vector, turn, arm = surface.vector[both], surface.turn[both], surface.arm[both]
     arm[0] += vector[0]
     return np.where(turn == 0.0, vector, 1j * turn * arm)
-
-
-def _overlapping(bounds: Floats) -> Flags:
-    """Return (n - 1,) True for boxes that overlap the next one by more than they must at a joint of neighbors."""
-    shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
-    wide = shared > 5.0 * JOINED
-    either: Flags = wide[0] | wide[1]
-    return either
 
 
 def _away(

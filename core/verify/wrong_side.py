@@ -218,7 +218,6 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, surface: Sided) -> Floats:
 def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
     """Return where these parts change sides without meeting a wall: halfway between two arms of an open contour, from
     the part's side of one arm to the cutter's side of the other."""
-    parts = parts.keep(_near_ends(pairs, parts))
     if not len(parts):
         return np.zeros(0)
     s = parts.first + SHARES * (parts.last - parts.first)
@@ -236,37 +235,6 @@ def _between_arms(pairs: Pairs, parts: Stretches, surface: Sided) -> Floats:
 def _wrong(pairs: Pairs, s: Floats, surface: Sided) -> Flags:
     """True for places `s` along the center path that are on the part's side."""
     return _on_part_side(pairs, *place(pairs.pieces, pairs.stations, s), surface)
-
-
-def _near_ends(pairs: Pairs, parts: Stretches) -> Flags:
-    """True for parts near an end of the surface: only these can change sides without meeting a wall.
-
-    Suppose a part goes from a place on the left, nearest to wall point `a`, to one on the right, nearest to `b`.  From
-    `a` along the surface to `b` and back over the path is a loop.  The surface's two remaining branches leave it to
-    different sides and never cross it, so one of the surface's ends is inside.  The loop lies within two boxes: that of
-    the walls between the first and the last one nearest to the part's piece, and that of the piece grown by its
-    distance from them.  An uneven arc may miss its own end and let a path slip through: then all parts count.
-    """
-    walls, moves = pairs.others, pairs.pieces
-    if walls.slack.any():
-        return np.ones(len(parts), np.bool_)
-    index = pairs.stations[1:-1].searchsorted(parts.middle, side="right")
-    begins = pairs.begins
-    first = np.minimum.reduceat(pairs.j, begins[:-1])[index]
-    last = np.maximum.reduceat(pairs.j, begins[:-1])[index]
-    room = np.maximum.reduceat(pairs.from_piece.max(axis=0), begins[:-1])[index] + moves.length[index] + JOINED
-    middle = at(moves.take(index), np.full(len(index), 0.5))
-    reach, runs = walls.length, np.array((first, last + 1)).T.ravel()
-    held = np.zeros(len(parts), np.bool_)
-    for end in (walls.start[0], walls.end[-1]):
-        outside = np.zeros(len(parts), np.bool_)
-        for axis in (1.0, -1.0, 1j, -1j):
-            farthest_out = ((walls.start + walls.vector / 2.0) * axis).real + reach
-            # the upper bound of a run may be one past the last wall
-            along_walls = np.maximum.reduceat(np.append(farthest_out, -inf), runs)[::2]
-            outside |= (end * axis).real > np.maximum(along_walls, (middle * axis).real + room)
-        held |= ~outside
-    return held
 
 
 def on_part_side(walls: PieceArrays, points: Points, near: Nearest, surface: Sided) -> Flags:
