@@ -215,7 +215,8 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
 
 def tight_arcs(verdict: Verdict, surface: Path, side: Side, radius: float) -> tuple[Finding, ...]:
     """Say that the tool does not fit into inside arcs smaller than it is; name the smallest that it leaves uncut."""
-    first, last = verdict.uncut.columns[:2]
+    ends = verdict.uncut_ends
+    first, last = ends.first, ends.last
     inside = np.flatnonzero((surface.turns * side.sign > 0) & (surface.radii < radius - JOINED))
     for row in inside[surface.radii[inside].argsort()][:MAX_TIGHT_ARCS].tolist():
         number, small = float(surface.numbers[row]), float(surface.radii[row])

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.path import EMPTY, Floats, Path, joined
-from core.geometry.piece import Line, Piece, Point, Side
+from core.geometry.piece import Line, Piece, Point, Side, point_of
 from core.tolerance import CLOSED, JOINED
 
 _AT_ITS_START: Final = 2.0 * CLOSED
@@ -90,8 +90,4 @@ def _beginning(piece: Piece, length: float) -> Piece:
 def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
     """Return the far end, toward `outer` from the center, and the center of the quarter circle at a path's end."""
     center = complex(*at) + blend * side.sign * 1j * along
-    return _point(center + blend * outer), _point(center)
-
-
-def _point(place: complex) -> Point:
-    return place.real, place.imag
+    return point_of(center + blend * outer), point_of(center)

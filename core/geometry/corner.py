@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from core.geometry.carrier import carrier, meeting_places
 from core.geometry.construct import rotated
-from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn
+from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn, point_of
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -82,7 +82,7 @@ def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_F
             continue
         kept, removed = _travel(before, first), _travel(after, last)
         if -ON_PATH <= kept <= before.length + ON_PATH and -ON_PATH <= removed <= after.length + ON_PATH:
-            arc = Arc(_point(first), _point(last), _point(center), turn)
+            arc = Arc(point_of(first), point_of(last), point_of(center), turn)
             fits.append(_Fit(arc, before.length - kept + removed))
     return fits
 
@@ -112,10 +112,6 @@ def _cut(before: Piece, after: Piece, arc: Arc) -> Corner:
         arc,
         replace(after, start=arc.end) if after.length - removed > JOINED else None,
     )
-
-
-def _point(place: complex) -> Point:
-    return place.real, place.imag
 
 
 def chamfer(before: Piece, after: Piece, length: float) -> Corner | NoCorner:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, coordinates
-from core.geometry.piece import Piece, Point
+from core.geometry.piece import Piece, Point, point_of
 
 
 class PartEnds(NamedTuple):
@@ -98,15 +98,11 @@ def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: PartEnds) -> Rows:
     """Return the number of rows from each start to its end; a full lap if the end is before the start on one row."""
     steps: Rows = (lasts - begins) % len(surface)
     for row in (begins == lasts).nonzero()[0].tolist():
-        piece, start, end = surface[int(begins[row])], _point(wanted.start[row]), _point(wanted.end[row])
+        piece, start, end = surface[int(begins[row])], point_of(wanted.start[row]), point_of(wanted.end[row])
         # no stretch ends before a piece's start; `_before` would take an arc from start to start for a full turn
         if start != piece.start and _before(piece, end, start):
             steps[row] += len(surface)
     return steps
-
-
-def _point(place: np.complex128) -> Point:
-    return float(place.real), float(place.imag)
 
 
 def _before(piece: Piece, point: Point, other: Point) -> bool:

@@ -13,6 +13,12 @@ from typing import Final
 
 Point = tuple[float, float]
 
+
+def point_of(place: complex) -> Point:
+    """Return a complex number x + iy as a point."""
+    return float(place.real), float(place.imag)
+
+
 SLIVER: Final = 1e-9
 """Radians: an arc that is short of a full turn by less is an empty arc with rounding, not a full circle."""
 

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.piece import Arc, Line, Piece, Turn, point_of
 
 CORNER: Final = radians(5.0)
 MIN_LINES: Final = 3
@@ -127,8 +127,8 @@ def _circle(points: Points, fit: float) -> _Fit | None:
         return None
     at = middle + center
     start = at + (points[0] - at) / abs(points[0] - at) * radius
-    begin = _pair(start)
-    return _Fit(Arc(begin, begin, _pair(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
+    begin = point_of(start)
+    return _Fit(Arc(begin, begin, point_of(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
 
 
 def _turns_one_way(turned: NDArray[np.float64]) -> bool:
@@ -145,7 +145,7 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
     pieces: list[Piece] = []
     off, at, last = 0.0, 0, len(points) - 1
     while at < last:
-        best, reach = _Fit(Line(_pair(points[at]), _pair(points[at + 1])), 0.0), at + 1
+        best, reach = _Fit(Line(point_of(points[at]), point_of(points[at + 1])), 0.0), at + 1
         for make in (_straight, _bent):
             made, end = _longest(points, at, fit, make)
             if made is not None and end > reach:
@@ -187,7 +187,7 @@ def _straight(points: Points, fit: float) -> _Fit | None:
     off = float(np.abs(local.imag).max())
     if off > fit or (np.diff(local.real) <= 0.0).any():
         return None
-    return _Fit(Line(_pair(points[0]), _pair(points[-1])), off)
+    return _Fit(Line(point_of(points[0]), point_of(points[-1])), off)
 
 
 def _bent(points: Points, fit: float) -> _Fit | None:
@@ -223,7 +223,7 @@ def _bent(points: Points, fit: float) -> _Fit | None:
         return None
     below = height - radius
     center = (complex(0.0, -below if turn > 0.0 else below) + size / 2.0) * (chord / size) + points[0]
-    return _Fit(Arc(_pair(points[0]), _pair(points[-1]), _pair(center), Turn(int(turn))), off)
+    return _Fit(Arc(point_of(points[0]), point_of(points[-1]), point_of(center), Turn(int(turn))), off)
 
 
 def _off_arc(local: Points, size: float, height: float) -> float:
@@ -235,7 +235,3 @@ def _off_arc(local: Points, size: float, height: float) -> float:
     middles = (local[1:] + local[:-1]) / 2.0
     every = np.abs(np.concatenate((local, middles)) - center)
     return float(np.abs(every - radius).max())
-
-
-def _pair(point: complex) -> Point:
-    return float(point.real), float(point.imag)

@@ -18,7 +18,7 @@ from typing import Final, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.piece import Arc, Line, Piece, Turn, point_of
 from core.importing.drawing import BSpline, EllipseArc
 
 Points = NDArray[np.complex128]
@@ -455,16 +455,12 @@ def _tangent_arc(start: complex, end: complex, tangent: complex, *, backwards: b
     center = start + normal * (abs(chord) ** 2 / side)
     turn = 1 if side > 0.0 else -1
     if backwards:
-        return Arc(_point(end), _point(start), _point(center), Turn(-turn))
-    return Arc(_point(start), _point(end), _point(center), Turn(turn))
+        return Arc(point_of(end), point_of(start), point_of(center), Turn(-turn))
+    return Arc(point_of(start), point_of(end), point_of(center), Turn(turn))
 
 
 def _line(start: complex, end: complex) -> Line:
-    return Line(_point(start), _point(end))
-
-
-def _point(value: complex) -> Point:
-    return value.real, value.imag
+    return Line(point_of(start), point_of(end))
 
 
 def _deviation(points: Points, pieces: list[Piece]) -> float:

@@ -80,7 +80,7 @@ def _stretch_scene(result: Judged) -> Scene:
         surface,
         path=result.center,
         gouges=[gouge.surface_at for gouge in verdict.gouges],
-        uncut=parts_between(surface, verdict.uncut.ends),
+        uncut=parts_between(surface, verdict.uncut_ends),
     )
 
 

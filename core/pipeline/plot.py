@@ -102,7 +102,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
         over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
-        uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut.ends),
+        uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut_ends),
         cutter=_cutter(block, loops, control, segment),
         current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
@@ -206,13 +206,13 @@ def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
         return ()
     verdict = block_paths.verdict if subject.row is None else subject.row.verdict
     paths = [loop.whole for loop in block_paths.loops] if subject.row is None else [subject.row.compensated.whole]
-    if verdict is None or not (verdict.gouges or len(verdict.uncut)):
+    if verdict is None or not (verdict.gouges or verdict.uncut):
         return ()
     part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
     areas = []
-    if len(verdict.uncut):
-        stretch = parts_between(block_paths.surface, verdict.uncut.ends).paths
-        thick = verdict.uncut.thickness.tolist()
+    if verdict.uncut:
+        stretch = parts_between(block_paths.surface, verdict.uncut_ends).paths
+        thick = [left.thickness for left in verdict.uncut]
         if len(stretch) == len(thick):
             areas.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))
     if verdict.gouges:

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.path import Flags, Path, Rows
-from core.geometry.piece import Point
+from core.geometry.piece import Point, point_of
 from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
@@ -72,14 +72,10 @@ def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
     beyond, numbers = gaps.apart - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
     columns = (*numbers, *gaps.ends, gaps.stretches.last - gaps.stretches.first, beyond, gaps.farthest)
     return tuple(
-        AirCut(first, last, _point(start), _point(end), length, off, _point(farthest))
+        AirCut(first, last, point_of(start), point_of(end), length, off, point_of(farthest))
         for first, last, start, end, length, off, farthest in zip(*(column.tolist() for column in columns), strict=True)
         if off > STOCK
     )
-
-
-def _point(place: complex) -> Point:
-    return place.real, place.imag
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:

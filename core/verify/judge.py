@@ -16,7 +16,7 @@ from core.verify.gouge import closest, gouges, gouging
 from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Leads, Surface
 from core.verify.uncut import covered_walls, uncut
-from core.verify.verdict import NOTHING, UnevenArc, Verdict
+from core.verify.verdict import UnevenArc, Verdict
 from core.verify.wrong_side import sided, wrong_side
 
 
@@ -56,7 +56,7 @@ def judge_together(
     if not measurable(radius, surface, *centers):
         return _unjudged(radius)
     if not len(surface):
-        return Verdict(radius, None, (), NOTHING, 0.0, crosses_itself=False)
+        return Verdict(radius, None, (), (), 0.0, crosses_itself=False)
     return judge_prepared(Surface.prepare(surface, side, leads=leads), radius, centers, arc_tolerance)
 
 
@@ -80,7 +80,7 @@ def judge_prepared(
 
 
 def _unjudged(radius: float, arc: UnevenArc | None = None) -> Verdict:
-    return Verdict(radius, None, (), NOTHING, float("nan"), crosses_itself=False, judged=False, uneven_arc=arc)
+    return Verdict(radius, None, (), (), float("nan"), crosses_itself=False, judged=False, uneven_arc=arc)
 
 
 def _uneven(pieces: PieceArrays, row: int, numbers: Floats, *, on_surface: bool) -> UnevenArc:
@@ -100,7 +100,7 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         radius=radius,
         closest=closest(pairs, surface.path),
         gouges=gouges(deepest, pairs, radius, surface.path, numbers),
-        uncut=NOTHING,
+        uncut=(),
         surface_length=float(walls.stations[-1]),
         crosses_itself=bool(crossed),
         wrong_side=tuple(moves.rows[wrong].tolist()),

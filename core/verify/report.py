@@ -185,15 +185,15 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
     A cutter of radius r leaves (r - f) (1 / cos(t / 2) - 1) at a corner of two lines that turn by t with a rounding of
     radius f, 0 if it is sharp.  If a stretch has another thickness, its corner is not the only cause.
     """
-    order, numbers, count = surface.numbers.argsort(), verdict.uncut.columns[:2], len(surface)
-    first, last = (order[np.searchsorted(surface.numbers, ends, sorter=order)] for ends in numbers)
+    order, ends, count = surface.numbers.argsort(), verdict.uncut_ends, len(surface)
+    first, last = (order[np.searchsorted(surface.numbers, number, sorter=order)] for number in (ends.first, ends.last))
     between, middle, arcs = (last - first) % count - 1, (first + 1) % count, surface.turns != 0
     corner = ~arcs[first] & ~arcs[last] & ((between == 0) | ((between == 1) & arcs[middle]))
     cosines = (surface.end_directions[first] * surface.start_directions[last]).sum(axis=1)
     roundings = np.where(between == 1, surface.radii[middle], 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         left = (verdict.radius - roundings) * (1.0 / np.sqrt((1.0 + cosines) / 2.0) - 1.0)
-    thickness = verdict.uncut.thickness
+    thickness = np.array([stretch.thickness for stretch in verdict.uncut])
     # between opposite lines, or without a path, there is no number
     measured = np.flatnonzero(corner & np.isfinite(left) & np.isfinite(thickness))
     rows = measured[np.abs(thickness[measured] - left[measured]) <= STOCK]

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import inf, nan
+from dataclasses import dataclass, replace
+from math import inf, isnan, nan
 from typing import Final
 
 import numpy as np
 
 from core.geometry.distance import band_places, feet, foot
 from core.geometry.path import Flags, Floats, Path, Points, Rows
-from core.geometry.piece import Side
+from core.geometry.piece import Side, point_of
 from core.geometry.piece_arrays import PieceArrays, at, blocks
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
 from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of, rounding_of
 from core.verify.stretches import Stretches, within
-from core.verify.verdict import NOTHING, UncutStretches
+from core.verify.verdict import Uncut
 
 POINT: Final = 1e-6
 """Millimeters: a part of a piece no longer than this counts as one point."""
@@ -56,29 +56,51 @@ def covered_walls(pairs: Pairs, radius: float, *, closed: bool) -> Flags:
 
 def uncut(
     walls: PieceArrays, moves: PieceArrays, covered: Flags, radius: float, surface: Path, side: Side, *, closed: bool
-) -> UncutStretches:
+) -> tuple[Uncut, ...]:
     """Return the stretches farther than the radius from the moves, in the contour's order and across joints.
 
     Walls that are `covered` are known to be reached.  In a closed contour a stretch that runs over START comes last.
     Stretches that are nowhere thicker than STOCK are left out.
     """
     if covered.all():
-        return NOTHING
+        return ()
     pairs = pairs_of(walls, moves, rounding_of(walls), (~covered).nonzero()[0])
     gaps = gaps_of(pairs, covered, radius)
     if not len(gaps.stretches):
-        return NOTHING
+        return ()
     numbers, stretches = surface.numbers[walls.rows], gaps.stretches
     length, thick = stretches.last - stretches.first, gaps.apart - radius
     area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
     at_start, at_end = stretches.first == 0.0, stretches.last == walls.stations[-1]
     area[~gaps.reached.all(axis=0)] = nan
-    uncut_stretches = UncutStretches(*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
-    if closed and at_start[0] and at_end[-1] and len(uncut_stretches) > 1:
+    columns = (*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
+    found = [
+        Uncut(
+            first, last, point_of(start), point_of(end), size, most, point_of(at), None if isnan(between) else between
+        )
+        for first, last, start, end, size, most, at, between in zip(
+            *(column.tolist() for column in columns), strict=True
+        )
+    ]
+    if closed and at_start[0] and at_end[-1] and len(found) > 1:
         same_corner = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
         both = float(gaps.area[0] + gaps.area[-1]) * side.sign if same_corner else nan
-        uncut_stretches = uncut_stretches.over_start(both if both > 0.0 else nan)
-    return uncut_stretches.keep(uncut_stretches.thickness > STOCK)
+        found = [*found[1:-1], _over_start(found[-1], found[0], both if both > 0.0 else None)]
+    return tuple(stretch for stretch in found if stretch.thickness > STOCK)
+
+
+def _over_start(before: Uncut, after: Uncut, area: float | None) -> Uncut:
+    """Merge a closed contour's last and first stretch, which join over START."""
+    thicker = max(before, after, key=lambda stretch: stretch.thickness)
+    return replace(
+        thicker,
+        first_number=before.first_number,
+        last_number=after.last_number,
+        start=before.start,
+        end=after.end,
+        length=before.length + after.length,
+        area=area,
+    )
 
 
 def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) -> Flags:

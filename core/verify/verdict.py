@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from math import inf, isnan, nan
-from typing import Any, Final, overload
+from math import inf, nan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.geometry.path_parts import PartEnds
 from core.geometry.piece import Point
@@ -70,84 +67,6 @@ class Uncut:
     area: float | None = None
 
 
-class UncutStretches(Sequence[Uncut]):
-    """k stretches in the contour's order, stored as columns (k,): there may be as many as the contour has corners."""
-
-    __slots__ = ("columns", "length", "thickness")
-
-    def __init__(self, *columns: NDArray[Any]) -> None:
-        """Columns in the order of the fields of `Uncut`; points are complex numbers."""
-        self.columns = columns
-        self.length: NDArray[np.float64] = columns[4]
-        self.thickness: NDArray[np.float64] = columns[5]
-
-    def __len__(self) -> int:
-        return len(self.length)
-
-    @overload
-    def __getitem__(self, index: int) -> Uncut: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Uncut, ...]: ...
-
-    def __getitem__(self, index: int | slice) -> Uncut | tuple[Uncut, ...]:
-        if isinstance(index, slice):
-            return tuple(self[row] for row in range(*index.indices(len(self))))
-        row = range(len(self))[index]
-        return next(_stretches(column[row : row + 1] for column in self.columns))
-
-    def __iter__(self) -> Iterator[Uncut]:
-        return _stretches(self.columns)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Sequence) and tuple(self) == tuple(other)
-
-    @property
-    def ends(self) -> PartEnds:
-        """Each stretch's first segment and the start point on it, its last segment and the end point on it."""
-        first, last, start, end = self.columns[:4]
-        return PartEnds(first, start, last, end)
-
-    def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
-        """Return the stretches for which `chosen` (k,) is True."""
-        return self if chosen.all() else UncutStretches(*(column[chosen] for column in self.columns))
-
-    def over_start(self, area: float) -> UncutStretches:
-        """Merge a closed contour's first and last stretch, which join over START, into one with `area`, placed last."""
-        first, last = self[0], self[-1]
-        thicker = max(last, first, key=lambda stretch: stretch.thickness)
-        both = (
-            last.first_number,
-            first.last_number,
-            complex(*last.start),
-            complex(*first.end),
-            last.length + first.length,
-            thicker.thickness,
-            complex(*thicker.thickest),
-            area,
-        )
-        columns = zip(self.columns, both, strict=True)
-        return UncutStretches(*(np.append(column[1:-1], value) for column, value in columns))
-
-
-def _stretches(columns: Iterable[NDArray[Any]]) -> Iterator[Uncut]:
-    """Yield the stretches of columns (k,) one by one."""
-    firsts, lasts, starts, ends, lengths, thicknesses, thickest, areas = columns
-    known = (None if isnan(area) else area for area in areas.tolist())
-    plain = (lengths.tolist(), thicknesses.tolist(), _points(thickest))
-    return map(Uncut, firsts.tolist(), lasts.tolist(), _points(starts), _points(ends), *plain, known)
-
-
-def _points(points: NDArray[np.complex128]) -> Iterator[Point]:
-    return zip(points.real.tolist(), points.imag.tolist(), strict=True)
-
-
-NOTHING: Final = UncutStretches(
-    *(np.zeros(0, kind) for kind in (float, float, complex, complex, float, float, complex, float))
-)
-"""No stretches."""
-
-
 @dataclass(frozen=True, slots=True)
 class UnevenArc:
     """An arc that cannot be judged: its radii at both ends differ by `difference`, which is infinite if the arc may be
@@ -197,7 +116,7 @@ class Verdict:
     radius: float
     closest: Approach | None
     gouges: tuple[Gouge, ...]
-    uncut: UncutStretches
+    uncut: tuple[Uncut, ...]
     surface_length: float
     crosses_itself: bool
     wrong_side: tuple[int, ...] = ()
@@ -234,4 +153,13 @@ class Verdict:
     @property
     def uncut_length(self) -> float:
         """Length of surface that the cutter does not reach."""
-        return float(self.uncut.length.sum())
+        return sum((stretch.length for stretch in self.uncut), 0.0)
+
+    @property
+    def uncut_ends(self) -> PartEnds:
+        """Each uncut stretch's first segment and the start point on it, its last segment and the end point on it."""
+        first = np.array([stretch.first_number for stretch in self.uncut], float)
+        last = np.array([stretch.last_number for stretch in self.uncut], float)
+        start = np.array([complex(*stretch.start) for stretch in self.uncut], complex)
+        end = np.array([complex(*stretch.end) for stretch in self.uncut], complex)
+        return PartEnds(first, start, last, end)
