@@ -62,28 +62,24 @@ class Code:
     value: int = 0
 
 
-def _group(group: str, action: CodeAction, *codes: int) -> dict[int, Code]:
-    return {code: Code(group, action, code) for code in codes}
-
-
 PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
 """The plane that each plane code selects."""
 
-COMMON_CODES: Final[Mapping[int, Code]] = MappingProxyType(
-    {
-        **_group("motion", CodeAction.MOTION, 0, 10, 20, 30, 800),
-        **_group("motion", CodeAction.CYCLE, *range(810, 900, 10)),
-        **_group("plane", CodeAction.PLANE, 170, 180, 190),
-        **_group("units", CodeAction.UNITS, 200, 210),
-        **_group("compensation", CodeAction.SIDE, 400, 410, 420),
-        **_group("length", CodeAction.MODE, 430, 490),
-        **_group("system", CodeAction.SYSTEM, 540, 550, 560, 570, 580, 590),
-        **_group("distance", CodeAction.DISTANCE, 900, 910),
-        **_group("feed", CodeAction.RATE, 930, 940, 950),
-        **_group("once", CodeAction.DWELL, 40),
-        **_group("once", CodeAction.HOME, 280, 300),
-        **_group("once", CodeAction.PRESET, 920),
-    }
+CodeGroup = tuple[str, CodeAction, tuple[int, ...]]
+
+_COMMON: Final[tuple[CodeGroup, ...]] = (
+    ("motion", CodeAction.MOTION, (0, 10, 20, 30, 800)),
+    ("motion", CodeAction.CYCLE, tuple(range(810, 900, 10))),
+    ("plane", CodeAction.PLANE, (170, 180, 190)),
+    ("units", CodeAction.UNITS, (200, 210)),
+    ("compensation", CodeAction.SIDE, (400, 410, 420)),
+    ("length", CodeAction.MODE, (430, 490)),
+    ("system", CodeAction.SYSTEM, (540, 550, 560, 570, 580, 590)),
+    ("distance", CodeAction.DISTANCE, (900, 910)),
+    ("feed", CodeAction.RATE, (930, 940, 950)),
+    ("once", CodeAction.DWELL, (40,)),
+    ("once", CodeAction.HOME, (280, 300)),
+    ("once", CodeAction.PRESET, (920,)),
 )
 """The G codes of every word-address control in cutcomp."""
 
@@ -95,12 +91,10 @@ In the motion group, G80 leaves no motion in force, and is ignored next to anoth
 """
 
 
-def codes(*groups: tuple[str, CodeAction, tuple[int, ...]]) -> Mapping[int, Code]:
+def codes(*groups: CodeGroup) -> Mapping[int, Code]:
     """Return the common codes with a control's own added; its own replace common ones."""
-    added = {
-        code: entry for group, action, numbers in groups for code, entry in _group(group, action, *numbers).items()
-    }
-    return MappingProxyType({**COMMON_CODES, **added})
+    every = (*_COMMON, *groups)
+    return MappingProxyType({code: Code(group, action, code) for group, action, numbers in every for code in numbers})
 
 
 @dataclass(frozen=True, slots=True)

@@ -297,12 +297,16 @@ class ExpressionReader:
             raise FaultError("MACRO", f"A value in square brackets is missing{self._before()}.", begin)
         self.at += 1
         value = self._ranked(0)
-        if self.text[self.at : self.at + 1] != "]":
-            if self.at >= len(self.text):
-                raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
+        if self.at < len(self.text) and self.text[self.at] != "]":
             raise FaultError("MACRO", f"An operator or a closing bracket is missing{self._before()}.", self.at)
-        self.at += 1
+        self._close(begin)
         return value
+
+    def _close(self, begin: int) -> None:
+        """Pass the bracket that closes the one at `begin`."""
+        if self.text[self.at : self.at + 1] != "]":
+            raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
+        self.at += 1
 
     def right_side(self) -> float:
         """Return the value right of an equal sign: that of an expression, on LinuxCNC of a single value."""
@@ -395,9 +399,7 @@ class ExpressionReader:
             raise FaultError("MACRO", "EXISTS takes a name: EXISTS[#<name>].", begin)
         self.at += 2
         name = self.name()
-        if self.text[self.at : self.at + 1] != "]":
-            raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
-        self.at += 1
+        self._close(begin)
         return float(self.values.exists(name))
 
     def _before(self) -> str:

@@ -93,7 +93,7 @@ class Call:
 
     `label` is that of a subprogram called by an O-word, None for the program.  A subprogram called by M98 has its
     `number`, the index of its `start` and how often it runs `again`; it shares its caller's `label` and `opened`.
-    `loops` are the open WHILE and DO loops by number and row; `macro`: it has variables of its own.
+    `loops` are the rows of the open WHILE and DO loops by number; `macro`: it has variables of its own.
     """
 
     back: int
@@ -102,7 +102,7 @@ class Call:
     number: int | None = None
     start: int = 0
     again: int = 0
-    loops: list[tuple[int, int]] = field(default_factory=list)
+    loops: dict[int, int] = field(default_factory=dict)
     macro: bool = False
 
 
@@ -384,11 +384,11 @@ class OWordFlow(Flow):
         tell_unset(reader, word.line, word.row + 1, self.log)
         return values
 
-    def _true(self, word: OWord) -> bool:
+    def _value(self, word: OWord, what: str = "a condition") -> float:
         values = self._values(word, 1)
         if not values:
-            self._stop(word, f"{word.word.lower()} needs a condition in square brackets.")
-        return values[0] != 0.0
+            self._stop(word, f"{word.word.lower()} needs {what} in square brackets.")
+        return values[0]
 
     def _seek(self, word: OWord, *wanted: str) -> OWord:
         """Return the next of the wanted words with the same label after a word."""
@@ -462,7 +462,7 @@ class OWordFlow(Flow):
 
     def _if(self, word: OWord) -> int:
         self._claim_label(word)
-        if self._true(word):
+        if self._value(word):
             self._opened[word.label] = OpenBlock("IF", word.row)
             return word.row + 1
         return self._other_branch(word)
@@ -473,7 +473,7 @@ class OWordFlow(Flow):
             word = self._seek(word, "ELSEIF", "ELSE", "ENDIF")
             if word.word == "ENDIF":
                 return word.row + 1
-            if word.word == "ELSE" or self._true(word):
+            if word.word == "ELSE" or self._value(word):
                 self._opened[word.label] = OpenBlock("IF", word.row)
                 return word.row + 1
 
@@ -494,12 +494,12 @@ class OWordFlow(Flow):
     def _while(self, word: OWord) -> int:
         opened = self._opened.get(word.label)
         if opened is not None and opened.word == "DO":
-            if self._true(word):
+            if self._value(word):
                 return opened.row + 1
             del self._opened[word.label]
             return word.row + 1
         self._claim_label(word)
-        if not self._true(word):
+        if not self._value(word):
             self._opened.pop(word.label, None)
             return self._seek(word, "ENDWHILE").row + 1
         self._opened[word.label] = OpenBlock("WHILE", word.row)
@@ -513,10 +513,7 @@ class OWordFlow(Flow):
 
     def _repeat(self, word: OWord) -> int:
         self._claim_label(word)
-        values = self._values(word, 1)
-        if not values:
-            self._stop(word, "repeat needs a number in square brackets.")
-        times = round(values[0])
+        times = round(self._value(word, "a number"))
         if times <= 0:
             return self._seek(word, "ENDREPEAT").row + 1
         self._opened[word.label] = OpenBlock("REPEAT", word.row, times - 1)

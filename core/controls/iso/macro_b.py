@@ -286,9 +286,7 @@ class MacroReader(ExpressionReader):
         if self.text[self.at : self.at + 1] == ",":
             self.at += 1
             second = self._ranked(0)
-        if self.text[self.at : self.at + 1] != "]":
-            raise FaultError("PS0114", "The bracket is not closed; write the closing one.", begin)
-        self.at += 1
+        self._close(begin)
         self._brackets -= 1
         return first, second
 

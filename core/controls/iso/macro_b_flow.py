@@ -428,7 +428,7 @@ class MacroFlow(Flow):
             raise FaultError("PS0128", f"There is no block N{number:g} in this program. Correct the number.", at)
         target = next((other for other in rows if other > row), rows[0])
         call = self.calls[-1]
-        call.loops = [loop for loop in call.loops if loop[1] < target <= self._end_of(*loop)]
+        call.loops = {loop: begin for loop, begin in call.loops.items() if begin < target <= self._end_of(loop, begin)}
         return target
 
     def _loop_number(self, reader: MacroReader) -> int:
@@ -449,20 +449,14 @@ class MacroFlow(Flow):
         number = self._loop_number(reader)
         end = self._end_of(number, row)
         if not true:
-            self._close_loop(number, row)
+            self.calls[-1].loops.pop(number, None)
             return end + 1
         return self._enter_loop(number, row)
 
     def _enter_loop(self, number: int, row: int) -> int:
         self._end_of(number, row)
-        self._close_loop(number, row)
-        call = self.calls[-1]
-        call.loops.append((number, row))
+        self.calls[-1].loops[number] = row
         return row + 1
-
-    def _close_loop(self, number: int, row: int) -> None:
-        call = self.calls[-1]
-        call.loops = [loop for loop in call.loops if loop != (number, row)]
 
     def _end_of(self, number: int, row: int) -> int:
         """Return the row of the END that belongs to a DO."""
@@ -484,12 +478,12 @@ class MacroFlow(Flow):
 
     def _end_loop(self, number: int, row: int) -> int:
         call = self.calls[-1]
-        open_loops = [begin for opened, begin in call.loops if opened == number and self._end_of(opened, begin) == row]
-        if not open_loops:
+        begin = call.loops.get(number)
+        if begin is None or self._end_of(number, begin) != row:
             text = f"END{number} has no DO{number} before it that is running. A jump must not lead into a loop."
             self.log.stop("PS0124", text, self.numbers[row], 1)
-        call.loops = [loop for loop in call.loops if loop[1] < open_loops[-1]]
-        return open_loops[-1]
+        call.loops = {loop: other for loop, other in call.loops.items() if other < begin}
+        return begin
 
     # words
 
@@ -636,7 +630,7 @@ class MacroFlow(Flow):
         """Follow M99, with P to a block of the calling program; False if it ends the run."""
         call, target = self.calls[-1], block.words.get("P")
         if target is None and (call.again or len(self.calls) == 1):
-            self.rows_without_progress, call.loops = 0, []
+            self.rows_without_progress, call.loops = 0, {}
             return super()._return(block)
         if len(self.calls) > 1:
             if call.macro:
