@@ -27,7 +27,6 @@ from core.controls.iso.reader import (
     Block,
     check_length,
     has_words,
-    is_plain,
     read_line,
     whole,
     whole_word,
@@ -38,8 +37,8 @@ from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
 SIGNS_PER_EXPRESSION: Final = 4
-"""A line that is more than plain words counts as two blocks, plus one for every so many characters: reading it takes
-time, and evaluating expressions takes much more."""
+"""A line counts as a block more for every so many characters: reading it takes time, and evaluating expressions takes
+much more."""
 
 MAX_NESTED: Final = 9
 """How deep subprograms of O-words may nest."""
@@ -248,13 +247,13 @@ class Flow:
         return True
 
     def count_repeat(self, line: int) -> None:
-        """Count a line that is about to run, if it ran before: a plain one as one block, any other as more."""
+        """Count a line that is about to run, if it ran before: a short one as one block, any other as more."""
         if not self.ran[line - 1]:
             self.ran[line - 1] = True
             return
         text = self.lines[line - 1]
         per_block = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
-        self.budget -= 1 if is_plain(text) else 2 + len(text) // per_block
+        self.budget -= 1 + len(text) // per_block
         if self.budget < 0:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
             self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)

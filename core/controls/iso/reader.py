@@ -26,9 +26,6 @@ _CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*[ \t]*+")
 _PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({NUMBER})")
 _DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?[ \t]*+/[ \t]*+({NUMBER})?")
 
-_MOVE_WORDS: Final = re.compile(rf"[ \t]*+(?:[GNXYZIJKRF][ \t]*+{NUMBER}[ \t]*+)+", re.IGNORECASE | re.ASCII)
-
-
 _BRANCH: Final = re.compile(
     r"[ \t]*+(?:N[ \t]*+[0-9]++)?[ \t]*+(IF|WHILE|GOTO|DO|END(?:IF|WHILE)?|THEN|ELSE)(?=[ \t]*+(?:[\[0-9#]|$))"
 )
@@ -138,11 +135,6 @@ def whole_word(
     if number is None or not least <= number <= most:
         log.stop(rule, text, block.line, block.column(letter))
     return number
-
-
-def is_plain(line: str) -> bool:
-    """True if a line has nothing but the words of moves."""
-    return _MOVE_WORDS.fullmatch(line) is not None
 
 
 def is_words(bare: str) -> bool:
