@@ -199,18 +199,16 @@ class VectorQueue(Recorder):
         return self._joined(first, element, offset)
 
     def _joined(self, first: Element, second: Element, offset: float) -> Joint:
-        """Return the joint of a corner with the same radius before and after it."""
-        if _reaches_center(first, offset) or _reaches_center(second, offset):
-            return self._with_point(first, second, offset)
+        """Return the joint of a corner with the same radius before and after it.
+
+        The offset of an arc no larger than the tool is a point or runs backwards, and is met beyond the arc's center.
+        """
+        beyond = _reaches_center(first, offset) or _reaches_center(second, offset)
+        if beyond and corner_kind(first, second, offset, self.rules) is CornerKind.INSIDE:
+            point = meeting(first, second, offset, beyond_center=True)
+            return self._without_meeting(first, second, offset) if point is None else Joint(point, point)
         joint = join(first, second, offset, self.rules)
         return self._without_meeting(first, second, offset) if joint.missed else joint
-
-    def _with_point(self, first: Element, second: Element, offset: float) -> Joint:
-        """Return the joint at an arc no larger than the tool, whose offset is a point or runs backwards."""
-        if corner_kind(first, second, offset, self.rules) is not CornerKind.INSIDE:
-            return join(first, second, offset, self.rules)
-        point = meeting(first, second, offset, beyond_center=True)
-        return self._without_meeting(first, second, offset) if point is None else Joint(point, point)
 
     def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
         if inward_turn(first, second, offset) >= TANGENT:
@@ -292,7 +290,9 @@ class VectorQueue(Recorder):
         while _crosses(held.element, held.vectors[-1], ahead[0]):
             at_start, at_end = len(held.vectors) > 1, len(ahead) > 1
             if not at_start and not at_end:
-                self._crossing(held.element)
+                what = "inside this arc" if held.element.turn else "along this move"
+                text = f"The tool does not fit {what}: its path would run backwards. Use a smaller cutter."
+                self.log.stop(self.alarms.crossing, text, held.element.line, 1, at=held.element.end)
             if at_start:
                 held.vectors.pop()
                 held.center = None
@@ -303,11 +303,6 @@ class VectorQueue(Recorder):
         if dropped:
             text = "Vectors cross here; the control drops some and shortens the way around the corner."
             self.log.tell(Severity.WARNING, "FN-VECTOR", text, held.element.line, 1)
-
-    def _crossing(self, element: Element) -> None:
-        what = "inside this arc" if element.turn else "along this move"
-        text = f"The tool does not fit {what}: its path would run backwards. Use a smaller cutter."
-        self.log.stop(self.alarms.crossing, text, element.line, 1, at=element.end)
 
     # square ends and the cancel
 
