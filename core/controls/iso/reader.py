@@ -107,11 +107,6 @@ class Block:
         """Return the column of the code that turns compensation on."""
         return self.column("G", next((code for code in self.g if code in SWITCHES), None))
 
-    def second(self, letter: str) -> int:
-        """Return the column of the second word of a letter."""
-        columns = [word.column for word in self.written() if word.letter == letter]
-        return columns[1] if len(columns) > 1 else self.start + 1
-
 
 def tenths(value: float) -> int | None:
     """Return a code in tenths, None if the number is not a code."""
@@ -273,10 +268,11 @@ def fill_words(
 
 
 def _tell_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
+    column = [word.column for word in block.written() if word.letter == letter][1]
     if not syntax.last_counts:
-        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
+        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, column)
     text = f"{letter} is written twice in this block; the control takes the last one."
-    log.tell(Severity.WARNING, "TWICE", text, block.line, block.second(letter))
+    log.tell(Severity.WARNING, "TWICE", text, block.line, column)
 
 
 def _fault(block: Block, bare: str, log: Log, syntax: Syntax) -> None:
