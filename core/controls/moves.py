@@ -145,15 +145,14 @@ def runs_of(flags: Flags) -> list[Rows]:
     return np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []
 
 
-WIDTH: Final = 11
-"""Numbers in a row of a tape: x, y, z, center x, y, z, turn, plane, rapid, feed, line."""
-
-_ROW: Final = Struct(f"{WIDTH}d")
-_POINT: Final = Struct("3d")
+_ROW: Final = Struct("=6dbb?di")
+_POINT: Final = Struct("=3d")
+_TABLE: Final = np.dtype("3f8,3f8,i1,i1,?,f8,i4")
+"""A row of a tape, as `_ROW` packs it: one of each array of `Moves`, in their order."""
 
 
 class Tape:
-    """Records moves, as a row of `WIDTH` doubles each.
+    """Records moves, as packed rows.
 
     While `lost` is set, the tool axis is at a machine position: the height of the moves recorded then is not known, and
     their rows are kept in `unplaced`.
@@ -199,13 +198,5 @@ class Tape:
 
     def moves(self) -> Moves:
         """Return everything recorded so far."""
-        table = np.frombuffer(bytes(self._packed), np.float64).reshape(-1, WIDTH)
-        return Moves(
-            table[:, 0:3].copy(),
-            table[:, 3:6].copy(),
-            table[:, 6].astype(np.int8),
-            table[:, 7].astype(np.int8),
-            table[:, 8].astype(np.bool_),
-            table[:, 9].copy(),
-            table[:, 10].astype(np.int32),
-        )
+        table = np.frombuffer(bytes(self._packed), _TABLE)
+        return Moves(*(np.ascontiguousarray(table[name]) for name in _TABLE.names or ()))
