@@ -161,7 +161,12 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
             for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
         ]
     if results:
-        contours = _cut_contours(run, results)
+        contours = [
+            CutContour(
+                result.surface, result.stretch, highest_cut(result.stretch), _accepted_difference(run, result.surface)
+            )
+            for result in results
+        ]
         cuts = tuple(cut for cut in moves_through(run, contours) if cut.gouge.depth >= least)
         others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated=cuts, of_others=others)
@@ -171,16 +176,6 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
 def _is_cut_short(run: ControlRun, stretch: Stretch) -> bool:
     """True if the control stops within the stretch."""
     return run.stopped_at is not None and stretch.last == len(run.moves)
-
-
-def _cut_contours(run: ControlRun, results: Sequence[Judged]) -> list[CutContour]:
-    """Return the contours of these results, each with its highest cut and the difference in arc radii it accepts."""
-    return [
-        CutContour(
-            result.surface, result.stretch, highest_cut(result.stretch), _accepted_difference(run, result.surface)
-        )
-        for result in results
-    ]
 
 
 def _without_shallow(result: Judged, least: float) -> Judged:

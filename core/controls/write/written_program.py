@@ -75,14 +75,21 @@ def _klartext(
 def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
     style = STYLES[control]
     led: dict[Compensated, PassWithLeads | Finding] = {}
+    runs, refusals = list[PassWithLeads | UncompensatedPass](), dict[Finding, None]()
     for cut in cuts:
-        if isinstance(cut, CompensatedPass) and cut.compensated not in led:
-            result = _with_clear_leads(cut, style)
-            led[cut.compensated] = replace(result, block=cut.block) if isinstance(result, Finding) else result
-    refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
+        if isinstance(cut, UncompensatedPass):
+            runs.append(cut)
+            continue
+        # all cuts of a contour share its leads
+        if cut.compensated not in led:
+            led[cut.compensated] = _with_clear_leads(cut, style)
+        run = led[cut.compensated]
+        if isinstance(run, Finding):
+            refusals[replace(run, block=cut.block)] = None
+        else:
+            runs.append(replace(run, contour_pass=cut))
     if refusals:
-        return NotWritten(refusals)
-    runs = [cut if isinstance(cut, UncompensatedPass) else _run(cut, led) for cut in cuts]
+        return NotWritten(tuple(refusals))
     digit = to_mm(10.0 ** -style.digits(frame.unit), frame.unit)
 
     def write(notes: Sequence[Finding]) -> Intended:
@@ -90,13 +97,6 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
         return Intended(control, lines, tuple(cuts), tools_of(cuts, style), frame.unit, digit, leads=True)
 
     return _confirmed(write)
-
-
-def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding]) -> PassWithLeads:
-    """Return a cut with the leads that all cuts of its contour share."""
-    run = led[cut.compensated]
-    assert isinstance(run, PassWithLeads)
-    return replace(run, contour_pass=cut)
 
 
 def _with_clear_leads(cut: CompensatedPass, style: IsoStyle) -> PassWithLeads | Finding:
