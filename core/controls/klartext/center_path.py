@@ -18,10 +18,11 @@ from core.controls.compensation.recorder import record_programmed
 from core.controls.control_run import Log, Stretch
 from core.controls.klartext import lead_curves
 from core.controls.klartext.lead_curves import Lead, LeadShape
-from core.controls.klartext.m120 import CenterPathPiece, PathAhead, Unreached, path_ahead
+from core.controls.klartext.m120 import PathAhead, Unreached, path_ahead
 from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.finding import Severity
-from core.geometry.piece import Point, Side
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Point, Side
 from core.tolerance import JOINED
 
 KLARTEXT_CORNERS: Final = CornerRules(tangent=0.0, touching=JOINED)
@@ -372,28 +373,29 @@ class CenterPathRecorder:
         path = path_ahead([step.element for step in steps], steps[0].offset, steps[-1].ahead, stands)
         if isinstance(path, Unreached):
             if path.before:
-                self._run_along(steps, path.before, path.before.runs)
+                self._run_along(steps, path.before, path.before.path)
                 self.record.note(*steps[: path.row])
             self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
         for row in path.left_out:
             self._tell(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
-        runs, last = (path.runs[:-1], path.runs[-2:-1]) if goes_on else (path.runs, ())
-        self._run_along(steps, path, runs)
+        along = path.path.part(0, len(path.path) - int(goes_on))
+        self._run_along(steps, path, along)
         self.record.note(*(steps[:-1] if goes_on else steps))
         if goes_on:
-            self.held, self.begin = steps[-1], last[0].end if last else path.start
+            self.held, self.begin = steps[-1], along[-1].end if len(along) else path.start
 
-    def _run_along(self, steps: list[ProgrammedStep], path: PathAhead, runs: tuple[CenterPathPiece, ...]) -> None:
-        """Run any entry to a path computed ahead, then pieces of the path."""
+    def _run_along(self, steps: list[ProgrammedStep], ahead: PathAhead, path: Path) -> None:
+        """Run any entry to a path computed ahead, then a part of the path."""
         if self.entry:
-            self._arrive(self.entry, path.start, path.way)
-        for run in runs:
-            step = steps[run.row]
+            self._arrive(self.entry, ahead.start, ahead.way)
+        for piece, number in zip(path, path.numbers.tolist(), strict=True):
+            step = steps[int(number)]
             height = step.element.end_height
-            if run.turn:
-                self.record.arc(run.end, height, run.center, run.turn, step, None if run.corner else step.arc_feed)
+            if isinstance(piece, Arc):
+                feed = step.arc_feed if number == int(number) else None
+                self.record.arc(piece.end, height, piece.center, piece.turn, step, feed)
             else:
-                self.record.line(run.end, height, step)
+                self.record.line(piece.end, height, step)
 
     def _tell(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
         self.log.tell(severity, code, text, step.element.line, step.element.column, lengths=lengths)

@@ -6,42 +6,33 @@ does not machine what lies between.  This is the look-ahead rule of a MILL CONTO
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from typing import NamedTuple
 
 import numpy as np
 
 from core.comp.compensate import compensate
-from core.comp.compensated import Compensated
 from core.controls.compensation.elements import SAME_DIRECTION, Element, offset_end, sweep
 from core.geometry.path import Path
 from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
 
 
-class CenterPathPiece(NamedTuple):
-    """A piece of the center path: its element's row, whether it is a corner, its end, and an arc's center and turn."""
-
-    row: int
-    corner: bool
-    end: Point
-    center: Point
-    turn: int
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class PathAhead:
-    """The center path along some elements: its start point and direction, its pieces, and the elements left out."""
+    """The center path along some elements, where and in which direction it starts, and the elements left out.
 
+    A piece's number is its element's row, and a half more at the corner after it.
+    """
+
+    path: Path
     start: Point
     way: Point
-    runs: tuple[CenterPathPiece, ...]
-    left_out: tuple[int, ...]
+    left_out: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Unreached:
     """The element at which the control would still stop, and why; `{0}` is the tool's radius.
 
@@ -60,15 +51,26 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     """
     side = Side.LEFT if offset > 0.0 else Side.RIGHT
     compensated = compensate(_contour(elements), side, abs(offset), depth, closed=False)
-    if not len(compensated.path):
+    path = compensated.path
+    if not len(path):
         return Unreached(0, "the {0}-radius tool cannot reach any of this contour")
+    start, way = path[0].start, _point(path.start_directions[0])
     if bool(compensated.bridged.any()):
-        row = int(compensated.path.numbers[compensated.bridged][0])
-        start, way = _point(compensated.path.points[0]), _point(compensated.path.start_directions[0])
-        before = PathAhead(begin or start, way, tuple(run for run in _pieces(compensated.path) if run.row < row), ())
+        row = int(path.numbers[compensated.bridged][0])
+        before = PathAhead(path.part(0, int((path.numbers < row).sum())), begin or start, way)
         why = "the {0}-radius tool cannot get past this block within the blocks of LA"
         return Unreached(row, why, before)
-    return _checked(compensated, elements, offset, begin)
+    last, end = len(elements) - 1, path[-1].end
+    if path.numbers[0] != 0.0:
+        return Unreached(0, "the {0}-radius tool cannot reach any of this block, the first one of M120")
+    if not _near(end, offset_end(elements[-1], offset)) or int(path.numbers[-1]) != last:
+        return Unreached(last, "the {0}-radius tool cannot reach the end of this block, the last one of M120")
+    if begin is not None and not _near(begin, start):
+        if _trimmed_away(elements[0], start, begin, path[0].end):
+            return Unreached(0, "the {0}-radius tool has no length left for this block between its neighbors")
+        start = begin
+    left_out = tuple(int(number) for number in compensated.deleted.segments.tolist() if number == int(number))
+    return PathAhead(path, start, way, left_out)
 
 
 def _contour(elements: Sequence[Element]) -> Path:
@@ -78,31 +80,6 @@ def _contour(elements: Sequence[Element]) -> Path:
     return Path.of(
         points, np.array([element.center for element in elements]), turns, np.arange(len(elements), dtype=np.float64)
     )
-
-
-def _checked(
-    compensated: Compensated, elements: Sequence[Element], offset: float, begin: Point | None
-) -> PathAhead | Unreached:
-    """Return the path if its first and last piece belong to the first and last element, else where it fails."""
-    path, last = compensated.path, len(elements) - 1
-    runs = tuple(_pieces(path))
-    if runs[0].row != 0 or runs[0].corner:
-        return Unreached(0, "the {0}-radius tool cannot reach any of this block, the first one of M120")
-    if not _near(runs[-1].end, offset_end(elements[-1], offset)) or runs[-1].row != last:
-        return Unreached(last, "the {0}-radius tool cannot reach the end of this block, the last one of M120")
-    start, way = _point(path.points[0]), _point(path.start_directions[0])
-    if begin is not None and not _near(begin, start):
-        if _trimmed_away(elements[0], start, begin, runs[0].end):
-            return Unreached(0, "the {0}-radius tool has no length left for this block between its neighbors")
-        start = begin
-    left_out = tuple(int(number) for number in compensated.deleted.segments.tolist() if number == int(number))
-    return PathAhead(start, way, runs, left_out)
-
-
-def _pieces(path: Path) -> Iterator[CenterPathPiece]:
-    numbers, turns = path.numbers.tolist(), path.turns.tolist()
-    for number, turn, end, center in zip(numbers, turns, path.ends, path.centers, strict=True):
-        yield CenterPathPiece(int(number), number != int(number), _point(end), _point(center), turn)
 
 
 def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
