@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from typing import Final
 
-from core.units import MAX_QUOTED
+from core.units import printable
 
 BYTE_ORDER_MARKS: Final = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")
 """The marks of UTF-8 and UTF-16 that may begin a file."""
 
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
+_BRACES: Final = str.maketrans("{}", "??")
 
 
 def lines_of(text: bytes) -> list[str]:
@@ -42,6 +43,4 @@ def capitals(text: str) -> str:
 
 def quoted(text: str) -> str:
     """Return a piece of a program as a message may quote it: short, and without anything that a terminal would obey."""
-    text = text.strip()
-    safe = "".join(sign if sign.isprintable() and sign not in "{}" else "?" for sign in text[:MAX_QUOTED])
-    return f"{safe}..." if len(text) > MAX_QUOTED else safe
+    return printable(text.translate(_BRACES))

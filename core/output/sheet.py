@@ -19,7 +19,7 @@ from core.output.grid import Grid, length_text
 from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Pass, passes, rough_runs
 from core.output.times import block_times, program_times, times_text
-from core.units import Kind, Unit, from_mm, located_sentence, show
+from core.units import Kind, Unit, from_mm, located_sentence, plain, show
 
 PAGE_COLUMNS: Final = 78
 """Columns of the plain text."""
@@ -212,12 +212,7 @@ def as_text(sheet: Sheet) -> str:
     lines += [first, *(line for text in rest for line in _wrapped(f"{mark} {text}"))]
     for section in (sheet.tools, *sheet.blocks):
         lines += ["", section.title, "-" * PAGE_COLUMNS, *_text_section(section)]
-    return "\n".join(_printable_line(line).rstrip() for line in lines) + "\n"
-
-
-def _printable_line(text: str) -> str:
-    """Return text on one line, with a question mark for each character that does not print."""
-    return "".join(sign if sign.isprintable() else "?" for sign in text)
+    return "\n".join(plain(line).rstrip() for line in lines) + "\n"
 
 
 def _text_section(section: Section) -> Iterator[str]:
@@ -234,20 +229,20 @@ def _text_section(section: Section) -> Iterator[str]:
 
 def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
     for label, text in pairs:
-        first, *rest = wrap(_printable_line(text), PAGE_COLUMNS - LABEL - 1) or [""]
+        first, *rest = wrap(plain(text), PAGE_COLUMNS - LABEL - 1) or [""]
         yield f"{label:<{LABEL}} {first}"
         yield from (f"{'':<{LABEL}} {line}" for line in rest)
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     """Yield rows with columns as wide as their longest text, aligned right."""
-    widths = [max(len(_printable_line(row[column])) for row in rows) for column in range(len(rows[0]))]
+    widths = [max(len(plain(row[column])) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
-        yield "  ".join(f"{_printable_line(text):>{width}}" for text, width in zip(row, widths, strict=True))
+        yield "  ".join(f"{plain(text):>{width}}" for text, width in zip(row, widths, strict=True))
 
 
 def _wrapped(text: str) -> list[str]:
-    return wrap(_printable_line(text), PAGE_COLUMNS - 2, initial_indent="  ", subsequent_indent="     ")
+    return wrap(plain(text), PAGE_COLUMNS - 2, initial_indent="  ", subsequent_indent="     ")
 
 
 def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
@@ -268,7 +263,7 @@ def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
 
 
 def _escaped(text: str) -> str:
-    return escape(_printable_line(text))
+    return escape(plain(text))
 
 
 def _page_verdict(sheet: Sheet) -> Iterator[str]:
