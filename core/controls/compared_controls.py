@@ -16,13 +16,11 @@ from core.controls.iso.flow import ProgramLibrary
 from core.controls.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
+from core.controls.write.read_back import MIN_TOLERANCE
 from core.controls.write.rewritten_stretch import NotTranslated
 from core.geometry.path import EMPTY, Floats, Path
 from core.progress import Progress, part, silent
 from core.units import Unit
-
-MIN_WRITTEN_APART: Final = 0.001
-"""Millimeters above which a rewritten path differs, unless two of its last digits are more."""
 
 RUN_SHARE: Final = 0.3
 """The share of a control's progress that the run takes; its verdicts take the rest."""
@@ -107,7 +105,7 @@ def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compa
     if isinstance(made, NotTranslated):
         return OtherLanguage(control, made.text)
     done, digit = made
-    parts = _centers_part(first, done, max(MIN_WRITTEN_APART, 2 * digit)) if paths else None
+    parts = _centers_part(first, done, max(MIN_TOLERANCE, 2 * digit)) if paths else None
     return _row(done, parts, by=first.control, of=first.control)
 
 

@@ -237,13 +237,13 @@ def _passes_over(run: ControlRun, part: Stretch, lead: Moves, contours: Contours
 
 
 def _cuts_of(
-    run: ControlRun, part: Stretch, center: Path, contours: Sequence[Path]
+    run: ControlRun, part: Stretch, center: Path, contours: Sequence[Path], leads: Leads = Leads.MOVES
 ) -> tuple[list[Gouge], list[Judged], float]:
     """Return a path's cuts into contours, the contours that cannot be judged, and the tolerance uneven arcs add."""
     gouges, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for contour in contours:
         accepted = _accepted_difference(run, contour, center)
-        verdict = judge(contour, part.side, part.radius, center, accepted, leads=Leads.MOVES)
+        verdict = judge(contour, part.side, part.radius, center, accepted, leads=leads)
         if verdict.judged:
             gouges += verdict.gouges
             slack = max(slack, verdict.radius_slack)
@@ -322,21 +322,19 @@ def _with_other_parts(
 
     Gouges are assigned by row, because a subprogram's lines may be in several parts.
     """
-    part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
-    accepted = _accepted_difference(run, whole, result.center)
-    more, unjudged, slack = list[Gouge](), list[Judged](), 0.0
+    numbered, surfaces = replace(whole, numbers=np.arange(len(whole), dtype=np.float64)), list[Path]()
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
         # each separately, because a pass of another part does not repeat one of this part
-        surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
-        verdict = judge(surface, part.side, part.radius, result.center, accepted)
-        if not verdict.judged:
-            unjudged.append(Judged(part, surface, result.center, _numbered(verdict, whole), frozenset()))
-            continue
-        slack = max(slack, verdict.radius_slack)
-        others = [gouge for gouge in verdict.gouges if not rows[0] <= gouge.surface_number < rows[1]]
-        more += (replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)])) for gouge in others)
-    return _with_gouges(result, more, slack, (whole, result.center)), unjudged
+        surfaces.append(joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)]))
+    gouges, unjudged, slack = _cuts_of(run, result.stretch, result.center, surfaces, Leads.SEGMENTS)
+    others = [
+        replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)]))
+        for gouge in gouges
+        if not rows[0] <= gouge.surface_number < rows[1]
+    ]
+    unknown = [replace(each, verdict=_numbered(each.verdict, whole)) for each in unjudged]
+    return _with_gouges(result, others, slack, (whole, result.center)), unknown
 
 
 def _numbered(verdict: Verdict, surface: Path) -> Verdict:
