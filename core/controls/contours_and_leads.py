@@ -167,7 +167,13 @@ def _running_over(path: Path, point: Floats, way: Floats) -> tuple[Rows, Floats]
         straight_on = (direction(pieces, share) * np.conj(complex(*way))).real > cos(BLEND)
     reach, ends_apart = share * pieces.length, (path.starts != path.ends).any(axis=1)[pieces.rows]
     over = near & straight_on & (reach > CLOSED) & (reach < pieces.length - CLOSED) & ends_apart
-    return pieces.rows[over], coordinates(at(pieces, share)[over])
+    rows, places = pieces.rows[over], coordinates(at(pieces, share)[over])
+    # the ends of a rounded arc have two radii: with one between them here, neither half is more uneven than the whole
+    arms, last_arms = places - path.centers[rows], (path.ends - path.centers)[rows]
+    first, last = path.radii[rows], np.hypot(last_arms[:, 0], last_arms[:, 1])
+    size = np.hypot(arms[:, 0], arms[:, 1])
+    grown = (first + share[over] * (last - first)) / np.where(size == 0.0, 1.0, size)
+    return rows, np.where(path.turns[rows, None] == 0, places, path.centers[rows] + arms * grown[:, None])
 
 
 def _split(path: Path, rows: Rows, places: Floats) -> Path:
