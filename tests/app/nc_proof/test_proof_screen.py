@@ -93,8 +93,8 @@ async def at_proof(
 
 async def with_tool(user: Proof, text: str = "1=.25") -> None:
     await user.press("t")
-    await user.press(*text, "enter")
-    await user.settle()
+    await user.send(*text)
+    await user.press("enter")
 
 
 async def test_an_unknown_tool_stops_the_control_until_its_diameter_is_typed(tmp_path):
@@ -150,6 +150,18 @@ async def test_the_listing_takes_no_keys_while_the_drawing_hides_it(tmp_path):
         assert listing.region
 
 
+async def test_next_finding_brings_its_place_into_an_enlarged_drawing(tmp_path):
+    async with at_proof(tmp_path) as user:
+        await with_tool(user)
+        await user.press("f7", "+", "+")
+        for _ in range(2):
+            before = user.line
+            await user.press("n")
+            assert user.line != before
+            assert user.proof.view_of is not None
+            assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
+
+
 async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     async with at_proof(tmp_path) as user:
@@ -162,30 +174,41 @@ async def test_the_new_program_beside_an_nc_text_can_be_saved(tmp_path, monkeypa
         assert not user.app.document.unsaved
 
 
-async def test_home_over_an_nc_text_shows_its_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir("/")
-    async with at_proof(tmp_path) as user:
-        await user.press("ctrl+o")
-        assert isinstance(user.app.screen, HomeScreen)
-        assert user.app.screen.folder == tmp_path
-
-
-async def test_n_and_p_step_through_the_findings_and_their_lines(tmp_path):
+async def test_n_and_p_step_through_the_findings_from_the_gravest_one(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user)
-        lines = [int(text.split()[1].rstrip(":")) for text in user.findings()]
+        options = user.proof.query_one("#proof-findings", OptionList)
+        lines = [finding.line for finding in user.proof.result_findings]
+        weights = [finding.severity for finding in user.proof.result_findings]
+        assert lines == [int(text.split()[1].rstrip(":")) for text in user.findings()]
+        assert weights[0] is not Severity.ERROR
+        assert options.highlighted == weights.index(Severity.ERROR)
         await user.press("n")
         assert user.line == lines[0]
         assert user.findings()[0].endswith(f"{lines[0]}: {user.prompt}")
         await user.press("n", "p")
         assert user.line == lines[0]
+        await user.press(">")
+        assert user.line == lines[options.highlighted], "the chosen one stays highlighted after another run"
 
 
 async def test_letters_change_nothing_until_the_listing_is_edited(tmp_path):
     async with at_proof(tmp_path) as user:
+        title, name = user.proof.query_one("#proof-mode", Label), user.proof.query_one("#proof-file", Label)
         await user.press("x", "y")
         assert not user.proof.document.unsaved
-        await user.press("enter", "x")
+        assert (str(title.content), str(name.content)) == ("NC PROOF", "p.nc")
+        await user.press("n", "enter")
+        assert (str(title.content), str(name.content)) == ("NC EDIT", "p.nc")
+        assert user.prompt.startswith("Editing.")
+        await user.press("x")
+        assert str(name.content) == "p.nc *", "the name marks a line being typed as unsaved"
+        assert "not saved" in str(user.proof.query_one(Status).query_one("#undo", Label).content)
+        await user.press("backspace")
+        assert str(name.content) == "p.nc"
+        await user.press("escape")
+        assert str(title.content) == "NC PROOF"
+        await user.press(*["up"] * 6, "enter", "x")
         assert not user.proof.document.unsaved
         await user.press("down")
         assert user.proof.document.text.text(0) == "xG20 G17 F10"
@@ -202,48 +225,26 @@ async def test_an_edited_line_is_journaled_when_the_cursor_leaves_it(tmp_path):
         await user.press("escape", "f8")
         assert isinstance(user.app.screen, Question)
         await user.press("d")
-        await user.settle()
         assert not isinstance(user.app.screen, ProofScreen)
         assert (tmp_path / "p.nc").read_bytes() == PROGRAM
         assert not (tmp_path / ".p.nc.cutcomp-journal").exists()
 
 
-async def test_the_gravest_finding_is_highlighted_until_another_is_chosen(tmp_path):
+async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_header(tmp_path):
+    plate = derive(load(example("plate-mm")))
     async with at_proof(tmp_path) as user:
-        await with_tool(user)
-        options = user.proof.query_one("#proof-findings", OptionList)
-        lines = [finding.line for finding in user.proof.result_findings]
-        weights = [finding.severity for finding in user.proof.result_findings]
-        assert weights[0] is not Severity.ERROR
-        assert options.highlighted == weights.index(Severity.ERROR)
-        await user.press("n", ">")
-        await user.settle()
-        assert user.line == lines[options.highlighted]
-
-
-async def test_the_last_chosen_control_is_used_for_the_next_program(tmp_path):
-    async with at_proof(tmp_path) as user:
-        assert user.proof.question.control == "linuxcnc"
-        await user.press("c", "home", "enter")
-        await user.settle()
-        chosen = user.proof.question.control
-        assert chosen == user.app.settings.control != "linuxcnc"
-        text = user.proof.document.text
-    assert likely_control(text, chosen) == chosen
-    assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
-    assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), chosen) == "klartext"
-
-
-@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "klartext", "nine-series:b", "rosettacnc:normal"])
-async def test_a_posted_program_opens_with_the_control_and_the_tools_of_its_header(tmp_path, control):
-    posted = post_control_program(derive(load(example("plate-mm"))), name="plate", control=control)
-    assert isinstance(posted, Posted), posted
-    async with at_proof(tmp_path, posted.text.encode()) as user:
-        assert user.proof.question.control == control
-        assert "runs" in user.outcome
-        assert user.app.settings.tools_of(tmp_path / "p.nc") == ""
-        if control != "klartext":
-            assert user.prompt.endswith("Its tools are those that its header names.")
+        for control in ("fanuc:a", "haas:a", "klartext", "nine-series:b", "rosettacnc:normal"):
+            posted = post_control_program(plate, name="plate", control=control)
+            assert isinstance(posted, Posted), posted
+            path = tmp_path / f"{control.partition(':')[0]}.nc"
+            path.write_bytes(posted.text.encode())
+            user.app.open_file(path)
+            await user.settle()
+            assert user.proof.question.control == control
+            assert "runs" in user.outcome, control
+            assert user.app.settings.tools_of(path) == "", control
+            if control != "klartext":
+                assert user.prompt.endswith("Its tools are those that its header names."), control
 
 
 def test_tools_in_the_comments_of_another_program_are_not_taken_for_a_header():
@@ -253,45 +254,41 @@ def test_tools_in_the_comments_of_another_program_are_not_taken_for_a_header():
     assert header_tools(NcText.read(ours)).tools == {1: CutterTool(1, 0.5, unit=Unit.IN)}
 
 
-async def test_tools_that_were_typed_come_before_those_of_the_header(tmp_path):
+async def test_tools_of_the_last_time_come_before_those_of_the_header(tmp_path):
     posted = post_control_program(derive(load(example("overrun-square"))), name="square", control="fanuc:a")
     assert isinstance(posted, Posted), posted
     async with at_proof(tmp_path, posted.text.encode()) as user:
         assert user.proof.question.tools.get(1) == CutterTool(1, 0.5, unit=Unit.IN)
         await with_tool(user, "1=.625")
-        await user.press("f8")
-        user.app.open_file(tmp_path / "p.nc")
-        await user.settle()
-        assert user.proof.question.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
-        assert "the last time" in user.prompt
-
-
-async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path):
-    async with at_proof(tmp_path) as user:
-        await user.press("c", "h", "h", "enter")
-        await user.settle()
-        assert user.proof.question.control == "haas:a"
-        await user.press("c", *"fanuc:b", "enter")
-        await user.settle()
-        assert user.proof.question.control == "fanuc:b"
-        await user.press("c", "t", "x", "enter")
-        await user.settle()
-        assert user.proof.question.control == "threeblock"
-
-
-async def test_a_reopened_program_has_the_tools_of_the_last_time(tmp_path):
-    async with at_proof(tmp_path) as user:
-        await with_tool(user)
         await with_tool(user, "2=6mm")
         saved_tools = user.app.settings.tools_of(tmp_path / "p.nc")
-        assert saved_tools == "1=0.25in 2=0.23622047244094488in"
+        assert saved_tools == "1=0.625in 2=0.23622047244094488in"
         await user.press("f8")
         user.app.open_file(tmp_path / "p.nc")
         await user.settle()
         assert user.proof.question.tools.tools == read_tools(saved_tools).tools
-        assert user.proof.question.tools.get(1) == CutterTool(1, 0.25, unit=Unit.IN)
+        assert user.proof.question.tools.get(1) == CutterTool(1, 0.625, unit=Unit.IN)
         assert "the last time" in user.prompt
+
+
+def test_damaged_tools_of_the_last_time_are_left_out():
     assert read_tools("1=..5in 0=x 2=5 3=-5e-1in x").tools == {3: CutterTool(3, -0.5, unit=Unit.IN)}
+
+
+async def test_a_letter_jumps_to_the_control_whose_name_begins_with_it(tmp_path):
+    async with at_proof(tmp_path) as user:
+        assert user.proof.question.control == "linuxcnc"
+        for letters, control in (("hh", "haas:a"), ("fanuc:b", "fanuc:b"), ("tx", "threeblock")):
+            await user.press("c", *letters, "enter")
+            assert user.proof.question.control == control
+        assert user.app.settings.control == "threeblock"
+
+
+def test_the_last_chosen_control_is_used_for_the_next_program():
+    text = NcText.read(PROGRAM)
+    assert likely_control(text, "threeblock") == "threeblock"
+    assert likely_control(text, "klartext") == likely_control(text, "of no shop") == "linuxcnc"
+    assert likely_control(NcText.read(b"BEGIN PGM A MM\n"), "threeblock") == "klartext"
 
 
 async def test_all_controls_are_compared_and_one_can_be_chosen(tmp_path):
@@ -309,41 +306,39 @@ async def test_all_controls_are_compared_and_one_can_be_chosen(tmp_path):
         assert not any("On the command line" in prompt for prompt in prompts.values())
         chosen = rows.get_option_at_index(1).id
         await user.press("down", "enter")
-        await user.settle()
         assert user.proof.question.control == chosen
 
 
 async def dot(user: Proof, control: str) -> None:
     """Draw the path of a control dotted, chosen in the list that V opens."""
     await user.press("v")
-    await user.settle()
     rows = user.app.screen.query_one("#compared", OptionList)
     rows.highlighted = rows.get_option_index(control)
     await user.press("space")
-    await user.settle()
 
 
-@pytest.mark.parametrize("size", [(80, 24), (200, 60)])
-async def test_the_path_of_another_control_is_drawn_dotted(tmp_path, size):
-    async with at_proof(tmp_path, size=size) as user:
+async def test_the_path_of_another_control_is_drawn_dotted(tmp_path):
+    async with at_proof(tmp_path) as user:
         await with_tool(user, "1=.75")
-        result = user.proof.result
-        await dot(user, "fanuc:a")
-        assert user.proof.result is result, "its own run is not made again"
-        assert user.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
-        assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
-        assert Style.UNTAKEN in drawn(user, "proof-drawing")
-        dotted = user.proof.query_one("#proof-dotted", Drawing)
-        assert bool(dotted.region) == (size == (200, 60))
-        if dotted.region:
-            assert Style.UNTAKEN not in drawn(user, "proof-dotted")
-            assert dotted.heading == "fanuc:a: gouges by 0.3750 at line 6"
-        await user.press("b")
-        await user.settle()
-        assert user.proof.result is result
-        assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
-        assert Style.UNTAKEN not in drawn(user, "proof-drawing")
-        assert not user.proof.query_one("#proof-dotted", Drawing).region
+        for size in ((80, 24), (200, 60)):
+            await user.pilot.resize_terminal(*size)
+            await user.settle()
+            result = user.proof.result
+            await dot(user, "fanuc:a")
+            assert user.proof.result is result, "its own run is not made again"
+            assert user.prompt == "Dotted: fanuc:a gouges by 0.3750 at line 6. B removes it."
+            assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc, dotted fanuc:a"
+            assert Style.UNTAKEN in drawn(user, "proof-drawing")
+            dotted = user.proof.query_one("#proof-dotted", Drawing)
+            assert bool(dotted.region) == (size == (200, 60))
+            if dotted.region:
+                assert Style.UNTAKEN not in drawn(user, "proof-dotted")
+                assert dotted.heading == "fanuc:a: gouges by 0.3750 at line 6"
+            await user.press("b")
+            assert user.proof.result is result
+            assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
+            assert Style.UNTAKEN not in drawn(user, "proof-drawing")
+            assert not user.proof.query_one("#proof-dotted", Drawing).region
 
 
 async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
@@ -362,7 +357,6 @@ async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
         for _ in range(4):
             await user.press("down")
         await user.press("enter", "end", "backspace", "5", "escape")
-        await user.settle()
         assert dotted_end() == ("fanuc:a", [79.375, 127.0])
         await dot(user, "haas:a")
         assert dotted_end()[0] == "haas:a"
@@ -372,7 +366,6 @@ async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
         await user.press("c")
         user.app.screen.query_one("#answers", OptionList).highlighted = 0
         await user.press("enter")
-        await user.settle()
         assert user.app._works == ()
 
 
@@ -390,7 +383,6 @@ async def test_stopping_the_dotted_run_leaves_the_verdict_unchanged(tmp_path, mo
         monkeypatch.setattr("app.nc_proof.screen.run_dotted", endless)
         monkeypatch.setattr(Work, "stoppable", True)
         await user.press("v")
-        await user.settle()
         # not user.press: it would wait for the endless run
         await user.pilot.press("down", "space")
         while not started.is_set():
@@ -424,11 +416,9 @@ async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path
         await user.press(*"x", "enter")
         assert "type a number" in str(user.app.screen.query_one("#phrase-trouble", Static).content)
         await user.press("backspace", *".25", "enter")
-        await user.settle()
         assert user.proof.question.tools.get(5) == CutterTool(5, 0.25, unit=Unit.IN)
         assert user.prompt == "Tool 5: diameter 0.25 IN."
         await user.press("t", *"5=", "enter")
-        await user.settle()
         assert list(user.proof.question.tools.tools) == [2]
         assert user.app.settings.tools_of(tmp_path / "p.nc") == "2=0.25in"
 
@@ -452,28 +442,12 @@ async def test_a_klartext_tool_gets_its_diameter_by_name(tmp_path):
         assert user.proof.result.answer.missing == "ROUGH D10"
 
 
-async def test_the_file_name_marks_a_line_being_typed_as_unsaved(tmp_path):
-    async with at_proof(tmp_path) as user:
-        title, name = user.proof.query_one("#proof-mode", Label), user.proof.query_one("#proof-file", Label)
-        await user.press("n", "enter")
-        assert (str(title.content), str(name.content)) == ("NC EDIT", "p.nc")
-        assert user.prompt.startswith("Editing.")
-        await user.press("x")
-        assert str(name.content) == "p.nc *"
-        assert "not saved" in str(user.proof.query_one(Status).query_one("#undo", Label).content)
-        await user.press("backspace")
-        assert str(name.content) == "p.nc"
-        await user.press("escape")
-        assert str(title.content) == "NC PROOF"
-
-
 async def test_a_diameter_is_shown_with_its_unit_when_the_program_uses_another(tmp_path):
     async with at_proof(tmp_path) as user:
         await with_tool(user, "1=.25")
         tools = user.proof.query_one("#proof-tools", Label)
         assert str(tools.content) == "tools 1=0.25"
         await user.press("enter", "home", "right", "right", "backspace", "1", "down")
-        await user.settle()
         assert user.proof.unit is Unit.MM
         assert str(tools.content) == "tools 1=0.25in"
 
@@ -485,12 +459,17 @@ async def test_a_new_name_without_a_suffix_takes_the_suffix_of_the_file(tmp_path
         await user.settle()
         user.app.screen.query_one("#entry", Input).value = "other"
         await user.press("enter")
-        await user.settle()
         assert (tmp_path / "other.nc").read_bytes() == PROGRAM
 
 
-async def test_esc_on_home_opens_no_empty_form(tmp_path):
+async def test_home_over_an_nc_text_shows_its_folder_and_esc_there_opens_no_empty_form(tmp_path, monkeypatch):
+    monkeypatch.chdir("/")
     async with at_proof(tmp_path) as user:
+        await user.press("ctrl+o")
+        assert isinstance(user.app.screen, HomeScreen)
+        assert user.app.screen.folder == tmp_path
+        await user.press("escape")
+        assert isinstance(user.app.screen, ProofScreen)
         await user.press("escape", "escape")
         assert isinstance(user.app.screen, HomeScreen)
         assert "F2 and F3 start a new part" in user.prompt
@@ -552,7 +531,6 @@ async def test_the_status_line_describes_the_nc_text(tmp_path):
         assert "Prog Units: MM" in str(on_help.query_one("#units", Label).content)
         await user.press("escape")
         await user.press("enter", "x", "down", "escape")
-        await user.settle()
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
         await user.press("ctrl+z", "ctrl+y")
         assert str(status.query_one("#undo", Label).content) == "not saved   undo 1"
@@ -581,11 +559,9 @@ async def test_left_over_work_is_restored_into_the_same_screen_and_can_be_saved(
     async with at_proof(tmp_path) as user:
         assert isinstance(user.app.screen, Question)
         await user.press("r")
-        await user.settle()
         assert len(user.app.proofs) == 1
         assert user.proof.query_one(Listing).document.get_line(0) == "(LEFT)"
         await user.press("ctrl+s")
-        await user.settle()
         assert (tmp_path / "p.nc").read_bytes().startswith(b"(LEFT)\r\n")
         await user.press("f8")
         assert isinstance(user.app.screen, HomeScreen)
@@ -597,17 +573,3 @@ async def test_the_tool_dialog_quotes_the_diameter_from_a_comment(tmp_path):
         lines = user.app.screen.query_one("#loss", Static)
         assert "The comment in line 2 says diameter 0.5000." in str(lines.content)
         await user.press("escape")
-
-
-async def test_next_finding_brings_its_place_into_an_enlarged_drawing(tmp_path):
-    async with at_proof(tmp_path) as user:
-        await with_tool(user)
-        await user.press("f7", "+", "+", "n")
-        await user.settle()
-        assert user.proof.view_of is not None
-        assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
-        before = user.line
-        await user.press("n")
-        await user.settle()
-        assert user.line != before
-        assert user.proof.view_of.center == cutter_at_line(user.proof.result.proof, user.line)[0]
