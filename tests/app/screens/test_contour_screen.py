@@ -165,8 +165,10 @@ async def test_going_back_from_quit_leaves_the_text_half_typed():
         await user.press("ctrl+q")
         assert isinstance(user.app.screen, Question), "unsaved work is asked about, too"
         await user.press("escape")
-        assert (user.session.block.tool, type(user.app.screen)) == (Number(334.0), ContourScreen)
-        await user.press("ctrl+z", "home", "tab", "'33", "ctrl+q", "d")
+        assert (user.session.block.tool, user.at) == (Number(334.0), "cutter_comp")
+        await user.press("ctrl+z")
+        user.app.move(FormPlace(1), "tool")
+        await user.press("'33", "ctrl+q", "d")
         assert user.session.block.tool == Number(1.0)
         assert not user.app.is_running
 
