@@ -85,8 +85,7 @@ async def test_changing_the_unit_asks_first_and_converts_the_lengths():
         assert (user.value("pocket_overlap"), user.tag("pocket_overlap")) == ("50.0", "DEF"), "a blank parameter"
         await user.press("right", "escape")
         await everything(user)
-        assert user.session.program.unit is Unit.IN, "refused"
-        assert user.value("unit") == "IN"
+        assert (user.session.program.unit, user.value("unit")) == (Unit.IN, "IN"), "refused"
         await user.press("right", "enter", "c")
         await everything(user)
         assert user.session.program.unit is Unit.MM
