@@ -228,7 +228,7 @@ async def test_a_damaged_file_is_taken_only_by_yes(tmp_path):
 
 
 SLOPE = [(0, "LINE"), (8, "SLOPE"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 1), (31, 9)]
-UNLISTABLE = {
+UNLISTABLE: dict[str, Path | bytes] = {
     "d20-not-dxf.dxf is no DXF file.": DATA / "d20-not-dxf.dxf",
     "in model space: 1 TEXT was skipped.": DATA / "d17-empty.dxf",
     ": 0 entities could be read.": dxf(*square(0, 0, 10))[:110],
@@ -244,7 +244,7 @@ async def test_an_unlistable_drawing_is_reported_and_the_screen_stays(tmp_path):
             if isinstance(source, bytes):
                 path.write_bytes(source)
             await user.show(path if isinstance(source, bytes) else source)
-            await user.until(lambda words=words: words in user.message)
+            assert words in user.message
             assert user.message.startswith(Tone.ERROR)
             await user.press("f1", "down")
             assert user.importing.listed is None, words
