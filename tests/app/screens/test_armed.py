@@ -23,11 +23,19 @@ async def test_esc_then_a_digit_presses_the_softkey() -> None:
         assert user.prompt == "1 to 8 press the softkey now, as F1 to F8 do."
         await user.press("4")
         assert isinstance(user.screen, ParametersScreen)
+        await user.press("f8", "escape", "6")
+        assert isinstance(user.screen, ToolsScreen)
+        await user.press("f8", "6", "enter")
+        assert user.session.block.tool == Number(6.0), "a digit that pressed a softkey is not typed later"
 
 
 async def test_a_digit_after_another_key_is_typed() -> None:
     async with operator("pocket") as user:
-        await user.press("tab", "escape", "tab", "tab", "4", "enter")
+        await user.press("tab", "7", "escape")
+        assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
+        await user.press("6", "enter")
+        assert user.session.block.tool == Number(6.0), "Esc that removes a half-typed number arms no softkey"
+        await user.press("escape", "tab", "4", "enter")
         assert user.session.block.finish_tool == Number(4.0)
 
 
@@ -38,22 +46,6 @@ async def test_a_digit_after_the_waiting_time_is_typed(monkeypatch: pytest.Monke
         await user.pilot.pause(0.1)
         await user.press("4", "enter")
         assert user.session.block.tool == Number(4.0)
-
-
-async def test_esc_that_removes_a_half_typed_number_arms_no_softkey() -> None:
-    async with operator("pocket") as user:
-        await user.press("tab", "7", "escape")
-        assert user.prompt == "The old number is back. Esc again, then 1 to 8, is a softkey."
-        await user.press("6", "enter")
-        assert user.session.block.tool == Number(6.0)
-
-
-async def test_a_digit_that_pressed_a_softkey_is_not_typed_later() -> None:
-    async with operator("pocket") as user:
-        await user.press("tab", "escape", "6")
-        assert isinstance(user.screen, ToolsScreen)
-        await user.press("f8", "6", "enter")
-        assert user.session.block.tool == Number(6.0)
 
 
 async def test_esc_after_an_unreadable_text_restores_the_old_value() -> None:
