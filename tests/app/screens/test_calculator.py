@@ -15,8 +15,7 @@ def part() -> Program:
 
 
 async def at_x_end(user: Operator) -> None:
-    await user.press("pagedown", "tab")
-    assert user.at == "x_end"
+    await user.begin(part(), 1, "x_end")
 
 
 def answers(user: Operator) -> list[str]:
@@ -47,20 +46,16 @@ async def test_a_point_on_a_bolt_circle_goes_into_x_end_and_y_end():
 
 async def test_the_answer_that_fits_the_field_is_offered_first():
     async with operator(part()) as user:
-        await at_x_end(user)
-        await user.press("tab", "equals_sign", *["down"] * 4, "enter")
+        await user.begin(part(), 1, "y_end")
+        await user.send("equals_sign", *["down"] * 4)
+        await user.press("enter")
         await user.press("'0", "enter", "'0", "enter", "'30", "enter", "'10", "enter", "enter")
         assert (user.at, user.value("y_end")) == ("y_end", "5")
         assert user.app.shown is not user.session
-
-
-async def test_an_angle_field_takes_the_angle_of_a_triangle_from_two_sides():
-    async with operator(part()) as user:
-        await at_x_end(user)
-        while user.at != "angle":
-            await user.press("tab")
-        await user.press("equals_sign", "enter", "'3", "enter", "'3", "enter")
-        assert answers(user) == ["ANGLE 45"]
+        await user.begin(part(), 1, "angle")
+        await user.press("equals_sign", "enter")
+        await user.press("'3", "enter", "'3", "enter")
+        assert answers(user) == ["ANGLE 45"], "the angle of a triangle from two sides"
         await user.press("enter")
         assert user.value("angle") == "45"
 
@@ -90,7 +85,6 @@ async def test_the_palette_opens_the_calculator():
         await at_x_end(user)
         await user.press("ctrl+k")
         await user.press(*"calculator")
-        await user.pilot.pause(0.5)
+        await user.app.workers.wait_for_complete()
         await user.press("enter")
-        await user.pilot.pause()
         assert type(user.app.screen).__name__ == "ChooseLine"
