@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import pytest
 from textual.geometry import Region
 from textual.widget import Widget
 
 from app.app import CutcompApp
-from app.documents.files import load
-from app.documents.programs import example
-from app.session.session import Session
 from app.widgets.drawing import Drawing
-from tests.app.widget_pilot import SURROUNDINGS, Operator, operator
+from tests.app.widget_pilot import SURROUNDINGS, Operator, operator, session_on
 
 
-@pytest.mark.parametrize("action", ["draw", "lookahead", "program", "home"])
-async def test_an_ascii_terminal_gets_ascii_on_every_screen(action):
-    app = CutcompApp(Session.of(load(example("pocket"))), surroundings=SURROUNDINGS, character_sets=("ascii",))
+async def test_an_ascii_terminal_gets_ascii_on_every_screen():
+    app = CutcompApp(session_on("pocket"), surroundings=SURROUNDINGS, character_sets=("ascii",))
     async with app.run_test(size=(80, 24)) as pilot:
         user = Operator(app, pilot)
         await user.settle()
-        await app.run_action(f"app.{action}")
-        await user.settle()
-        assert {drawing.characters for drawing in app.screen.query(Drawing)} == {"ascii"}
+        for action in ("draw", "lookahead", "program", "home"):
+            await app.run_action(f"app.{action}")
+            await user.settle()
+            assert {drawing.characters for drawing in app.screen.query(Drawing)} == {"ascii"}, action
 
 
 async def test_a_chosen_character_set_applies_at_once():
@@ -31,18 +27,20 @@ async def test_a_chosen_character_set_applies_at_once():
         assert user.screen.query_one("#full-drawing", Drawing).characters == "block"
 
 
-@pytest.mark.parametrize("action", ["form", "draw", "lookahead", "program"])
-async def test_signs_change_with_the_characters_on_the_screen_in_front(action):
+async def test_signs_change_with_the_characters_on_the_screen_in_front():
     async with operator("pocket", size=(132, 43)) as user:
-        if action != "form":
+        for action in ("contour", "draw", "lookahead", "program"):
             await user.app.run_action(f"app.{action}")
             await user.settle()
-        assert _signs(user) & set("✖▲×✓")
-        for _ in range(2):
+            assert _signs(user) & set("✖▲×✓"), action
+            for _ in range(2):
+                await user.app.run_action("app.next_characters")
+                await user.settle()
+            assert user.app.characters == "ascii"
+            assert not _signs(user), action
             await user.app.run_action("app.next_characters")
+            await user.app.run_action("app.contour")
             await user.settle()
-        assert user.app.characters == "ascii"
-        assert not _signs(user)
 
 
 def _signs(user: Operator) -> set[str]:
