@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
-import pytest
 from textual import events
 from textual.widgets import Static
 
@@ -76,32 +75,32 @@ async def test_missing_values_are_asked_for_and_the_verdict_names_the_judged_seg
         ]
 
 
-@pytest.mark.parametrize(
-    ("bottom", "text"),
-    [
-        ("0", "▲ Z BOTTOM is at Z START: nothing is cut."),
-        ("2", "✖ Z BOTTOM 2.0000 is above Z START 0.0000."),
-        ("-2", " START is complete: Page Down for segment 1."),
-    ],
-)
-async def test_a_new_start_without_depth_says_so_once_z_bottom_is_taken(bottom: str, text: str):
+DEPTHS = {
+    "0": "▲ Z BOTTOM is at Z START: nothing is cut.",
+    "2": "✖ Z BOTTOM 2.0000 is above Z START 0.0000.",
+    "-2": " START is complete: Page Down for segment 1.",
+}
+
+
+async def test_a_new_start_without_depth_says_so_once_z_bottom_is_taken():
     program, zero = empty_program(), Number(0.0)
     block = replace(program.blocks[0], tool=Number(1.0), x_start=zero, y_start=zero, z_start=zero)
     block = replace(block, cutter_comp=CutterComp.LEFT, plunge_feed=Number(5.0), speed=Number(1000.0))
-    async with operator(replace(program, blocks=(block,))) as user:
-        await user.press(*["down"] * 7)
-        assert user.at == "z_bottom"
-        await user.press(f"'{bottom}", "tab")
-        assert str(user.screen.query_one("#chips").render()) == text
+    async with operator() as user:
+        for bottom, text in DEPTHS.items():
+            await user.begin(replace(program, blocks=(block,)), 0, "z_bottom")
+            await user.press(f"'{bottom}", "tab")
+            assert str(user.screen.query_one("#chips").render()) == text
 
 
 async def test_enter_stays_once_on_a_z_bottom_that_is_not_below_z_start():
     """Also where Z BOTTOM is the last value that START lacks."""
     program = load(example("pocket"))
-    for z_bottom in (program.blocks[0].z_bottom, None):
-        block = replace(program.blocks[0], z_bottom=z_bottom)
-        async with operator(replace(program, blocks=(block, *program.blocks[1:]))) as user:
-            await user.press(*["down"] * 7, "'0", "enter")
+    async with operator() as user:
+        for z_bottom in (program.blocks[0].z_bottom, None):
+            block = replace(program.blocks[0], z_bottom=z_bottom)
+            await user.begin(replace(program, blocks=(block, *program.blocks[1:])), 0, "z_bottom")
+            await user.press("'0", "enter")
             assert user.at == "z_bottom"
             assert user.prompt == "Z BOTTOM is at Z START: nothing is cut."
             await user.press("enter")
@@ -126,18 +125,17 @@ async def test_pasted_text_fills_no_field_and_presses_no_key():
         assert len(user.session.block.segments) == 11
 
 
-@pytest.mark.parametrize("text", [" b ", "b\u2028", "\tb"])
-async def test_the_cursor_can_leave_fields_whose_text_has_surrounding_blanks(text: str):
-    unread = f"[block.unread]\nfinish_tool = {json.dumps(text)}\nx_start = {json.dumps(text)}\n"
-    start = loads(f'format = 1\nunits = "IN"\n[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "ON"\n{unread}', "part")
-    async with operator(start) as user:
-        await user.press(*["tab"] * 3)
-        assert user.at == "finish_tool"
-        await user.press("tab")
-        assert user.at == "x_start"
-        await user.press("shift+tab")
-        assert user.at == "finish_tool"
-        assert user.session.history.undo_count == 0
+async def test_the_cursor_can_leave_fields_whose_text_has_surrounding_blanks():
+    async with operator() as user:
+        for text in (" b ", "b\u2028", "\tb"):
+            unread = f"[block.unread]\nfinish_tool = {json.dumps(text)}\nx_start = {json.dumps(text)}\n"
+            head = 'format = 1\nunits = "IN"\n[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "ON"\n'
+            await user.begin(loads(head + unread, "part"), 0, "finish_tool")
+            await user.press("tab")
+            assert user.at == "x_start", text
+            await user.press("shift+tab")
+            assert user.at == "finish_tool", text
+            assert user.session.history.undo_count == 0
 
 
 async def test_a_unit_is_typed_whole_and_enter_opens_its_question_once():
