@@ -23,7 +23,7 @@ def cross(user: Operator) -> tuple[float, float]:
 
 async def drawn(user: Operator) -> None:
     await user.app.workers.wait_for_complete()
-    await user.pilot.pause()
+    await user.settle()
 
 
 async def test_the_form_names_f7_and_draw_opens_with_the_cross():
@@ -37,6 +37,13 @@ async def test_the_form_names_f7_and_draw_opens_with_the_cross():
         picture = user.screen.drawing.drawn
         assert picture is not None
         assert any("+" in row for row in picture.picture.rows)
+        await user.press("escape")
+        assert isinstance(user.screen, DrawScreen)
+        assert user.screen.cross is None, "Esc first removes the cross"
+        await user.press("f7")
+        assert user.screen.cross is not None
+        await user.press("escape", "escape")
+        assert type(user.screen).__name__ == "ContourScreen"
 
 
 async def test_taking_the_cross_moved_by_arrows_calculates_the_run():
@@ -82,17 +89,6 @@ async def test_a_pick_between_two_solutions_asks_for_a_nearer_pick_or_solution()
             ends.append(user.value("x_end"))
         assert len(set(ends)) == 2
         assert user.session.derived_block.solved.whole
-
-
-async def test_escape_first_removes_the_cross_and_f7_restores_it():
-    async with operator(program_of(TANGENT_ARC)) as user:
-        await user.press("pagedown", "f7", "escape")
-        assert isinstance(user.screen, DrawScreen)
-        assert user.screen.cross is None
-        await user.press("f7")
-        assert user.screen.cross is not None
-        await user.press("escape", "escape")
-        assert type(user.screen).__name__ == "ContourScreen"
 
 
 async def test_a_run_that_needs_no_pick_offers_none():
