@@ -71,15 +71,15 @@ async def test_the_form_asks_once() -> None:
         assert "INCH or MM?" not in user.prompt
 
 
-async def test_posting_asks_once_and_continues() -> None:
+async def test_posting_asks_until_it_is_answered_and_continues() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
-        user.app.action_post()
-        await user.settle()
-        question_screen = user.app.screen
-        assert isinstance(question_screen, Question)
-        assert question_screen.lines == (f"INCH or MM? {LARGE}",)
-        await user.pilot.press("i")
-        await user.settle()
+        for answer in ("escape", "i"):
+            user.app.action_post()
+            await user.settle()
+            question_screen = user.app.screen
+            assert isinstance(question_screen, Question)
+            assert question_screen.lines == (f"INCH or MM? {LARGE}",)
+            await user.press(answer)
         assert isinstance(user.app.screen, PostScreen)
         await user.press("escape")
         user.app.action_post()
@@ -91,39 +91,23 @@ async def test_choosing_the_other_unit_opens_program_parameters() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
         user.app.action_post()
         await user.settle()
-        await user.pilot.press("m")
-        await user.settle()
+        await user.press("m")
         assert isinstance(user.app.screen, ParametersScreen)
 
 
-async def test_escape_repeats_the_question_at_the_next_post() -> None:
-    async with operator(plate(4, 0.9, 0.5)) as user:
-        for _ in range(2):
+async def test_the_unit_is_shown_large_on_a_new_program_and_on_post() -> None:
+    async with operator(plate(40, 30, 5)) as user:
+        for unit, word in ((Unit.IN, "I N C H"), (Unit.MM, "M M")):
+            await user.begin(Program(unit=unit, blocks=(Block(),)))
+            units = user.screen.query_one("#units", Label)
+            assert word in str(units.content)
+            assert units.has_class("-new")
+            await user.begin(plate(40, 30, 5, unit))
+            assert word not in str(user.screen.query_one("#units", Label).content)
             user.app.action_post()
             await user.settle()
-            assert isinstance(user.app.screen, Question)
-            await user.pilot.press("escape")
-            await user.settle()
-
-
-async def test_an_ordinary_part_is_posted_without_a_question() -> None:
-    async with operator(plate(4, 3, 0.5)) as user:
-        user.app.action_post()
-        await user.settle()
-        assert isinstance(user.app.screen, PostScreen)
-
-
-@pytest.mark.parametrize(("unit", "word"), [(Unit.IN, "I N C H"), (Unit.MM, "M M")])
-async def test_the_unit_is_shown_large_on_a_new_program_and_on_post(unit: Unit, word: str) -> None:
-    async with operator(Program(unit=unit, blocks=(Block(),))) as user:
-        units = user.screen.query_one("#units", Label)
-        assert word in str(units.content)
-        assert units.has_class("-new")
-    async with operator(plate(40, 30, 5, unit)) as user:
-        assert word not in str(user.screen.query_one("#units", Label).content)
-        user.app.action_post()
-        await user.settle()
-        assert str(user.screen.query_one(".head-unit", Label).content) == word
+            assert isinstance(user.app.screen, PostScreen), "an ordinary part is posted without a question"
+            assert str(user.screen.query_one(".head-unit", Label).content) == word
 
 
 def test_the_post_command_warns_about_the_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
