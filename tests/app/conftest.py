@@ -13,6 +13,7 @@ import pytest
 if TYPE_CHECKING:
     from textual.css.model import RuleSet
     from textual.css.tokenizer import Token
+    from textual.css.types import CSSLocation
 
 KEPT = "TEXTUAL_SNAPSHOT_"
 """Variables of the snapshot plugin, which may be set before this file is imported."""
@@ -26,28 +27,43 @@ os.environ["COLUMNS"], os.environ["LINES"] = "80", "24"
 @pytest.fixture(scope="session", autouse=True)
 def _styles_read_once() -> Iterator[None]:
     """Read the styles of the widgets once for all apps that this process starts."""
-    from textual.css import stylesheet
+    from textual.css.parse import parse
+    from textual.css.tokenize import tokenize_values
 
-    read_values, read_rules = stylesheet.tokenize_values, stylesheet.parse
     values: dict[Any, dict[str, list[Token]]] = {}
     rules: dict[Any, list[RuleSet]] = {}
 
     def values_once(variables: dict[str, str]) -> dict[str, list[Token]]:
         key = tuple(variables.items())
         if key not in values:
-            values[key] = read_values(variables)
+            values[key] = tokenize_values(variables)
         return values[key]
 
-    def rules_once(*source: Any, variable_tokens: dict[str, list[Token]], **place: Any) -> list[RuleSet]:
+    def rules_once(
+        scope: str,
+        css: str,
+        read_from: CSSLocation,
+        variable_tokens: dict[str, list[Token]],
+        is_default_rules: bool,
+        tie_breaker: int,
+    ) -> list[RuleSet]:
         # the values are those of `values_once`, which keeps them
-        key = source, id(variable_tokens), tuple(place.items())
+        key = scope, css, read_from, id(variable_tokens), is_default_rules, tie_breaker
         if key not in rules:
-            rules[key] = list(read_rules(*source, variable_tokens=variable_tokens, **place))
+            found = parse(
+                scope,
+                css,
+                read_from,
+                variable_tokens=variable_tokens,
+                is_default_rules=is_default_rules,
+                tie_breaker=tie_breaker,
+            )
+            rules[key] = list(found)
         return rules[key]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stylesheet, "tokenize_values", values_once)
-        patch.setattr(stylesheet, "parse", rules_once)
+        patch.setattr("textual.css.stylesheet.tokenize_values", values_once)
+        patch.setattr("textual.css.stylesheet.parse", rules_once)
         yield
 
 
