@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from asyncio import get_running_loop
+import asyncio
 from pathlib import Path
 from random import Random
 from time import monotonic, sleep
@@ -27,7 +27,7 @@ async def burst(user: Operator, *keys: str) -> None:
     for key in keys:
         order.take(events.Key(key, key if len(key) == 1 else None))
     while order.on_its_way:
-        await user.pilot.pause()
+        await asyncio.sleep(0.001)
     await user.settle()
 
 
@@ -37,6 +37,10 @@ async def test_numbers_typed_at_once_fill_the_fields_in_order():
         segment = user.session.block.segments[0]
         assert (segment.x_end, segment.y_end) == (Number(5.0), Number(1.25))
         assert user.session.place.segment == 3, "Enter on Y END goes to segment 2, Page Down to the next one"
+        count = len(user.session.block.segments)
+        await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
+        segment = user.session.block.segments[count]
+        assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0)), "the new segment of the letter"
 
 
 async def test_a_torn_key_and_an_unended_paste_are_reported_and_keep_half_typed_text():
@@ -64,14 +68,6 @@ async def test_keys_after_the_one_that_opens_a_file_go_to_that_file(part: Path, 
         service.stop()
 
 
-async def test_numbers_typed_right_after_a_letter_go_into_the_new_segment():
-    async with operator() as user:
-        count = len(user.session.block.segments)
-        await burst(user, "ctrl+end", "a", "tab", "3", "enter", "4", "enter")
-        segment = user.session.block.segments[count]
-        assert (segment.x_end, segment.y_end) == (Number(3.0), Number(4.0))
-
-
 async def test_random_keys_sent_at_once_act_as_when_sent_one_by_one():
     random = Random(20261123)
     keys = ("pagedown", "pageup", "tab", "down", "up", "enter", "1", "2", "5", "escape", "ctrl+z", "backspace")
@@ -90,7 +86,7 @@ async def test_a_slow_machine_keeps_the_keys_in_their_fields(monkeypatch):
     """Each turn of the event loop is so slow that a key takes longer than the wait for it."""
     monkeypatch.setattr(key_order, "LOOK", 0.01)
     async with operator() as user:
-        loop, end = get_running_loop(), monotonic() + 4.0
+        loop, end = asyncio.get_running_loop(), monotonic() + 4.0
 
         def busy() -> None:
             sleep(0.04)
