@@ -34,8 +34,10 @@ class Folder:
     most: int = 0
     lock: Lock = field(default_factory=Lock)
 
-    def dies(self) -> None:
+    def dies(self, user: Operator) -> None:
         self.hanging = True
+        # longer than the program waits for the disk
+        user.patience = 0.15
 
     async def comes_back(self, user: Operator) -> None:
         self.hanging = False
@@ -66,7 +68,7 @@ def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Folder]:
 
 async def test_keys_work_while_the_folder_hangs_and_all_edits_are_kept_later(folder, disk):
     async with at_work(folder) as user:
-        disk.dies()
+        disk.dies(user)
         await user.press("tab", "'7", "enter")
         assert "The folder does not answer: still trying." in user.prompt
         for number in (2, 3, 4):
@@ -88,7 +90,7 @@ async def test_keys_work_while_the_folder_hangs_and_all_edits_are_kept_later(fol
 async def test_edits_typed_while_a_save_hangs_are_kept_unsaved(folder, disk):
     async with at_work(folder) as user:
         await user.press("tab", "'7", "enter")
-        disk.dies()
+        disk.dies(user)
         await user.press("ctrl+s")
         assert "does not answer" in user.prompt
         await user.app.run_action("screen.go(0)")
@@ -109,7 +111,7 @@ async def test_edits_typed_while_a_save_hangs_are_kept_unsaved(folder, disk):
 
 async def test_a_program_whose_folder_hangs_can_be_left_after_a_question(folder, disk):
     async with at_work(folder) as user:
-        disk.dies()
+        disk.dies(user)
         await user.press("tab", "'7", "enter", "ctrl+q")
         assert isinstance(user.app.screen, Question)
         assert user.app.screen.lines[0] == "The folder does not answer."
@@ -122,7 +124,7 @@ async def test_a_copy_can_be_saved_on_another_disk_while_the_folder_hangs(folder
     rescue = tmp_path / "rescue.toml"
     rescue.write_text("somebody's")
     async with at_work(folder) as user:
-        disk.dies()
+        disk.dies(user)
         await user.press("tab", "'7", "enter")
         # the other disk answers
         disk.hanging = False
@@ -152,7 +154,7 @@ async def test_a_copy_of_an_nc_text_includes_the_line_being_typed(folder, disk, 
     async with at_work(folder) as user:
         user.app.open_file(folder / "a.nc")
         await user.settle()
-        disk.dies()
+        disk.dies(user)
         await user.press("enter", "x", "down", "enter", "y")
         disk.hanging = False
         assert user.app.disk_is_behind()
