@@ -144,27 +144,22 @@ def stopped(terminal: Terminal, number: signal.Signals) -> None:
     terminal.read(quiet=0.1)
 
 
-@pytest.mark.parametrize("number", [signal.SIGTSTP, signal.SIGSTOP])
-def test_the_screen_is_repainted_after_a_stop_and_keys_arrive_once(number: signal.Signals) -> None:
+def test_a_spoilt_screen_is_repainted_after_a_stop_and_on_request_and_keys_arrive_once() -> None:
     with running([*PROGRAM, "--example", "pocket"]) as terminal:
         painted_whole(terminal)
         before = terminal.text.splitlines()[:23]
-        stopped(terminal, number)
-        spoilt(terminal, "GOUGE none")
-        os.kill(terminal.pid, signal.SIGCONT)
-        terminal.until("GOUGE none")
-        terminal.read(quiet=0.3)
-        assert terminal.text.splitlines()[:23] == before
-        terminal.send(b"\t\t\t\t12345")
-        terminal.until("12345")
-
-
-def test_ctrl_l_or_a_resize_signal_repaints_a_spoilt_screen() -> None:
-    with running([*PROGRAM, "--example", "pocket"]) as terminal:
-        painted_whole(terminal)
+        for number in (signal.SIGTSTP, signal.SIGSTOP):
+            stopped(terminal, number)
+            spoilt(terminal, "GOUGE none")
+            os.kill(terminal.pid, signal.SIGCONT)
+            terminal.until("GOUGE none")
+            terminal.read(quiet=0.3)
+            assert terminal.text.splitlines()[:23] == before, number
         for repaint in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
             spoilt(terminal, "GOUGE none")
             repaint()
             terminal.until("GOUGE none")
             terminal.read(quiet=0.3)
             assert "$ ls" not in terminal.text
+        terminal.send(b"\t\t\t\t12345")
+        terminal.until("12345")
