@@ -50,34 +50,46 @@ def left_with_work(part: Path) -> None:
     started(part.parent / "own", part, DEAD).type(7).killed()
 
 
-@pytest.mark.parametrize("seconds", [0.15, 0.28])
-def test_a_split_arrow_down_takes_the_number_and_moves_on(square: Path, seconds: float) -> None:
+def test_a_split_arrow_down_takes_the_number_and_moves_on(square: Path) -> None:
     with on_x_start(square) as terminal:
-        split(terminal, b"[B", seconds)
+        split(terminal, b"[B", 0.15)
         terminal.until("undo 1")
+        terminal.send(b"3.5")
+        split(terminal, b"[B", 0.28)
+        terminal.until("undo 2")
         terminal.send(b"\x13")
         terminal.until("Saved")
         assert "[B" not in terminal.text
-    assert load(square).blocks[0].x_start == Number(2.5)
+    block = load(square).blocks[0]
+    assert (block.x_start, block.y_start) == (Number(2.5), Number(3.5))
 
 
-@pytest.mark.parametrize(("tail", "title"), [(b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")])
-def test_a_split_function_key_presses_its_softkey(square: Path, tail: bytes, title: str) -> None:
+def test_a_split_function_key_presses_its_softkey(square: Path) -> None:
     with on_x_start(square) as terminal:
-        split(terminal, tail, 0.15)
-        terminal.until(title)
+        for tail, title in ((b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")):
+            split(terminal, tail, 0.15)
+            terminal.until(title)
+            terminal.send(b"\x1b[19~")
+            terminal.until("X START")
 
 
-@pytest.mark.parametrize("tail", [b"[B", b"OS", b"[17~"])
-def test_a_late_tail_is_reported_and_neither_typed_nor_a_key(square: Path, tail: bytes) -> None:
+def test_a_late_tail_is_reported_and_neither_typed_nor_a_key(square: Path) -> None:
     with on_x_start(square) as terminal:
-        split(terminal, tail, 0.6)
-        terminal.until(CAME_TORN)
-        assert tail.decode() not in terminal.text
-        assert "X START" in terminal.text
-        terminal.send(b"3.25\r\x13")
+        for number, tail in enumerate((b"[B", b"OS", b"[17~"), 1):
+            split(terminal, tail, 0.6)
+            terminal.until(CAME_TORN)
+            assert tail.decode() not in terminal.text
+            assert "X START" in terminal.text
+            terminal.send(b"3.%d\r" % number)
+            terminal.until(f"undo {number}")
+            # back to X START
+            terminal.send(b"\x1b[A")
+            if number < 3:
+                terminal.send(b"2.5")
+                terminal.until("X START                 2.5")
+        terminal.send(b"\x13")
         terminal.until("Saved")
-    assert load(square).blocks[0].x_start == Number(3.25)
+    assert load(square).blocks[0].x_start == Number(3.3)
 
 
 def test_esc_with_a_digit_and_esc_alone_still_work(square: Path) -> None:
@@ -92,13 +104,15 @@ def test_esc_with_a_digit_and_esc_alone_still_work(square: Path) -> None:
         terminal.until("IMPORT TABLE")
 
 
-@pytest.mark.parametrize("seconds", [0.15, 1.2])
-def test_a_split_arrow_on_the_question_discards_nothing(square: Path, seconds: float) -> None:
+def test_a_split_arrow_on_the_question_discards_nothing(square: Path) -> None:
     left_with_work(square)
     with running([*PROGRAM, str(square)]) as terminal:
         terminal.until("UNSAVED WORK FOUND")
-        split(terminal, b"[D", seconds)
-        terminal.read(quiet=1.0)
+        split(terminal, b"[D", 0.15)
+        terminal.read(quiet=0.5)
+        assert "UNSAVED WORK FOUND" in terminal.text
+        split(terminal, b"[D", 1.2)
+        terminal.read(quiet=0.5)
         assert "Kept as a backup" not in terminal.text
     # an Esc whose tail is late leaves the question, which returns at the next start
     with running([*PROGRAM, str(square)]) as terminal:
