@@ -64,10 +64,6 @@ def test_f3_of_xterm_restores_the_calculated_look_ahead(tmp_path: Path) -> None:
         terminal.until("deletes segments 2-3")
         terminal.send(ESC + b"OR")
         terminal.until("CUTCOMP LOOKAHEAD CAL      2")
-
-
-def test_esc_and_a_digit_may_be_typed_slowly(tmp_path: Path) -> None:
-    with on_example(tmp_path) as terminal:
         terminal.send(ESC)
         terminal.until("1 to 8 press the softkey now")
         terminal.send(b"6")
@@ -75,23 +71,25 @@ def test_esc_and_a_digit_may_be_typed_slowly(tmp_path: Path) -> None:
         terminal.until("DIAMETER")
 
 
-@pytest.mark.parametrize("byte", [b"\xb0", b"\xff", b"\xc3(", b"\x80\x81\x82"])
-def test_a_byte_that_is_not_utf_8_does_not_end_the_program(tmp_path: Path, byte: bytes) -> None:
+def test_bytes_that_are_not_utf_8_do_not_end_the_program(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
-        terminal.send(b"\t\t\t\t7" + byte)
-        terminal.read(quiet=0.3)
-        assert terminal.ended() is None
-        terminal.send(b"\x7f\x7f\x7f\x7f\x7f8.5\r")
-        terminal.until("8.5000")
+        terminal.send(b"\t\t\t\t")
+        for digit, data in enumerate((b"\xb0", b"\xff", b"\xc3(", b"\x80\x81\x82"), 1):
+            terminal.send(b"7" + data)
+            terminal.read(quiet=0.2)
+            assert terminal.ended() is None, data
+            terminal.send(b"\x7f\x7f\x7f\x7f\x7f8.%d\r" % digit)
+            terminal.until(f"8.{digit}000")
+            terminal.send(b"\x1b[A")
 
 
 def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
     with on_example(tmp_path) as terminal:
-        terminal.read(quiet=1.0)
-        assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(20)) <= CLOCK
+        terminal.read(quiet=0.7)
+        assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(12)) <= CLOCK
 
 
-@pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}, {"TERM": "xterm", "NO_COLOR": "1"}], ids=str)
+@pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}], ids=str)
 def test_letters_and_the_cursor_are_visible(tmp_path: Path, more: dict[str, str]) -> None:
     with on_example(tmp_path, more=more) as terminal:
         terminal.send(b"\t\t\t\t")
