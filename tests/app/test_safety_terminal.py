@@ -25,7 +25,7 @@ def test_bytes_that_are_not_utf_8_do_not_end_the_program(tmp_path: Path) -> None
         terminal.send(b"\xb0")
         terminal.send(b"\xff\xfe\xc3")
         terminal.send(b"\x1b")
-        terminal.read(quiet=0.4)
+        terminal.until("The old number is back")
         terminal.send(b"7\t\x13")
         terminal.until("Saved")
         terminal.send(b"\x11")
