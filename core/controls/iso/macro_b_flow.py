@@ -19,7 +19,15 @@ from core.controls.iso.expressions import GAP, CompactText, FaultError
 from core.controls.iso.flow import Call, Flow, ProgramLibrary, o_words_of
 from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
 from core.controls.iso.macro_b_machine import MacroMachine
-from core.controls.iso.reader import Block, fill_words, has_words, is_words, pairs_in, without_comments
+from core.controls.iso.reader import (
+    Block,
+    between_semicolons,
+    fill_words,
+    has_words,
+    is_words,
+    pairs_in,
+    without_comments,
+)
 from core.controls.program_text import capitals, lines_of, quoted
 from core.finding import Severity
 from core.units import Unit
@@ -214,7 +222,7 @@ class MacroFlow(Flow):
                 message = f"A line for an editor or a simulator is ignored: {quoted(line.strip())}"
                 self.log.tell(Severity.INFO, "TEXT", message, number, 1)
                 continue
-            for start, text in _parts(line):
+            for start, text in between_semicolons(line):
                 if start and _is_remark(text):
                     message = f"Text after the end of the block is ignored: {quoted(text)}"
                     self.log.tell(Severity.INFO, "TEXT", message, number, start + 1)
@@ -710,16 +718,3 @@ def _is_remark(text: str) -> bool:
     if bare.strip()[:1] in "+-.0123456789" and bare.strip():
         return True
     return _LETTERS.search(bare) is not None and not _KEYWORD.match("".join(bare.split()))
-
-
-def _parts(line: str) -> Iterator[tuple[int, str]]:
-    """Yield where each part of a line between semicolons outside comments begins, and the part."""
-    start, in_comment = 0, False
-    for index, character in enumerate(line if ";" in line else ""):
-        if character in "()":
-            in_comment = character == "("
-        elif character == ";" and not in_comment:
-            yield start, line[start:index]
-            start = index + 1
-    if start < len(line) or not start:
-        yield start, line[start:]

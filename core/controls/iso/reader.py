@@ -181,17 +181,28 @@ def _check_strictly(upper: str, line: int, log: Log) -> None:
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
     """Yield the blocks between semicolons; report and skip text after the last semicolon that is not a block."""
-    start, parts = 0, text.split(";")
-    for index, part in enumerate(parts):
+    for start, part in between_semicolons(text):
         bare = without_comments(capitals(part))
         plain = _CLEAN.fullmatch(bare) is not None
-        if plain or index < len(parts) - 1:
+        if plain or start + len(part) < len(text):
             yield from _read_closely(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
             text = f"Text after the end of the block is ignored: {quoted(part)}"
             log.tell(Severity.INFO, "TEXT", text, line, column)
-        start += len(part) + 1
+
+
+def between_semicolons(line: str) -> Iterator[tuple[int, str]]:
+    """Yield where each part of a line between semicolons outside comments begins, and the part."""
+    start, in_comment = 0, False
+    for index, character in enumerate(line if ";" in line else ""):
+        if character in "()":
+            in_comment = character == "("
+        elif character == ";" and not in_comment:
+            yield start, line[start:index]
+            start = index + 1
+    if start < len(line) or not start:
+        yield start, line[start:]
 
 
 def _read_closely(

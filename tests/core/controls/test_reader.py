@@ -101,6 +101,11 @@ def test_a_semicolon_may_end_a_block() -> None:
     assert [read_block.column("XY") for read_block in blocks] == [3, 6, 9]
 
 
+def test_a_semicolon_in_a_comment_ends_no_block() -> None:
+    blocks = read_line("G1X1(ROUGH;FINISH)Y2;Y3", 1, Log(), Syntax(semicolon_ends=True))
+    assert [read.words for read in blocks] == [{"X": 1.0, "Y": 2.0}, {"Y": 3.0}]
+
+
 def test_text_after_the_end_of_a_block_is_reported() -> None:
     log = Log()
     (read,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(semicolon_ends=True, tool_data=True))
