@@ -41,7 +41,7 @@ def mapped(contour: Path, moved: Callable[[Floats], Floats], *, turn: int) -> Pa
     return Path.of(moved(contour.points), moved(contour.centers), turn * contour.turns, contour.numbers)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=50, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans())
 def test_reversed_on_the_other_side_it_is_the_same(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
@@ -49,7 +49,7 @@ def test_reversed_on_the_other_side_it_is_the_same(contour, side, radius, closed
     assert_same(best_path(contour, side, radius, closed=closed), back, lambda points: points, 1e-7)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=50, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans())
 def test_mirrored_on_the_other_side_it_is_mirrored(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
@@ -57,7 +57,7 @@ def test_mirrored_on_the_other_side_it_is_mirrored(contour, side, radius, closed
     assert_same(best_path(contour, side, radius, closed=closed), mirror, lambda points: points * (1, -1), 1e-7)
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans(), st.floats(0.0, 6.28))
 def test_rotated_it_is_rotated(contour, side, radius, closed, angle):
     contour = shut(contour) if closed else contour
@@ -66,7 +66,7 @@ def test_rotated_it_is_rotated(contour, side, radius, closed, angle):
     assert_same(best_path(contour, side, radius, closed=closed), other, lambda points: points @ turned, 1e-7)
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans())
 def test_ten_meters_away_it_is_moved(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
@@ -74,7 +74,7 @@ def test_ten_meters_away_it_is_moved(contour, side, radius, closed):
     assert_same(best_path(contour, side, radius, closed=closed), far, lambda points: points + 1e4, 1e-6)
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(loose.map(shut), sides, radii, st.integers(1, 10))
 def test_started_elsewhere_it_is_the_same(contour, side, radius, first):
     first %= len(contour)
@@ -87,7 +87,7 @@ def test_started_elsewhere_it_is_the_same(contour, side, radius, first):
 
 @must_exercise(0.3, "pieces", "corners")
 @must_exercise(0.003, "order")
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=120, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans())
 @example(TWO_ROOMS, Side.LEFT, 0.25, True)
 def test_it_lies_on_its_own_pieces_in_the_contours_order_and_direction(contour, side, radius, closed):
@@ -111,7 +111,7 @@ def clean_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Pat
 
 
 @must_exercise(0.3)
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=120, deadline=None, derandomize=True)
 @given(loose, sides, radii)
 def test_a_clean_path_of_the_control_is_on_the_best_path(contour, side, radius):
     control = clean_path(contour, side, radius, closed=False)

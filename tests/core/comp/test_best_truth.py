@@ -21,13 +21,13 @@ sides = st.sampled_from(Side)
 radii = st.sampled_from([0.05, 0.1, 0.25, 0.5, 1.0, 2.0]) | st.floats(0.05, 1.5)
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(mixed | polygons | loose, sides, radii)
 def test_of_an_open_contour_every_place_and_no_other_is_on_the_path(contour, side, radius):
     assert_true(contour, side, radius, closed=False)
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given((mixed | polygons | loose).map(shut), sides, radii)
 def test_of_a_closed_contour_every_place_and_no_other_is_on_the_path(contour, side, radius):
     assert_true(contour, side, radius, closed=True)
@@ -71,7 +71,7 @@ def around(best: BestPath) -> float:
     return abs(sum(area(loop) for loop in best.loops))
 
 
-@settings(max_examples=120, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(stars(), sides, st.sampled_from([0.05, 0.25, 0.5, 1.0, 2.0, 6.0]))
 def test_the_loops_bound_the_region_that_widened_chords_leave(contour, side, radius):
     """The reference lies within a chord's error of the arcs and a facet's of the cutter, so its area within their sum.
@@ -118,7 +118,7 @@ def wavy(count: int, depth: float) -> Path:
 def test_curves_of_tiny_segments_whose_bays_are_tighter_than_the_cutter():
     for side in Side:
         for radius in (1.0, 12.0):
-            best = assert_true(wavy(400, 0.3), side, radius, closed=True)
+            best = assert_true(wavy(200, 0.3), side, radius, closed=True)
             assert best.closed == (True,)
 
 

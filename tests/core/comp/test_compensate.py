@@ -44,7 +44,7 @@ def _sampled(piece: Piece) -> Floats:
     return piece.center + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_every_piece_is_the_radius_away_from_its_segment(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
@@ -59,7 +59,7 @@ def test_every_piece_is_the_radius_away_from_its_segment(contour, side, radius, 
         assert np.abs(away - radius).max() < 2 * JOINED
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_the_path_is_finite_and_in_order(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
@@ -76,7 +76,7 @@ def test_the_path_is_finite_and_in_order(contour, side, radius, lookahead, close
     assert np.abs(last - path.radii)[arcs].max(initial=0.0) < 2 * JOINED
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, st.booleans())
 def test_lookaheads_calculated_together_equal_those_calculated_singly(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
@@ -118,7 +118,7 @@ def _told(one: Compensated) -> list[tuple[str, float | None]]:
     return [(finding.code, finding.segment) for finding in one.findings]
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_a_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, side, radius, lookahead, closed):
     def mirror(points: Floats) -> Floats:
@@ -132,7 +132,7 @@ def test_a_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, s
     assert one.path.turns.tolist() == (-two.path.turns).tolist()
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.floats(0, 2 * pi))
 def test_a_rotated_contour_gives_the_rotated_path(contour, side, radius, lookahead, angle):
     matrix = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
@@ -146,7 +146,7 @@ def test_a_rotated_contour_gives_the_rotated_path(contour, side, radius, lookahe
     assert _told(one) == _told(two)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.tuples(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4)))
 def test_a_contour_far_from_the_origin_gives_the_same_path_there(contour, side, radius, lookahead, by):
     def shift(points: Floats) -> Floats:
@@ -158,7 +158,7 @@ def test_a_contour_far_from_the_origin_gives_the_same_path_there(contour, side, 
     assert _told(one) == _told(two)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(loose, sides, radii, lookaheads, st.sampled_from([25.4, 1 / 25.4, 0.5, 1000.0]))
 def test_a_scaled_contour_and_tool_give_the_scaled_path(contour, side, radius, lookahead, factor):
     def scale(points: Floats) -> Floats:
@@ -175,7 +175,7 @@ def _one_way(contour: Path, side: Side, radius: float) -> bool:
     return len(np.unique(joints.b)) == len(joints)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(loose, sides, radii)
 def test_a_reversed_contour_gives_the_reversed_path(contour, side, radius):
     one = compensate(contour, side, radius, 1, closed=False)

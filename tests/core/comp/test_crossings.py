@@ -30,7 +30,7 @@ def _all_pairs(chain: RawChain, lookahead: int, *, closed: bool) -> list[tuple[i
     return sorted(pairs, key=lambda pair: pair[::-1])
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(mixed | polygons, st.sampled_from(Side), st.floats(0.05, 2.0), st.integers(1, 20), st.booleans())
 def test_all_pairs_within_reach_are_found(contour, side, radius, lookahead, closed):
     chain = offset(contour, side, radius)

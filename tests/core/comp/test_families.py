@@ -40,7 +40,7 @@ QUADRANT = 128
 """Chords to a quarter of the reference's cutter: they leave it by 1.9e-5 of the radius."""
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=30, deadline=None, derandomize=True)
 @given(strips | rings, sides, radii, st.integers(1, 20), st.booleans())
 def test_the_walk_is_that_of_the_slow_one(contour, side, radius, lookahead, closed):
     assume(contour.lengths.min() > 2.0 * JOINED)  # what has no length is left out first, which the slow walk does not
@@ -52,13 +52,13 @@ def test_the_walk_is_that_of_the_slow_one(contour, side, radius, lookahead, clos
     assert np.abs(done.path.starts - starts).max(initial=0.0) < JOINED
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=30, deadline=None, derandomize=True)
 @given(strips, sides, radii, units, shifts)
 def test_the_best_path_of_open_families_is_the_true_boundary(contour, side, radius, unit, shift):
     assert_true(placed(contour, unit, shift), side, radius * unit, closed=False)
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=30, deadline=None, derandomize=True)
 @given(rings, sides, radii, units, shifts)
 def test_the_best_path_of_closed_families_is_the_true_boundary(contour, side, radius, unit, shift):
     assert_true(placed(contour, unit, shift), side, radius * unit, closed=True)
@@ -71,7 +71,7 @@ def _true_offset(contour: Path, radius: float) -> shapely.Polygon:
     return grown
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=30, deadline=None, derandomize=True)
 @given(gears() | convex() | rounded() | waves() | notched(), uneven, units, st.booleans())
 def test_with_enough_look_ahead_the_path_outside_is_the_single_curve_that_shapely_has(contour, radius, unit, back):
     """Started mid-side on what stands out most, and reaching over every gap but not over half the contour."""

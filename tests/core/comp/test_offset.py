@@ -112,7 +112,7 @@ def test_labels_come_from_the_contour():
     assert _chain(contour, Side.LEFT, 0.5).raw.numbers.tolist() == [1, 1.5, 3, 3.5, 4]
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed, st.sampled_from(Side), st.floats(0.05, 2.0))
 def test_whole_pieces_keep_the_radius_from_their_own_segment(contour, side, radius):
     chain = _chain(contour, side, radius)

@@ -43,19 +43,19 @@ def _same_deletions(fast: Compensated, slow: Walk) -> None:
         assert abs(complex(*one.at) - at) <= NEAR
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(polygons, st.sampled_from(Side), radii, lookaheads)
 def test_open_polygons_are_walked_alike(contour, side, radius, lookahead):
     _agree(contour, side, radius, lookahead, closed=False)
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(mixed, st.sampled_from(Side), radii, lookaheads)
 def test_open_contours_of_lines_and_arcs_are_walked_alike(contour, side, radius, lookahead):
     _agree(contour, side, radius, lookahead, closed=False)
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(mixed | polygons, st.sampled_from(Side), radii, lookaheads)
 def test_closed_contours_are_walked_alike(contour, side, radius, lookahead):
     _agree(shut(contour), side, radius, lookahead, closed=True)

@@ -63,7 +63,7 @@ def from_surface(points: Points, contour: Path, off: float, *, full: bool) -> fl
     return min(least, from_line(points, start, end) + abs(end - start) ** 2 / (8.0 * ROUND))
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(logs, apart, signs, signs, signs, st.sampled_from(Side))
 def test_the_best_path_of_a_nearly_full_or_empty_arc_stays_away_from_it(along, off, out, way, turn, side):
     contour = arc_between_lines(way * along, out * off, turn)
@@ -75,7 +75,7 @@ def test_the_best_path_of_a_nearly_full_or_empty_arc_stays_away_from_it(along, o
         assert not np.isnan(loop.points).any()
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(logs, apart, signs, signs, st.sampled_from(Side))
 def test_the_best_path_of_a_nearly_full_arc_goes_round_it(along, off, out, turn, side):
     contour = arc_between_lines(-along, out * off, turn)
@@ -105,7 +105,7 @@ def test_an_arc_that_is_a_full_turn_or_none_is_refused(off, along, turn):
         assert [(one.code, one.segment) for one in found] == [("ARC_ENDS", 2)]
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(logs, apart, signs, signs, signs, st.sampled_from(Side))
 def test_the_control_s_path_stays_beside_an_arc_of_uneven_radii(along, off, out, way, turn, side):
     contour = arc_between_lines(way * along, out * off, turn)

@@ -12,7 +12,7 @@ from tests.core.verify.mutants import JUDGES, MUTATIONS, Table, tables
 
 @pytest.fixture(scope="module")
 def told() -> dict[str, Table]:
-    return tables(7, 7)
+    return tables(7, 4)
 
 
 @pytest.mark.parametrize("parts", list(JUDGES))
@@ -26,8 +26,8 @@ def test_none_is_missed_and_none_falsely_accused(told: dict[str, Table], parts: 
 
 def test_the_mutants_are_worth_judging(told: dict[str, Table]) -> None:
     for rows in told.values():
-        assert sum(row.gouging for row in rows.values()) > 30
-        assert sum(row.leaving for row in rows.values()) > 30
+        assert sum(row.gouging for row in rows.values()) > 20
+        assert sum(row.leaving for row in rows.values()) > 20
         for name in ("shift_all", "flip_an_arc", "narrower", "on_the_other_side"):
             assert rows[name].gouging > 0
 

@@ -60,7 +60,7 @@ def _places(path: Path) -> NDArray[np.float64]:
 @pytest.mark.parametrize("seed", range(3))
 def test_findings_on_odd_paths_have_finite_numbers(seed: int) -> None:
     random, judged, gouged = np.random.default_rng(seed), 0, 0
-    for _ in range(120):
+    for _ in range(50):
         surface, center = _odd_path(random), _odd_path(random)
         radius = float(10.0 ** random.uniform(-6.0, 6.0))
         verdict = judge(surface, Side.LEFT, radius, center)
@@ -78,8 +78,8 @@ def test_findings_on_odd_paths_have_finite_numbers(seed: int) -> None:
         assert verdict.clearance <= least + 0.006
         gouged += least < radius - 0.01
         assert verdict.depth >= radius - least - 0.01
-    assert judged > 20
-    assert gouged > 5
+    assert judged > 8
+    assert gouged > 2
 
 
 ROUND = Path.from_pieces([Arc((0.0, 0.0), (20.0, 0.0), (10.0, 0.0), Turn.CCW)])

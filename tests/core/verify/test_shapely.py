@@ -29,7 +29,7 @@ def material(case: Case) -> BaseGeometry | None:
 @pytest.mark.parametrize("seed", range(2))
 def test_the_judge_and_shapely_agree(seed: int) -> None:
     random, gouging, leaving = Random(seed), 0, 0
-    for case in corpus(100 + seed, 4):
+    for case in corpus(100 + seed, 3):
         kept_out = material(case)
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
@@ -37,13 +37,14 @@ def test_the_judge_and_shapely_agree(seed: int) -> None:
             entered = kept_out is not None and bool(
                 line.buffer(case.radius - CLEAR, quad_segs=64).intersection(kept_out).area > CLEAR**2
             )
-            left = walls.difference(line.buffer(case.radius + CLEAR, quad_segs=256)).length
+            left = walls.difference(line.buffer(case.radius + CLEAR, quad_segs=64)).length
             gouging, leaving = gouging + entered, leaving + (left > 0.0)
+            closest = line.distance(walls)
             for judged in JUDGES.values():
                 verdict = judged(case.surface, case.side, case.radius, path)
-                assert verdict.clearance == pytest.approx(line.distance(walls), abs=3.0 * oracle.CHORD)
+                assert verdict.clearance == pytest.approx(closest, abs=3.0 * oracle.CHORD)
                 assert not (entered and verdict.clean)
                 assert entered or kept_out is None or (verdict.depth < 2.0 * CLEAR and not verdict.wrong_side)
                 assert verdict.uncut_length > left - CLEAR
-    assert gouging >= 8
-    assert leaving >= 15
+    assert gouging >= 6
+    assert leaving >= 11

@@ -29,7 +29,7 @@ def star(random: Random) -> Path:
     return Chain(tuple(points), tuple(bulges)).path()
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_moves_near_closed_outlines_are_on_the_expected_side(seed: int) -> None:
     random = Random(seed)
     outline = star(random)
@@ -47,7 +47,7 @@ def test_moves_near_closed_outlines_are_on_the_expected_side(seed: int) -> None:
             assert judge(outline, side, 0.05, move).wrong_side == ((0,) if wrong else ())
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_leads_far_from_a_closed_outline_are_on_the_expected_side(seed: int) -> None:
     """A lead is on the wrong side if any part of it is inside the part."""
     random, checked = Random(seed), 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from math import cos, hypot, sin, sqrt, tau
 from random import Random
 
@@ -185,46 +185,44 @@ def moves(random: Random) -> Path:
     return Chain(tuple(points), tuple(random.choice((0.0, 0.0, 0.4, -1.0)) for _ in points[1:])).path()
 
 
-Judge = Callable[[Path, Side, float, Path], Verdict]
-
-
 def in_many_walls(surface: Path, side: Side, radius: float, path: Path) -> Verdict:
     """The verdict on the same contour divided into many walls."""
     parts = -(-MANY // len(surface))
     return judge(in_parts(surface, [np.arange(1, parts) / parts] * len(surface)), side, radius, path)
 
 
-@pytest.mark.parametrize("judged", [judge, in_many_walls])
 @pytest.mark.parametrize("seed", range(2))
-def test_random_moves_through_closed_contours_agree_with_the_oracle(seed: int, judged: Judge) -> None:
-    assert compared(judged, seed, 8) > 15
+def test_random_moves_through_closed_contours_agree_with_the_oracle(seed: int) -> None:
+    assert compared(seed, 8) > 15
 
 
-def compared(judged: Judge, seed: int, contours: int) -> int:
+def compared(seed: int, contours: int) -> int:
     """The number of paths that enter the part; each verdict must agree with sampled points and shapely."""
     random, inside = Random(seed), 0
     for _ in range(contours):
         surface, side = outline(random), random.choice(list(Side))
         for _ in range(6):
             path, radius = moves(random), random.choice((0.01, 0.1, 0.5, 2.0))
-            verdict = judged(surface, side, radius, path)
-            inside += _agree(surface, side, verdict, path)
+            verdicts = [judged(surface, side, radius, path) for judged in (judge, in_many_walls)]
+            inside += _agree(surface, side, verdicts, path)
     return inside
 
 
-def _agree(surface: Path, side: Side, verdict: Verdict, path: Path) -> bool:
-    part, radius = Polygon(chords(surface)), verdict.radius
+def _agree(surface: Path, side: Side, verdicts: Sequence[Verdict], path: Path) -> bool:
+    part = Polygon(chords(surface))
     room_inside = part.exterior.is_ccw == (side is Side.LEFT)
     for row in range(len(path)):
         move = path.part(row, row + 1)
         deep = oracle.deepest(move, surface, 0.01, room_inside=room_inside)
         line = chords(move)
         length = line.difference(part).length if room_inside else line.intersection(part).length
-        assert (row in verdict.wrong_side) == (deep > 1e-6) or abs(deep) < 1e-5
-        assert (row in verdict.wrong_side) == (length > 0.0) or length < 10.0 * sqrt(1e-5)
+        for verdict in verdicts:
+            assert (row in verdict.wrong_side) == (deep > 1e-6) or abs(deep) < 1e-5
+            assert (row in verdict.wrong_side) == (length > 0.0) or length < 10.0 * sqrt(1e-5)
     deep = oracle.deepest(path, surface, 0.01, room_inside=room_inside)
-    depth = gouged(radius, oracle.extreme(path, surface, 0.01, -1.0), deep)
-    assert verdict.depth == pytest.approx(depth, abs=1e-6)
+    nearest = oracle.extreme(path, surface, 0.01, -1.0)
+    for verdict in verdicts:
+        assert verdict.depth == pytest.approx(gouged(verdict.radius, nearest, deep), abs=1e-6)
     return deep > 0.0
 
 
@@ -240,7 +238,7 @@ def spiral(random: Random) -> Path:
 def test_moves_between_the_turns_of_a_spiral_have_the_same_depth_in_many_parts(seed: int) -> None:
     """Short moves check at more places whether a move changes sides between two arms."""
     random, gouging = Random(seed), 0
-    for _ in range(60):
+    for _ in range(25):
         surface, side, radius = spiral(random), random.choice(list(Side)), random.choice((0.1, 0.5, 2.0))
         path = moves(random)
         verdict = judge(surface, side, radius, path)
@@ -248,7 +246,7 @@ def test_moves_between_the_turns_of_a_spiral_have_the_same_depth_in_many_parts(s
         assert verdict.depth == pytest.approx(finer.depth, abs=1e-7)
         assert verdict.wrong_side or not finer.wrong_side
         gouging += bool(verdict.gouges)
-    assert gouging > 10
+    assert gouging > 4
 
 
 def test_a_path_through_the_gap_beside_an_uneven_arc_is_on_the_wrong_side() -> None:
