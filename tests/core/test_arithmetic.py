@@ -148,14 +148,14 @@ def assert_answered(text: str) -> None:
 
 
 @must_exercise(0.5, "reason")
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.text(max_size=20))
 def test_any_text_is_a_number_or_has_a_reason(text):
     assert_answered(text)
 
 
 @must_exercise(0.02, "number", "reason")
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.text(alphabet='0123456789./*-+() inm"', max_size=MAX_CHARACTERS))
 def test_any_text_of_allowed_characters_is_a_number_or_has_a_reason(text):
     assert_answered(text)

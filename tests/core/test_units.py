@@ -52,7 +52,7 @@ def test_parse_reads_numbers_and_sums(text, kind, unit, value):
     assert parse(text, kind, unit) == value
 
 
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(
     st.from_regex(r"-?([0-9]{1,7}(\.[0-9]{0,14})?|\.[0-9]{1,14})", fullmatch=True),
     st.sampled_from((Kind.LENGTH, Kind.FEED, Kind.ANGLE, Kind.PERCENT)),
@@ -87,7 +87,7 @@ def test_the_largest_number_depends_on_the_unit():
     assert parse("400000", Kind.LENGTH, MM) == 400000.0
 
 
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.text(max_size=30), st.sampled_from(Kind), st.sampled_from(Unit))
 def test_parse_never_raises(text, kind, unit):
     assert isinstance(parse(text, kind, unit), float | Unreadable)
@@ -117,7 +117,7 @@ def test_show_formats_each_kind(value, kind, unit, text):
     assert show(value, kind, unit) == text
 
 
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.floats(allow_nan=False), st.sampled_from(Kind), st.sampled_from(Unit))
 def test_shown_numbers_fit_and_have_no_negative_zero(value, kind, unit):
     text = show(value, kind, unit)
@@ -150,7 +150,7 @@ def test_converted_values_have_no_rounding_noise():
     assert convert(0.0, IN, MM) == 0.0
 
 
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.integers(-(10**8), 10**8), st.sampled_from(Unit))
 def test_converting_there_and_back_restores_the_value(digits, unit):
     value, other = digits / 10_000, MM if unit is IN else IN
@@ -167,14 +167,14 @@ def test_typed_values_survive_converting_there_and_back(text, unit):
     assert abs(to_mm(converted, other) - to_mm(value, unit)) < 1e-8
 
 
-@settings(derandomize=True, max_examples=500)
+@settings(derandomize=True, max_examples=200)
 @given(st.integers(-(10**14), 10**14), st.integers(1, 14), st.sampled_from(Unit))
 def test_decimals_of_fourteen_digits_survive_converting_there_and_back(digits, places, unit):
     value, other = float(Fraction(digits, 10**places) % 10_000), MM if unit is IN else IN
     assert convert(convert(value, unit, other), other, unit) == value
 
 
-@settings(derandomize=True, max_examples=300)
+@settings(derandomize=True, max_examples=150)
 @given(st.floats(-10_000.0, 10_000.0), st.sampled_from(Unit))
 def test_any_number_converted_there_and_back_is_nearly_the_same(value, unit):
     other = MM if unit is IN else IN

@@ -300,7 +300,7 @@ needy = st.one_of(
 
 
 @must_exercise(0.01, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
-@settings(max_examples=70, derandomize=True)
+@settings(max_examples=35, derandomize=True)
 @given(needy)
 @example(cutting_of(SQUARE, Side.LEFT, 0.5, closed=True, blend=0.3))
 @example(cutting_of(NOTCHED, Side.LEFT, 0.25, closed=True, blend=2.0))

@@ -21,11 +21,11 @@ needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is 
 @pytest.mark.parametrize("kind", [drilled, timed])
 def test_random_programs_match_the_interpreter(kind, tmp_path: Path) -> None:
     results = []
-    for seed in range(90):
+    for seed in range(50):
         text = kind(seed)
         results.append((seed, *outcome(text, tmp_path, {1: 0.5}, Unit.MM if "G21" in text else Unit.IN)))
     assert not [result for result in results if not result[1].startswith(("same moves", "both refuse"))]
-    assert sum(result[1] == "same moves" for result in results) >= 15
+    assert sum(result[1] == "same moves" for result in results) >= 8
 
 
 def heights(run: ControlRun) -> list[tuple[str, float]]:

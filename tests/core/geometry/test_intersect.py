@@ -188,7 +188,7 @@ def _clear(meetings: Meetings) -> bool:
 
 
 @must_exercise(0.12)
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
 def test_meeting_points_lie_on_both_pieces(a, b):
     meetings = _meet(a, b)
@@ -202,7 +202,7 @@ def test_meeting_points_lie_on_both_pieces(a, b):
     assert (np.diff(meetings.along_a) >= 0).all()
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
 def test_the_order_of_a_pair_does_not_matter(a, b):
     forward, backward = _meet(a, b), _meet(b, a)
@@ -211,7 +211,7 @@ def test_the_order_of_a_pair_does_not_matter(a, b):
     assert np.allclose(forward.points, backward.points[order], atol=1e-6)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(any_piece, any_piece, st.floats(0, tau), st.builds(complex, st.floats(-1e4, 1e4), st.floats(-1e4, 1e4)))
 def test_meeting_points_move_and_rotate_with_the_pieces(a, b, angle, shift):
     meetings = _meet(a, b)
@@ -247,7 +247,7 @@ def _steep(a: Piece, b: Piece, meetings: Meetings) -> bool:
     return min(_distance(b, complex(x, y)) for x, y in on.tolist()) > 0.1
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
 def test_reversed_pieces_meet_at_the_same_points(a, b):
     meetings = _meet(a, b)

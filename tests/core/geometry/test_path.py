@@ -87,7 +87,7 @@ def test_nothing():
     assert list(EMPTY) == []
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed)
 def test_arrays_agree_with_the_pieces(path):
     assert path.lengths.tolist() == pytest.approx([piece.length for piece in path], abs=1e-9)
@@ -95,7 +95,7 @@ def test_arrays_agree_with_the_pieces(path):
     assert path.sweeps.tolist() == pytest.approx(arcs, abs=1e-9)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed)
 def test_backwards_twice_is_the_same_path(path):
     twice = path.reversed().reversed()
@@ -105,7 +105,7 @@ def test_backwards_twice_is_the_same_path(path):
     assert np.allclose(path.reversed().lengths, path.lengths[::-1], atol=1e-9)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(mixed, st.floats(0, 1))
 def test_boxes_hold_every_point_of_their_piece(path, share):
     turned = np.exp(1j * path.sweeps * share)

@@ -72,7 +72,7 @@ def test_boxes_contain_all_points_tightly(path: Path) -> None:
         assert high_y - step <= y.max() <= high_y + 1e-9
 
 
-@settings(deadline=None, max_examples=300, derandomize=True)
+@settings(deadline=None, max_examples=150, derandomize=True)
 @given(st.floats(-6.0, 0.0), st.floats(-7.0, -2.6), st.sampled_from((-1, 1)), st.sampled_from((-1, 1)))
 def test_an_uneven_arc_is_near_its_circle_everywhere(power: float, differ: float, out: int, way: int) -> None:
     """The length of the chord does not matter, even for a nearly full arc with a short chord."""

@@ -39,7 +39,7 @@ from tests.core.importing.drawings import (
     square,
 )
 
-CONTOURS = 200
+CONTOURS = 100
 
 
 def same(first: tuple[Piece, ...], second: tuple[Piece, ...]) -> bool:
@@ -69,7 +69,7 @@ def test_shuffled_and_reversed_copies_give_the_same_chain(first_seed: int) -> No
 
 @pytest.mark.parametrize("decimals", [3, 4, 5, 6])
 def test_a_rounded_drawing_gives_one_closed_contour(decimals: int) -> None:
-    for seed in range(30):
+    for seed in range(15):
         pieces = random_contour(seed)
         exact, rounded = (listed(dxf(*(entity(piece, count) for piece in pieces))) for count in (12, decimals))
         assert [contour.closed for contour in rounded.contours] == [True], seed
@@ -242,9 +242,9 @@ def test_a_line_over_the_joint_of_two_collinear_lines_joins_both(stray: list[tup
     assert drawing.overlaps == 2
 
 
-def test_twenty_thousand_copies_of_a_line_are_dropped() -> None:
-    drawing = listed(dxf(*([line((0, 0), (10, 0))] * 20_000)))
-    assert (len(drawing.contours), drawing.duplicates) == (1, 19_999)
+def test_ten_thousand_copies_of_a_line_are_dropped() -> None:
+    drawing = listed(dxf(*([line((0, 0), (10, 0))] * 10_000)))
+    assert (len(drawing.contours), drawing.duplicates) == (1, 9_999)
 
 
 @pytest.mark.parametrize(("begin", "end"), [(4.0, 9.996), (0.004, 6.0), (9.996, 4.0), (6.0, 0.004)])

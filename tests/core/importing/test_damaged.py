@@ -21,7 +21,7 @@ from tests.core.importing.mutants import (
 
 FILES = originals()
 SEED = 7
-MUTANTS = 40
+MUTANTS = 25
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -30,7 +30,7 @@ from core.units import Unit
 from core.verify.judge import judge_together
 from tests.core.importing.drawings import dxf, ellipse, entity, line, listed
 
-SEEDS = range(12)
+SEEDS = range(6)
 
 
 def rounded_polygon(seed: int) -> tuple[Piece, ...]:

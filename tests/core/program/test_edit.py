@@ -286,7 +286,7 @@ def test_set_unit_keeps_unreadable_text():
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Number(0.0))
 
 
-@settings(derandomize=True, max_examples=30, suppress_health_check=[HealthCheck.too_slow])
+@settings(derandomize=True, max_examples=15, suppress_health_check=[HealthCheck.too_slow])
 @given(programs)
 def test_set_unit_loses_no_field(given_program):
     other = Unit.IN if given_program.unit is Unit.MM else Unit.MM

@@ -28,7 +28,7 @@ def test_a_program_is_written_as_the_expected_text():
     assert dumps(PART) == TEXT
 
 
-@settings(derandomize=True, max_examples=80, deadline=None)
+@settings(derandomize=True, max_examples=40, deadline=None)
 @given(programs)
 def test_every_program_reads_back_the_same(given_program):
     assert loads(dumps(given_program), "x") == given_program

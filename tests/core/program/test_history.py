@@ -118,7 +118,7 @@ def test_differences_name_changed_setup_and_units() -> None:
     assert differences_to(set_unit(PART, Unit.MM)) == ("Program units: MM, was IN.",)
 
 
-@settings(max_examples=20, derandomize=True, deadline=None)
+@settings(max_examples=12, derandomize=True, deadline=None)
 @given(programs, programs)
 def test_differences_are_reported_if_and_only_if_programs_differ(old: Program, new: Program) -> None:
     assert differences(old, old) == ()

@@ -20,7 +20,7 @@ from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit
 from tests.core.program.parts import arc, blend, line, program
 
-laws = settings(derandomize=True, max_examples=60, deadline=None)
+laws = settings(derandomize=True, max_examples=40, deadline=None)
 
 
 @dataclass(frozen=True)

@@ -206,7 +206,7 @@ def test_nothing_is_determined_without_a_start(name):
     assert block.segments[1].piece == Line((1.0, 0.0), (1.0, 1.0))
 
 
-@settings(derandomize=True, max_examples=80, deadline=None)
+@settings(derandomize=True, max_examples=30, deadline=None)
 @given(programs)
 def test_any_program_is_solved_without_raising(given_program):
     for block in given_program.blocks:

@@ -184,7 +184,7 @@ tables = st.one_of(
 
 
 @must_exercise(0.2, "imported", "refused")
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(tables)
 def test_a_table_is_imported_whole_or_not_at_all(text):
     table = read(text)
@@ -205,7 +205,7 @@ def test_any_text_is_a_table_or_refused(text):
 
 
 @must_exercise(0.2)
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(tables)
 def test_the_reader_of_the_control_finds_the_same_tools(text):
     table, control = read(text), read_table(text.encode())[0]
