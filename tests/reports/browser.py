@@ -86,7 +86,7 @@ class Browser:
             values = NAMED.get(name) or (code if held else {"key": name, "text": name})
             await self.ask("Input.dispatchKeyEvent", type="keyDown", modifiers=held, **values)
             await self.ask("Input.dispatchKeyEvent", type="keyUp", modifiers=held, **{**values, "text": ""})
-            await asyncio.sleep(0.15)
+            await asyncio.sleep(0.03)
 
     async def until(self, text: str, *, longest: float = 60.0) -> None:
         """Wait for a text on the screen; AssertionError with the screen if it never comes."""

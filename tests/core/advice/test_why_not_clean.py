@@ -299,12 +299,15 @@ needy = st.one_of(
 """Contours of which many have no clean look-ahead, for different reasons."""
 
 
-@must_exercise(0.01, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
+@must_exercise(0.04, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
 @settings(max_examples=35, derandomize=True)
 @given(needy)
 @example(cutting_of(SQUARE, Side.LEFT, 0.5, closed=True, blend=0.3))
 @example(cutting_of(NOTCHED, Side.LEFT, 0.25, closed=True, blend=2.0))
 @example(setup(lines((0, 0), (1, 0), (1, 0.4), (-1, 0.4)), Side.LEFT, closed=False, blend=0.3))
+@example(setup(SLOT, Side.LEFT, closed=False))
+@example(setup(STAR, Side.LEFT, closed=True))
+@example(setup(lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6)), Side.LEFT, closed=False, blend=0.5))
 @example(setup(lines((0, 0), (1, 0), (1, 0.6), (-1, 0.6)), Side.LEFT, closed=False, blend=0.3))
 def test_every_remedy_makes_the_path_clean(cutting: CuttingSetup) -> None:
     advice = advice_of(cutting)
