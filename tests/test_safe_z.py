@@ -103,8 +103,10 @@ def test_every_tool_change_between_blocks_pecks_and_passes_is_at_safe_z(
     assert_changes_at(safe_z, text, *SWAPPED[file.stem])
 
 
-@pytest.mark.parametrize("control", FIRST_VARIANTS)
-@pytest.mark.parametrize("name", ["flange", "plate-mm"])
+@pytest.mark.parametrize(
+    ("name", "control"),
+    [*(("flange", control) for control in FIRST_VARIANTS), ("plate-mm", "klartext"), ("plate-mm", "linuxcnc")],
+)
 def test_every_tool_change_for_a_control_is_at_safe_z(
     name: str, control: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
