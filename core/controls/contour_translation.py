@@ -30,10 +30,12 @@ MAX_TOOLS: Final = 24
 class TranslatedProgram:
     """The text for the other control, the table of tools that it needs, and its last decimal place in millimeters.
 
-    A line's segment is the program's line that it comes from, negative for an arc that only leads to it.
+    A line's segment is the number of its element, negative for an arc that only leads to it; `sources` has the
+    program's line of each element, and 0 for lines of no element.
     """
 
     lines: tuple[WrittenLine, ...]
+    sources: tuple[int, ...]
     tools: ToolTable
     digit: float
 
@@ -46,19 +48,21 @@ def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | 
     if len(sizes) > MAX_TOOLS:
         return NotTranslated(f"its contours need more than {MAX_TOOLS} tools")
     style, unit = STYLES.get(control), source.unit
-    runs: list[PassWithLeads] = []
+    runs, sources = list[PassWithLeads](), [0]
     for stretch in source.stretches:
         tool = sizes.index(stretch.radius) + 1
-        run_led = rewritten_stretch(source, stretch, tool, style or FREE_ENTRY, blends=style is not None)
+        before = len(sources) - 1
+        run_led = rewritten_stretch(source, stretch, tool, before, style or FREE_ENTRY, blends=style is not None)
         if isinstance(run_led, NotTranslated):
             return run_led
+        sources += stretch.programmed.lines[1:].tolist()
         runs.append(run_led)
     if style is None:
         lines, tools, decimals = write_klartext_contours(runs, unit), ToolTable(), KLARTEXT_DECIMALS[unit]
     else:
         lines, decimals = write_iso(runs, style, Frame(unit)), style.digits(unit)
         tools = tools_of([run_led.contour_pass for run_led in runs], style)
-    return TranslatedProgram(lines, tools, to_mm(10.0**-decimals, unit))
+    return TranslatedProgram(lines, tuple(sources), tools, to_mm(10.0**-decimals, unit))
 
 
 def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float] | NotTranslated:
@@ -78,7 +82,7 @@ def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float]
 def _by_source_lines(made: ControlRun, program: TranslatedProgram) -> ControlRun:
     """Return the run with the lines of the program that the contours come from."""
     segments = [int(line.segment or 0) for line in program.lines]
-    sources = np.array([0, *map(abs, segments)], np.int32)
+    sources = np.array([0, *(program.sources[abs(segment)] for segment in segments)], np.int32)
     leads = np.array(
         [True, *(line.lead or segment <= 0 for line, segment in zip(program.lines, segments, strict=True))]
     )

@@ -1,7 +1,7 @@
 """A rewritten stretch is a compensated stretch of a run as a pass for another control, with leads that cut nothing.
 
-Elements have the numbers of their lines in the program; arcs that lead in and out have the negative numbers of the
-elements next to them.
+Elements have numbers of their own, because a line that runs again may have another feed; arcs that lead in and out
+have the negative numbers of the elements next to them.
 """
 
 from __future__ import annotations
@@ -40,11 +40,12 @@ class NotTranslated:
 
 
 def rewritten_stretch(
-    source: ControlRun, stretch: Stretch, tool: int, style: IsoStyle, *, blends: bool
+    source: ControlRun, stretch: Stretch, tool: int, before: int, style: IsoStyle, *, blends: bool
 ) -> PassWithLeads | NotTranslated:
     """Return a stretch of a run with a tool's number in a control's style, or why it cannot be written for it.
 
-    It has the first leads that cut nothing; `blends` allows quarter arcs.
+    The number of an element is the row of its move, plus `before`.  The stretch has the first leads that cut nothing;
+    `blends` allows quarter arcs.
     """
     moves = stretch.programmed
     line = int(moves.lines[min(1, len(moves) - 1)])
@@ -60,10 +61,18 @@ def rewritten_stretch(
     if len(uneven):
         return NotTranslated(f"the tool axis moves under compensation at line {int(moves.lines[rows[uneven[0]]])}")
     whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
-    shape = ProgrammedElements(tuple(map(element_of, whole)), tuple(whole.numbers.tolist()))
+    numbers = (before + rows).tolist()
+    shape = ProgrammedElements(tuple(map(element_of, whole)), tuple(map(float, numbers)))
     surface = ProtectedContour(whole.part(*contour_of(whole)), stretch.side, stretch.radius)
     shape = merged(shape) if style.merged else shape
-    return _with_leads(shape, stretch, _contour_pass(source, stretch, rows, tool), surface, style, blends=blends)
+    feeds = dict(zip(numbers, (feed or DEFAULT_FEED for feed in moves.feeds[rows].tolist()), strict=True))
+    feeds |= {-number: feed for number, feed in feeds.items()}
+    contour_pass = _contour_pass(source, stretch, float(moves.points[rows[0], 2]), feeds, tool)
+    led = _with_leads(shape, stretch, contour_pass, surface, style, blends=blends)
+    if led is None:
+        line = int(moves.lines[rows[0]])
+        return NotTranslated(f"at line {line} there is no room for a straight move into the cut and out of it")
+    return led
 
 
 def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
@@ -77,15 +86,10 @@ def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
     return rows.compress(moves.moving_in(Plane.XY)[rows])
 
 
-def _contour_pass(source: ControlRun, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> ContourPass:
-    moves = stretch.programmed
-    depth = float(moves.points[rows[0], 2])
+def _contour_pass(
+    source: ControlRun, stretch: Stretch, depth: float, feeds: dict[int, float], tool: int
+) -> ContourPass:  # fmt: skip
     up = max(float(source.moves.points[:, 2].max()), depth + MIN_LIFT)
-    given = [
-        (line, feed or DEFAULT_FEED)
-        for line, feed in zip(moves.lines[rows].tolist(), moves.feeds[rows].tolist(), strict=True)
-    ]
-    feeds = dict(given) | {-line: feed for line, feed in (given[0], given[-1])}
     return ContourPass(
         tool=tool, diameter=2 * stretch.radius, stock=0.0, speed=1000.0, feeds=feeds, plunge_feed=DEFAULT_FEED,
         travel=up, near=up, depth=depth, leave=up,
@@ -100,8 +104,8 @@ def _with_leads(
     style: IsoStyle,
     *,
     blends: bool,
-) -> PassWithLeads | NotTranslated:
-    """Return the elements with the first leads that cut nothing."""
+) -> PassWithLeads | None:
+    """Return the elements with the first leads that cut nothing, None if there are none."""
     radius, first, last = stretch.radius, shape.elements[0], shape.elements[-1]
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
         begin = _path_end(stretch, first.start, first.start_direction, blend * radius, 1)
@@ -111,8 +115,7 @@ def _with_leads(
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (-shape.segments[0], -shape.segments[-1]))
             return PassWithLeads(contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1])
-    text = f"at line {int(shape.segments[0])} there is no room for a straight move into the cut and out of it"
-    return NotTranslated(text)
+    return None
 
 
 def _path_end(stretch: Stretch, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:

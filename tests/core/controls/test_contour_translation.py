@@ -133,6 +133,13 @@ def test_tools_of_several_sizes_keep_theirs() -> None:
     assert [stretch.radius for stretch in made.stretches] == [NEAR(5), NEAR(2)]
 
 
+def test_a_line_that_runs_again_keeps_the_feed_of_each_time() -> None:
+    loop = "#1=100\nWHILE[#1 LT 400]DO1\nG91 G1 X40. F#1\nY9.\n#1=#1+100\nEND1\n"
+    text = f"G21 G17 G90 G0 X-30. Y-30.\nG1 Z-1. F50\nG42 D1 X0. Y0.\n{loop}G90 G40 X200. Y0.\nM30\n"
+    made = by_contour(on(text.encode(), "fanuc:a", end_mills({1: 10.0})), "klartext")
+    assert list(dict.fromkeys(move.feed for move in made.moves if move.line == 6)) == [100, 200, 300]
+
+
 @must_exercise(0.5)
 @settings(max_examples=30, deadline=None)
 @given(LEGS, st.sampled_from(Side), st.sampled_from(["rosettacnc:normal", "linuxcnc"]))
