@@ -8,6 +8,7 @@ name, ties words that belong together.
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
@@ -298,6 +299,7 @@ class OWordFlow(Flow):
     ) -> None:  # fmt: skip
         super().__init__(lines, dialect, log, machine, library)
         self.words = dict[int, OWord]()
+        self.subs = list[int]()
         self.begun: dict[tuple[str | None, str], int] = {}
         self.by_label: dict[str, list[OWord]] = {}
         self.o_words_left = MAX_O_WORDS
@@ -325,6 +327,7 @@ class OWordFlow(Flow):
         """Note the O-words of lines; `first` is the index of the first of these lines."""
         words = o_words_of(lines, first)
         self.words.update(words)
+        self.subs += [row for row, word in words.items() if word.word == "SUB"]
         for word in words.values():
             self.by_label.setdefault(word.label, []).append(word)
 
@@ -413,11 +416,9 @@ class OWordFlow(Flow):
         self._claim_label(word)
         self._values(word, 0)
         end = self._seek(word, "ENDSUB")
-        inner = next(
-            (other for row, other in self.words.items() if word.row < row < end.row and other.word == "SUB"), None
-        )
-        if inner is not None:
-            self._stop(inner, nested)
+        after = bisect_right(self.subs, word.row)
+        if after < len(self.subs) and self.subs[after] < end.row:
+            self._stop(self.words[self.subs[after]], nested)
         return end.row + 1
 
     def _call_sub(self, word: OWord) -> int:

@@ -12,6 +12,7 @@ SAME: dict[str, str] = {
     "signs": "#1=2\nG1 X-#1 Y-[3] Z-sin[30]\nX++2\nX--[2] Y+-2\nX[2 - -3] Y[2*-3] Z[-[3]]",
     "functions": "G1 Xround[2.5]Yround[-2.5]Zfup[1.2]\nXexp[1]Yln[2]Ztan[45]\nXacos[0]Yasin[.5]Zcos[60]\nXfix[-2.5]",
     "more functions": "G1 Xsqrt[4]Yatan[-1]/[-1]Zabs[-2]\nX[exists[#<a>]]\n#<a>=1\nY[exists[#<a>]+1]",
+    "a zero below zero": "#1=-0\n#2=[0*-1]\nG1 X[atan[#1]/[-1]] Y[atan[#2]/[-1]]",
     "numbers that are worked out": "#1=5\n#[1+1]=6\n##2=7\nG1 X#1 Y#2 Z#6\nX##2",
     "two settings in a line": "#1=3 #1=4 #<a>=[#1+1]\nG1 X#1 Y#<a>\n#<a>=1 #<a>=2\nX#<A>Y#<a >",
     "names": "#<a>=3\n#<_bb>=4\no1 sub\n#<a>=7\nG1 X#<_bb> Y#<a>\no1 endsub\no1 call\nX#<a>",

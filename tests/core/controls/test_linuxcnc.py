@@ -268,6 +268,12 @@ def test_endless_repeats_are_stopped() -> None:
     assert findings_of(ran_up_to(text, 20_000), "LIMIT")
 
 
+@pytest.mark.timeout(10)
+def test_thousands_of_subprograms_before_the_program_are_passed_quickly() -> None:
+    subprograms = "".join(f"o{number} sub\no{number} endsub\n" for number in range(7000))
+    assert ran(f"{subprograms}G21 F9\nG1 X1\nM2\n", "linuxcnc").stopped_at is None
+
+
 def test_a_feed_before_g20_is_in_the_unit_in_force_before() -> None:
     run = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
     assert [from_mm(move.feed, Unit.IN) for move in list(run.moves)[1:]] == pytest.approx([20 / 25.4, 20])
