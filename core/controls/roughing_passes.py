@@ -20,6 +20,10 @@ SAG: Final = 1e-3
 """Millimeters by which chords may be off the passes; passes that come nearer than two of them share a wall."""
 
 
+MIN_POINTS: Final = 4
+"""Fewest points that enclose something, the first one again at the end; a move shorter than CLOSED has two."""
+
+
 @dataclass(frozen=True, slots=True)
 class RoughingPass:
     """A pass and the later one that cuts it away, by the numbers of their first and last moves."""
@@ -57,7 +61,10 @@ def _region(path: Path, rows: RowRange) -> Polygon | None:
     """Return what a closed run of pieces encloses; None if it is open or crosses itself."""
     if not is_closed(path, rows):
         return None
-    region = Polygon(chords_of(path.part(*rows), SAG))
+    chords = chords_of(path.part(*rows), SAG)
+    if len(chords) < MIN_POINTS:
+        return None
+    region = Polygon(chords)
     return region if region.is_valid and region.area > 0.0 else None
 
 

@@ -83,3 +83,10 @@ def test_a_gouge_of_the_last_pass_is_told() -> None:
     cut = f"G41 D1 G1 {passes.format(20, 28).replace('X5.', 'X40.')}\nG40 {end}"
     run = ran(f"G21 G17 G40 G90 F400\nT1 M6\nG0 {start}\nG1 Z-3.\n{cut}\nM30\n", "fanuc:a", t1=10.0)
     assert "GOUGE" in errors(list(judged_findings(judge_run(run))))
+
+
+def test_a_move_of_a_micrometer_is_no_pass() -> None:
+    body = "G21 G17 G40 G90 F400\nT1 M6\nG0 X-30. Y-30.\nG1 Z-3.\nG41 D1 X0. Y0.\nX.001\nG40 X-30. Y30.\nM30\n"
+    findings = list(judged_findings(judge_run(ran(body, "fanuc:a", t1=0.5))))
+    assert "GOUGE" in errors(findings)
+    assert not [finding for finding in findings if finding.code == "ROUGHING"]
