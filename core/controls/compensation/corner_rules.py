@@ -146,9 +146,9 @@ def join(first: Element, second: Element, offset: float, rules: CornerRules) -> 
         point = _meeting_point(first, second, offset, rules.inside)
         if point is None:
             return Joint(end, start, corner=kind, missed=True)
-        # two arcs of nearly the same circle meet anywhere along it
+        # offsets that are nearly tangent, as those of two arcs of one circle, meet anywhere along each other
         if _near(end, start, LEAST_INCREMENT) and not _near(end, point, LEAST_INCREMENT):
-            return Joint(end, end)
+            point = end
         return Joint(point, point, corner=kind)
     return _outside(first, second, offset, rules)._replace(corner=kind)
 

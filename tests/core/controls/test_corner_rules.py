@@ -6,7 +6,15 @@ from math import cos, dist, pi, radians, sin, sqrt, tan
 
 import pytest
 
-from core.controls.compensation.corner_rules import CornerKind, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation.corner_rules import (
+    CornerKind,
+    CornerRules,
+    Inside,
+    Joint,
+    Outside,
+    corner_kind,
+    join,
+)
 from core.controls.compensation.elements import (
     Element,
     arc_element,
@@ -192,4 +200,5 @@ def test_two_arcs_of_one_circle_with_rounded_centers_join_at_their_common_point(
     assert dist(meeting(first, second, 3.0) or (0.0, 0.0), offset_end(first, 3.0)) > 0.1
     joint = join(first, second, 3.0, CornerRules())
     assert joint.end == joint.start == offset_end(first, 3.0)
+    assert joint.corner is corner_kind(first, second, 3.0, CornerRules()) is CornerKind.INSIDE
     assert dist(joint.end, offset_start(second, 3.0)) < 1e-4
