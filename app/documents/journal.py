@@ -178,6 +178,16 @@ def read_journal(data: bytes) -> Journal | None:
     return None if journal is None else replace(journal, damaged=b"\n" in data[length:])
 
 
+def of_another_version(data: bytes) -> bool:
+    """True if the first line of a journal is whole but in the format of another version of this program."""
+    line = next((line for line, _, _ in whole_lines(data[: data.find(b"\n") + 1])), b"null")
+    try:
+        record = json.loads(line)
+    except _DAMAGE:
+        return False
+    return isinstance(record, dict) and record.get("journal") != FORMAT
+
+
 def _begun(record: Record) -> Journal:
     """Return what the first line holds."""
     work: Work

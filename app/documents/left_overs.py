@@ -15,7 +15,7 @@ from typing import Final
 
 from app.documents import times
 from app.documents.files import NotAFileError, read_file
-from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, read_journal
+from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, of_another_version, read_journal
 from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
 from core.units import plain
@@ -74,8 +74,8 @@ def new_journal(path: Path, file: Path | None) -> JournalFile:
 class Unreadable:
     """Unsaved work that cannot be read: who wrote it, and when, in ISO format.
 
-    `hidden`: we may not read it; otherwise it is damaged.  `ours`: the file belongs to this login.  `what` says what
-    the path is if it is not a regular file.
+    `hidden`: we may not read it; `foreign`: another version of this program can; otherwise it is damaged.  `ours`: the
+    file belongs to this login.  `what` says what the path is if it is not a regular file.
     """
 
     user: str
@@ -83,6 +83,7 @@ class Unreadable:
     hidden: bool
     ours: bool
     what: str = ""
+    foreign: bool = False
 
 
 def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
@@ -185,12 +186,13 @@ def read(path: Path, kind: Kind | None = None) -> Journal | None:
 
 def unreadable(path: Path) -> Unreadable | None:
     """Describe a journal that cannot be read; return None if there is none or it is empty."""
-    hidden, what = False, ""
+    hidden, what, foreign = False, "", False
     try:
         status = path.stat()
         if stat.S_ISREG(status.st_mode) and not status.st_size:
             return None
-        read_file(path, MAX_JOURNAL_BYTES)
+        data, _ = read_file(path, MAX_JOURNAL_BYTES)
+        foreign = of_another_version(data)
     except FileNotFoundError:
         return None
     except NotAFileError as error:
@@ -203,7 +205,8 @@ def unreadable(path: Path) -> Unreadable | None:
         status = path.stat()
     except OSError:
         return None
-    return Unreadable(login(status.st_uid), times.of(status.st_mtime_ns), hidden, status.st_uid == os.getuid(), what)
+    user, time = login(status.st_uid), times.of(status.st_mtime_ns)
+    return Unreadable(user, time, hidden, status.st_uid == os.getuid(), what, foreign)
 
 
 def login(number: int) -> str:

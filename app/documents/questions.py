@@ -282,12 +282,15 @@ def unreadable_work(document: Document, path: Path, left: Unreadable, today: str
     elif left.hidden:
         lines = [f"{who} has unsaved work on {name}, {when}. You may not read it."]
         lines.append(f"It is kept, and {who} is asked about it at the next start on this program.")
+    elif left.foreign:
+        lines = [f"Another version of cutcomp wrote unsaved work on {name}, {when}."]
+        lines.append("Only that version can read it. It is kept.")
     else:
         lines = [f"Unsaved work on {name}, {when}, is damaged and cannot be read.", "It is kept."]
-    lines.append(f"The file is {whole_name(path)}.")
+    beside = document.file.path is not None and folder(document.file.path) == folder(path)
+    lines.append(f"The file is {whole_name(path) if beside else printable_path(path)}.")
     answers = [Answer(GO_ON, "without it")]
     if left.ours and not left.hidden:
         answers.append(Answer(DISCARD, "kept as a backup; Ctrl+O lists it"))
-    return Ask(
-        "UNSAVED WORK IS DAMAGED" if not left.hidden else "UNSAVED WORK FOUND", tuple(lines), tuple(answers), GO_ON
-    )
+    title = "UNSAVED WORK FOUND" if left.hidden or left.foreign else "UNSAVED WORK IS DAMAGED"
+    return Ask(title, tuple(lines), tuple(answers), GO_ON)

@@ -103,7 +103,7 @@ def _without_file(path: Path) -> Facts:
         text = "This program is open and has not been saved yet."
         return replace(gone, outcome=Outcome.OPEN, trouble=text)
     if left:
-        return replace(gone, trouble="Unsaved work on this program is damaged. It is kept; opening it says where.")
+        return replace(gone, trouble="Unsaved work on this program cannot be read. It is kept; opening it says where.")
     return replace(gone, trouble="This file is not there any more, or its folder cannot be read.")
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from app.documents.files import load, save
-from app.documents.journal_file import journal_path, set_aside
+from app.documents.journal_file import SUFFIX, journal_path, lines, set_aside
 from app.documents.left_overs import KeptCopy, file_of_copy, kept_copies, never_saved
 from app.documents.programs import example
 from app.documents.questions import Ask
@@ -438,6 +438,21 @@ def test_an_unreadable_copy_is_reported(state: Path, file: Path) -> None:
     opening = opened(service(state).open(file, kept_copy=copy))
     assert opening.offer is not None
     assert "is damaged and cannot be read" in words(opening.offer.ask)
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_work_of_another_version_is_reported_and_kept(state: Path, file: Path, *, named: bool) -> None:
+    state.mkdir(exist_ok=True)
+    journal = journal_path(file) if named else state / f"unnamed-mill-3-1-2{SUFFIX}"
+    written, _ = lines([{"journal": 2, "owner": {"user": "ann"}, "base": {}}, {"do": "TOOL", "delta": {}}])
+    journal.write_bytes(written)
+    operator = started(state, file if named else None)
+    name = file.name if named else "a program without a name"
+    assert operator.asked.startswith(f"UNSAVED WORK FOUND Another version of cutcomp wrote unsaved work on {name}, ")
+    assert f"It is kept. The file is {journal.name if named else journal}." in operator.asked
+    operator.answer("CONTINUE").type(7).killed()
+    kept = [path for path in journal.parent.iterdir() if path.name.startswith(journal.name)]
+    assert written in [path.read_bytes() for path in kept]
 
 
 def test_never_saved_programs_are_listed(state: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:

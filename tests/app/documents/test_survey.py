@@ -67,7 +67,7 @@ def test_damaged_work_on_a_never_saved_program_is_reported(part: Path) -> None:
     journal_path(part.with_name("flap.toml")).write_bytes(b"?" * 300)
     facts = facts_of(part.with_name("flap.toml"))
     assert facts.outcome is Outcome.UNREADABLE
-    assert "is damaged. It is kept" in facts.trouble
+    assert "cannot be read. It is kept" in facts.trouble
     journal_path(part.with_name("flap.toml")).write_bytes(b"")
     assert names(part.parent) == ["part"]
 
