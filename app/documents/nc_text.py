@@ -152,4 +152,4 @@ class NcText:
 
 def _with_lines(listing: NcText, change: Change) -> NcText:
     lines, after = listing.lines, change.row + len(change.removed)
-    return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[after:]))
+    return replace(listing, lines=lines[: change.row] + change.inserted + lines[after:])
