@@ -275,6 +275,8 @@ def set_tool(program: Program, tool: Tool) -> Edited:
     for name in ("diameter", "speed", "feed", "plunge_feed"):
         if refusal := _misfit(field_of(Form.TOOL, name), getattr(tool, name), program.unit):
             return refusal
+    if refusal := _not_displayable(field_of(Form.TOOL, "type").label, tool.type):
+        return refusal
     others = (other for other in program.tools if other.number != tool.number)
     return replace(program, tools=tuple(sorted((*others, tool), key=lambda tool: tool.number)))
 

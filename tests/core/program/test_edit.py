@@ -241,6 +241,8 @@ def test_tools_are_set_and_deleted_in_the_table():
     assert edit.set_tool(both, Tool(1, diameter=Number(0.0))) == wrong
     assert edit.set_tool(both, Tool(1, diameter=Number(-0.5))) == wrong
     assert edit.set_tool(both, Tool(0)) == Refused("TOOL must be a whole number from 1 to 9999.")
+    refused = Refused("TYPE: character 4 (U+00A0) cannot be displayed. Type the text again without it.")
+    assert edit.set_tool(both, Tool(1, "END\u00a0MILL")) == refused
 
 
 def test_parameters_and_setup_are_set_or_refused():
