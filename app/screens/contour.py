@@ -30,7 +30,7 @@ from app.screens.dialogs import ChooseLine
 from app.screens.enter_stops import next_stop, run_lacks, run_stops, unanswered
 from app.screens.form_screen import FormScreen
 from app.screens.values import prompt_of
-from app.session.block_findings import TO_TYPE, Entry, block_findings, remedy
+from app.session.block_findings import TO_TYPE, WAITS, Entry, block_findings, remedy
 from app.session.guide import on_form
 from app.session.messages import Sentence, Tone
 from app.session.session import SEGMENT, Cursor, Session
@@ -71,8 +71,6 @@ NEW_SEGMENTS: Final[dict[str, type[Segment]]] = {
     "c": ChamferSegment,
 }
 """The letters that add a new segment, or change the kind of one that is still empty."""
-WAITS: Final = TO_TYPE | {"NOT_YET"}
-"""The findings on a run that waits for more values."""
 KINDS: Final = "L LINE, A ARC, B BLEND ARC, C CHAMFER"
 LATER: Final = "Or Page Down: the next segment may give it."
 CLOSED: Final = "The contour is closed. F8 leaves it; right arrow adds a segment."

@@ -33,6 +33,8 @@ class Kind(IntEnum):
 
 TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that something is still to be typed."""
+WAITS: Final = TO_TYPE | {"NOT_YET"}
+"""Errors that the prompt reports: something is still to be typed, or a run waits for more values."""
 GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
 """Errors that mean damage to the part."""
 REMEDIES: Final = frozenset(

@@ -19,7 +19,7 @@ from textual.reactive import reactive
 from textual.widgets import Static
 
 from app.documents.survey import Outcome
-from app.session.block_findings import TO_TYPE
+from app.session.block_findings import GOUGING, TO_TYPE, WAITS
 from app.session.posting import deleted_numbers, deleted_segments
 from app.session.words import length, segment_numbers, shortened
 from app.widgets.plain import PlainText
@@ -38,6 +38,8 @@ CHIPS_WIDTH: Final = 58
 SHORTEST_CHIP: Final = 24
 """The fewest characters before a colon that are shown alone: a field's name would say too little."""
 
+IN_OTHER_PLACES: Final = WAITS | GOUGING
+"""Errors for which the prompt or the first chip is enough."""
 
 OUTCOME_ROLES: Final = {
     Outcome.NOT_SAVED: "$c-warn",
@@ -221,15 +223,22 @@ def chips(case: Case, marks: Marks, *, findings_key: str = "F10") -> Content:
     has_uncut = not isfinite(judgment.uncut_length) or judgment.uncut
     uncut = (f"{marks.warning} UNCUT {left} long", "$c-uncut") if has_uncut else (f"{marks.good} UNCUT none", "$c-good")
     deleted, counted = _deleted_chips(case.block, marks)
-    warned = any(finding.severity is Severity.WARNING for finding in case.block.findings)
     # the chips sum up what is uncut or deleted; the findings list has the rest
-    others = ((f"{marks.warning} see {findings_key}", "$c-warn"),) if warned and not judgment.gouges else ()
+    others = () if judgment.gouges else _others(case.block, marks, findings_key)
     rows = [
         _row((gouge, uncut, *rest), gap)
         for rest in ((deleted, *others), (counted, *others), (counted,))
         for gap in ("   ", "  ")
     ]
     return next((row for row in rows if len(row) <= CHIPS_WIDTH), rows[-1])
+
+
+def _others(block: DerivedBlock, marks: Marks, findings_key: str) -> tuple[tuple[str, str], ...]:
+    """Return the chip that points to the other findings: an error that forbids posting before a warning."""
+    if any(finding.code not in IN_OTHER_PLACES for finding in block.errors):
+        return ((f"{marks.gouge} see {findings_key}", "$c-err"),)
+    warned = any(finding.severity is Severity.WARNING for finding in block.findings)
+    return ((f"{marks.warning} see {findings_key}", "$c-warn"),) if warned else ()
 
 
 def _deleted_chips(block: DerivedBlock, marks: Marks) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -247,8 +256,7 @@ def _stopped_short(case: Case) -> bool:
     """True if the path ends before a segment with an error and gouges nothing up to there."""
     block = case.block
     open_end = not block.solved.whole and not (case.judgment and case.judgment.gouges)
-    # the prompt reports a run that waits for more numbers
-    return open_end and any(finding.code not in TO_TYPE | {"NOT_YET"} for finding in block.errors)
+    return open_end and any(finding.code not in WAITS for finding in block.errors)
 
 
 def _first_error(case: Case, marks: Marks) -> Content:

@@ -88,6 +88,21 @@ def test_the_chips_of_a_clean_path_with_a_warning_point_to_f10(pocket):
     assert "F10" not in chips(pocket, MARKS["braille"]).plain
 
 
+def test_the_chips_of_a_clean_path_with_an_error_point_to_f10_first():
+    program = load(example("pocket"))
+    unread = Unread("12o", "not a number")
+    for spoiled in (
+        replace(program.blocks[0], speed=unread, lookahead=Number(3.0)),
+        replace(
+            program.blocks[0],
+            segments=(changed(program.blocks[0].segments[0], {"length": unread}), *program.blocks[0].segments[1:]),
+        ),
+    ):
+        block = derive(replace(program, blocks=(spoiled,))).block(1)
+        assert block.errors
+        assert chips(Case(block, None, program.unit), MARKS["braille"]).plain.endswith("✖ see F10")
+
+
 def test_the_chips_of_many_deleted_segments_still_point_to_f10(pocket):
     paths = pocket.block.paths
     gone = replace(paths.compensated.deleted, segments=np.array([2.0, 4.0, 5.5, 6.0, 8.0]))
