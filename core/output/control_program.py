@@ -84,14 +84,13 @@ def _for_the_operator(jobs: Sequence[Job], cuts: Sequence[PassToWrite], unit: Un
             "cut another contour. Post it again for such a tool."
         )
         yield Finding("LEFT_OUT", Severity.WARNING, text, lengths=(max(cut.diameter for cut in deleted),))
-    style = STYLES.get(control)
+    style, name = STYLES.get(control), shown_name(control)
     if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
-        name = shown_name(control)
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {name}; set its origin on the control."
         yield Finding("WORK_OFFSET", Severity.WARNING, text)
     # not every control knows M7 and M8
     if coolants := dict.fromkeys(str(job.coolant) for job in jobs if job.coolant is not Coolant.OFF):
-        text = f"COOLANT {' and '.join(coolants)} is not written for {control}; switch it on at the control."
+        text = f"COOLANT {' and '.join(coolants)} is not written for {name}; switch it on at the control."
         yield Finding("COOLANT", Severity.WARNING, text)
     if unit is Unit.IN and is_klartext(control):
         text = (

@@ -225,6 +225,8 @@ def test_any_program_gives_contours_or_a_reason(center: CenterPathTool | None) -
 def test_an_alarm_names_the_line() -> None:
     with pytest.raises(NcError, match="stops at line 2"):
         read_nc(b"G21 G90 G17\nG41 D9 G1 X1 F100\nM30\n", "linuxcnc", ToolTable())
+    with pytest.raises(NcError, match=r"^three-block stops at line 2"):
+        read_nc(b"G17G71G40G90\nG2X1.\n", "threeblock", ToolTable())
 
 
 def test_the_unit_of_the_program_is_kept() -> None:

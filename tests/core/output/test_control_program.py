@@ -193,6 +193,11 @@ def test_a_note_does_not_repeat_its_code():
     assert "(NOTE COOLANT FLOOD is not written for fanuc:a" in text
 
 
+def test_the_note_on_coolant_names_the_control_as_the_list_of_controls_does():
+    (note,) = posted("threeblock", jobs=(square(coolant=Coolant.MIST),)).notes
+    assert note.text == "COOLANT MIST is not written for three-block; switch it on at the control."
+
+
 def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
     (note,) = posted("threeblock", part="A\x1bB").notes
     assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
