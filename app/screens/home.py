@@ -37,7 +37,7 @@ from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
 
-COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 12), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 11))
+COLUMNS: Final = (("PROGRAM", 17), ("CHANGED", 11), ("BLK", 3), ("TOOLS", 6), ("VERDICT", 12))
 PROMPT: Final = "Up and down choose, Enter opens. Letters jump to a name. F2 starts a new part in inch, F3 in mm."
 
 

@@ -61,6 +61,19 @@ async def test_an_unusable_file_name_is_explained_and_replaced_by_typing(folder)
         assert user.session.file == folder / "y.toml"
 
 
+async def test_the_list_of_files_shows_every_verdict_in_full_beside_its_scrollbar(folder):
+    for number in range(12):
+        (folder / f"unread{number}.toml").write_text("format = 2\nunits = 3\n", encoding="utf-8")
+    async with at_work(folder) as user:
+        await user.press("ctrl+o")
+        table = user.screen.query_one(DataTable)
+        assert table.show_vertical_scrollbar
+        shown = [
+            "".join(segment.text for segment in strip) for strip in map(table.render_line, range(table.size.height))
+        ]
+        assert sum("? unreadable" in line for line in shown) >= 5
+
+
 UNOPENED = {
     "missing/x.toml": "there is no such file or folder",
     "none.nc": "there is no such file or folder",
