@@ -393,6 +393,7 @@ class ProofScreen(BaseScreen):
         """Remove the other control's dotted path."""
         if self.dotted_control:
             self._take_dotted_away()
+            self.quiet()
         else:
             self.say("V, then Space on another control, draws its path dotted under this one.")
 

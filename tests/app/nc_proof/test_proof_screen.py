@@ -339,6 +339,7 @@ async def test_the_path_of_another_control_is_drawn_dotted(tmp_path):
             assert str(user.proof.query_one("#proof-control", Label).content) == "linuxcnc"
             assert Style.UNTAKEN not in drawn(user, "proof-drawing")
             assert not user.proof.query_one("#proof-dotted", Drawing).region
+            assert not user.prompt.startswith("Dotted:"), "the sentence goes with the path"
 
 
 async def test_the_dotted_path_follows_text_tool_and_control(tmp_path):
