@@ -299,7 +299,7 @@ needy = st.one_of(
 """Contours of which many have no clean look-ahead, for different reasons."""
 
 
-@must_exercise(0.04, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
+@must_exercise(0.02, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
 @settings(max_examples=35, derandomize=True)
 @given(needy)
 @example(cutting_of(SQUARE, Side.LEFT, 0.5, closed=True, blend=0.3))
