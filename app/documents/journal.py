@@ -178,14 +178,17 @@ def read_journal(data: bytes) -> Journal | None:
     return None if journal is None else replace(journal, damaged=b"\n" in data[length:])
 
 
-def of_another_version(data: bytes) -> bool:
-    """True if the first line of a journal is whole but in the format of another version of this program."""
+def owner_in_another_version(data: bytes) -> Owner | None:
+    """Return who began a journal in the format of another version of this program; None for any other journal."""
     line = next((line for line, _, _ in whole_lines(data[: data.find(b"\n") + 1])), b"null")
     try:
-        record = json.loads(line)
+        match json.loads(line):
+            case {"owner": owner, **rest} if rest.get("journal") != FORMAT:
+                return owner_of(owner)
+            case _:
+                return None
     except _DAMAGE:
-        return False
-    return isinstance(record, dict) and record.get("journal") != FORMAT
+        return None
 
 
 def _begun(record: Record) -> Journal:

@@ -15,7 +15,7 @@ from typing import Final
 
 from app.documents import times
 from app.documents.files import NotAFileError, read_file
-from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, of_another_version, read_journal
+from app.documents.journal import MAX_JOURNAL_BYTES, Journal, Kind, owner_in_another_version, read_journal
 from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, place_of, why_aside
 from app.documents.lock import Owner, alive
 from core.units import plain
@@ -74,8 +74,8 @@ def new_journal(path: Path, file: Path | None) -> JournalFile:
 class Unreadable:
     """Unsaved work that cannot be read: who wrote it, and when, in ISO format.
 
-    `hidden`: we may not read it; `foreign`: another version of this program can; otherwise it is damaged.  `ours`: the
-    file belongs to this login.  `what` says what the path is if it is not a regular file.
+    `hidden`: we may not read it.  `ours`: the file belongs to this login.  `what` says what the path is if it is not a
+    regular file.  `owner` began it with another version of this program, which can read it; without one it is damaged.
     """
 
     user: str
@@ -83,7 +83,7 @@ class Unreadable:
     hidden: bool
     ours: bool
     what: str = ""
-    foreign: bool = False
+    owner: Owner | None = None
 
 
 def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, Journal | Unreadable]]:
@@ -95,7 +95,8 @@ def left_of(file: Path | None, kind: Kind, state: Path) -> Iterator[tuple[Path, 
         left = read(path, kind) or unreadable(path)
         if left is None:
             continue
-        living = not isinstance(left, Unreadable) and alive(left.head.owner)
+        owner = left.owner if isinstance(left, Unreadable) else left.head.owner
+        living = owner is not None and alive(owner)
         if not (living and (file is None or why_aside(path))):
             yield path, left
 
@@ -186,13 +187,13 @@ def read(path: Path, kind: Kind | None = None) -> Journal | None:
 
 def unreadable(path: Path) -> Unreadable | None:
     """Describe a journal that cannot be read; return None if there is none or it is empty."""
-    hidden, what, foreign = False, "", False
+    hidden, what, owner = False, "", None
     try:
         status = path.stat()
         if stat.S_ISREG(status.st_mode) and not status.st_size:
             return None
         data, _ = read_file(path, MAX_JOURNAL_BYTES)
-        foreign = of_another_version(data)
+        owner = owner_in_another_version(data)
     except FileNotFoundError:
         return None
     except NotAFileError as error:
@@ -206,7 +207,7 @@ def unreadable(path: Path) -> Unreadable | None:
     except OSError:
         return None
     user, time = login(status.st_uid), times.of(status.st_mtime_ns)
-    return Unreadable(user, time, hidden, status.st_uid == os.getuid(), what, foreign)
+    return Unreadable(user, time, hidden, status.st_uid == os.getuid(), what, owner)
 
 
 def login(number: int) -> str:

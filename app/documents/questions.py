@@ -282,7 +282,7 @@ def unreadable_work(document: Document, path: Path, left: Unreadable, today: str
     elif left.hidden:
         lines = [f"{who} has unsaved work on {name}, {when}. You may not read it."]
         lines.append(f"It is kept, and {who} is asked about it at the next start on this program.")
-    elif left.foreign:
+    elif left.owner is not None:
         lines = [f"Another version of cutcomp wrote unsaved work on {name}, {when}."]
         lines.append("Only that version can read it. It is kept.")
     else:
@@ -292,5 +292,5 @@ def unreadable_work(document: Document, path: Path, left: Unreadable, today: str
     answers = [Answer(GO_ON, "without it")]
     if left.ours and not left.hidden:
         answers.append(Answer(DISCARD, "kept as a backup; Ctrl+O lists it"))
-    title = "UNSAVED WORK FOUND" if left.hidden or left.foreign else "UNSAVED WORK IS DAMAGED"
+    title = "UNSAVED WORK FOUND" if left.hidden or left.owner is not None else "UNSAVED WORK IS DAMAGED"
     return Ask(title, tuple(lines), tuple(answers), GO_ON)

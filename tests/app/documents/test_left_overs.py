@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -444,7 +444,7 @@ def test_an_unreadable_copy_is_reported(state: Path, file: Path) -> None:
 def test_work_of_another_version_is_reported_and_kept(state: Path, file: Path, *, named: bool) -> None:
     state.mkdir(exist_ok=True)
     journal = journal_path(file) if named else state / f"unnamed-mill-3-1-2{SUFFIX}"
-    written, _ = lines([{"journal": 2, "owner": {"user": "ann"}, "base": {}}, {"do": "TOOL", "delta": {}}])
+    written, _ = lines([{"journal": 2, "owner": asdict(DEAD), "base": {}}, {"do": "TOOL", "delta": {}}])
     journal.write_bytes(written)
     operator = started(state, file if named else None)
     name = file.name if named else "a program without a name"
@@ -453,6 +453,13 @@ def test_work_of_another_version_is_reported_and_kept(state: Path, file: Path, *
     operator.answer("CONTINUE").type(7).killed()
     kept = [path for path in journal.parent.iterdir() if path.name.startswith(journal.name)]
     assert written in [path.read_bytes() for path in kept]
+
+
+def test_work_that_another_version_is_doing_is_not_asked_about(state: Path) -> None:
+    state.mkdir(exist_ok=True)
+    written, _ = lines([{"journal": 2, "owner": asdict(ALIVE), "base": {}}])
+    (state / f"unnamed-mill-3-1-2{SUFFIX}").write_bytes(written)
+    assert started(state).offer is None
 
 
 def test_never_saved_programs_are_listed(state: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
