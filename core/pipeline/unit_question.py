@@ -19,8 +19,11 @@ TOOL_SHARE: Final = 0.5
 def unit_question(derived: Derived) -> Finding | None:
     """Return the question INCH or MM? if the tool is large or the whole part small; None if nothing is unusual.
 
-    The part is what all closed contours enclose together; how far a part extends at an open contour is not known.
+    The part is what all closed contours enclose together; how far a part extends at an open contour is not known, and
+    nothing is asked while a contour is not determined to its end.
     """
+    if any(block.block.segments and not block.solved.whole for block in derived.blocks):
+        return None
     closed = [
         block
         for block in derived.blocks

@@ -62,6 +62,17 @@ def test_an_open_contour_asks_nothing() -> None:
     assert question(replace(closed, blocks=(replace(block, segments=block.segments[:-1]),))) == ""
 
 
+async def test_a_number_that_cannot_be_read_asks_nothing_about_the_other_contours() -> None:
+    """A slot in a large plate: the plate's size is unknown while one of its numbers cannot be read."""
+    large, slot = plate(4, 3, 0.5), plate(1, 0.375, 0.25)
+    both = replace(large, blocks=(*large.blocks, *slot.blocks))
+    assert question(both) == ""
+    async with operator(both) as user:
+        await user.begin(both, 2, "x_end")
+        await user.press("'1.2.3", "enter")
+        assert user.prompt == "1.2.3 is not a number."
+
+
 async def test_the_form_asks_once() -> None:
     async with operator(plate(4, 0.9, 0.5)) as user:
         assert user.prompt == f"INCH or MM? {LARGE} UNITS is in PROGRAM PARAMETERS."
