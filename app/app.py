@@ -130,6 +130,12 @@ class CutcompApp(TransformActions):
         super().notify(text, title=title, severity=severity, timeout=timeout, markup=markup)
         self.set_timer(timeout or self.NOTIFICATION_TIMEOUT, self._paint_behind_messages)
 
+    def clear_notifications(self) -> None:
+        """Take the messages over the screen away."""
+        if self.screen.query("Toast"):
+            super().clear_notifications()
+            self.set_timer(MESSAGE_GOES, self._paint_behind_messages)
+
     def _paint_behind_messages(self) -> None:
         """Repaint once the messages are gone: Textual may leave part of one if something else changes then."""
         if not self.screen_stack:

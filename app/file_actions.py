@@ -187,6 +187,8 @@ class FileActions(DerivationActions):
             self.say(f"There is nothing to {action}.")
             return
         self._change(turned())
+        # none that offers Ctrl+Z stays after it has been pressed: pressed again, it undoes another edit
+        self.clear_notifications()
         self.say(done)
 
     def _change(self, session: Session) -> None:

@@ -11,7 +11,7 @@ from app.app import CutcompApp
 from app.documents.files import load
 from app.documents.programs import example
 from app.session.session import Session
-from tests.app.widget_pilot import SURROUNDINGS
+from tests.app.widget_pilot import SURROUNDINGS, Operator
 from tests.terminal import cutcomp, running
 
 CTRL_L = b"\x0c"
@@ -39,6 +39,20 @@ async def test_the_whole_screen_is_repainted_after_the_last_message(monkeypatch:
             await pilot.pause(0.05)
         await pilot.pause(0.2)
         assert set(painted) == {0}
+
+
+async def test_undo_takes_away_the_message_that_offers_it() -> None:
+    program = CutcompApp(Session.of(load(example("notch"))), surroundings=SURROUNDINGS)
+    async with program.run_test(notifications=True, size=(80, 24)) as pilot:
+        user = Operator(program, pilot)
+        await user.settle()
+        await user.press("pagedown", "f1")
+        await pilot.pause(0.1)
+        assert len(program.screen.query("Toast")) == 1
+        await user.press("ctrl+z")
+        await pilot.pause(0.1)
+        assert user.prompt.startswith("Undone: DELETE SEGMENT 1")
+        assert not program.screen.query("Toast")
 
 
 async def test_an_ended_program_ignores_the_end_of_a_message() -> None:
