@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from app.session.words import segment_numbers
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.model import Program
 from core.progress import Progress, silent
@@ -54,11 +55,12 @@ def times_in_words(derived: Derived) -> tuple[str, dict[int, str]]:
     """Return the total time, and the cut, rapid and total times of each postable block, as texts."""
     from core.output.times import block_times, minutes_text, program_times, times_text
     from core.pipeline.jobs import jobs
-    from core.verify.report import enumerated
 
     ready = {block.number for block in derived.blocks if block.postable}
     posted = [job for job in jobs(derived) if job.block in ready]
     total = f"{minutes_text(program_times(posted, posted[0].rapid_rate).total)} total" if posted else ""
     if posted and len(posted) < len(derived.blocks):
-        total += f" of {enumerated('block', [job.block for job in posted])} only"
+        # which blocks come first: a narrow screen cuts the end off
+        numbers = segment_numbers(job.block for job in posted)
+        total = f"{'block' if len(posted) == 1 else 'blocks'} {numbers}: {total}"
     return total, {job.block: times_text(block_times(job, job.rapid_rate)) for job in posted}
