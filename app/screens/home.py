@@ -33,6 +33,7 @@ from app.session.words import counted, length
 from app.widgets.drawing import Drawable, Drawing
 from app.widgets.option_rows import TypedLetters
 from app.widgets.plain import PlainText
+from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, verdict_word
 from core.program.file.read import StoreError
@@ -74,7 +75,7 @@ class HomeScreen(BaseScreen):
         """Lay out the folder's name, its files, and the drawing of the program with the cursor."""
         with Vertical(id="files", classes="panel -bare"):
             yield PlainText(id="folder", classes="head")
-            yield DataTable(id="programs", cursor_type="row")
+            yield RowTable(id="programs", cursor_type="row")
         yield Drawing(id="preview")
 
     def on_mount(self) -> None:

@@ -17,6 +17,7 @@ from app.session.session import Session
 from app.session.words import length, segment_numbers
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainText
+from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks
 from core.program.edit import FormPlace, recalculate_lookahead, type_field
@@ -50,7 +51,7 @@ class LookaheadScreen(BaseScreen):
         """Lay out the title, the table, and the drawing of the value with the cursor."""
         with Vertical(id="lookahead", classes="panel -bare"):
             yield PlainText(id="lookahead-title", classes="head")
-            yield DataTable(id="values", cursor_type="row")
+            yield RowTable(id="values", cursor_type="row")
         yield Drawing(id="value-path")
 
     def on_mount(self) -> None:

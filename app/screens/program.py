@@ -21,6 +21,7 @@ from app.session.session import Session
 from app.session.words import counted
 from app.widgets.drawing import Drawing
 from app.widgets.plain import PlainLabel
+from app.widgets.row_table import RowTable
 from app.widgets.softkeys import Softkey
 from app.widgets.verdict import MARKS, Marks, verdict_word
 from core.pipeline.derived import Derived, DerivedBlock
@@ -64,7 +65,7 @@ class ProgramScreen(BaseScreen):
                 yield PlainLabel("PROGRAM", classes="head-label")
                 yield PlainLabel(id="block-count", classes="head-kind")
                 yield PlainLabel(id="program-file", classes="head-note")
-            yield DataTable(id="blocks", cursor_type="row")
+            yield RowTable(id="blocks", cursor_type="row")
         yield Drawing(id="block-drawing")
 
     def on_mount(self) -> None:

@@ -8,9 +8,9 @@ from typing import ClassVar, Final
 from textual.binding import Binding, BindingType
 from textual.content import Content
 from textual.coordinate import Coordinate
-from textual.widgets import DataTable
 
 from app.session.words import length
+from app.widgets.row_table import RowTable
 from core.importing.contour import Contour, ContourKind
 from core.importing.listing import Row, cells_of
 from core.units import Unit
@@ -24,7 +24,7 @@ MAX_INDENT: Final = 2
 MARK: Final = "*"
 
 
-class ContourTable(DataTable[Content]):
+class ContourTable(RowTable[Content]):
     """The rows given to `fill`, with a row cursor."""
 
     BINDINGS: ClassVar[list[BindingType]] = [

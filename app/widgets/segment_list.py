@@ -7,11 +7,11 @@ from typing import ClassVar, NamedTuple
 from rich.text import Text
 from textual.binding import Binding, BindingType
 from textual.reactive import reactive
-from textual.widgets import DataTable
 
 from app.session.posting import deleted_numbers
 from app.session.session import Session
 from app.session.words import length
+from app.widgets.row_table import RowTable
 from app.widgets.verdict import MARKS
 from core.pipeline.derived import DerivedBlock
 from core.program.fields import form_of
@@ -42,7 +42,7 @@ class SegmentRow(NamedTuple):
     fate: str
 
 
-class SegmentList(DataTable[Text]):
+class SegmentList(RowTable[Text]):
     """The list; its cursor is on the segment of the form; Enter edits it, Del and Ins delete and insert."""
 
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -72,6 +72,10 @@ async def test_the_list_of_files_shows_every_verdict_in_full_beside_its_scrollba
             "".join(segment.text for segment in strip) for strip in map(table.render_line, range(table.size.height))
         ]
         assert sum("? unreadable" in line for line in shown) >= 5
+        await user.press("end")
+        assert (table.cursor_row, table.scroll_x) == (table.row_count - 1, 0)
+        await user.press("home")
+        assert (table.cursor_row, table.scroll_x) == (0, 0)
 
 
 UNOPENED = {

@@ -28,7 +28,7 @@ FORM = {
 }
 WIDE_FORM = {"start": "", "line": "7:x_end", "arc": "8:direction", "help": "?"}
 AROUND = {
-    "lookahead_table": "0:lookahead space home",
+    "lookahead_table": "0:lookahead space",
     "draw": "f8 8:segment f7",
     "tools": "f8 f6",
     "tool_speed": "tab tab tab '-5 tab tab",
@@ -39,7 +39,7 @@ AROUND = {
     "leave": "enter 0:x_start 9 ctrl+q",
 }
 WIDE_AROUND = {
-    "lookahead_table": "escape 0:lookahead space home",
+    "lookahead_table": "escape 0:lookahead space",
     "draw": "f8 8:segment f7",
     "tools": "f8 f6",
     "sheet": "f8 ctrl+k 'setup space s enter",
@@ -49,16 +49,16 @@ GOUGE = {"gouge": "2:segment", "draw_finding": "f7 n", "post": "f8 f8 f3"}
 NARROW = {
     "start": "",
     "line": "7:x_end",
-    "lookahead_table": "0:lookahead space home",
+    "lookahead_table": "0:lookahead space",
     "program": "f8 f8",
     "post": "f3",
     "leave": "f8 enter 0:x_start 9 ctrl+q",
 }
 LOOKS = {
     "no-color": {"gouge": "2:segment", "unreadable": "0:x_start '1..5 enter", "leave": "9 ctrl+q"},
-    "ascii": {"gouge": "2:segment", "draw": "f7", "lookahead_table": "f8 0:lookahead space home"},
+    "ascii": {"gouge": "2:segment", "draw": "f7", "lookahead_table": "f8 0:lookahead space"},
     "sixteen": {"gouge": "2:segment", "unreadable": "0:x_start '1..5 enter", "leave": "9 ctrl+q"},
-    "light": {"gouge": "2:segment", "lookahead_table": "0:lookahead space home"},
+    "light": {"gouge": "2:segment", "lookahead_table": "0:lookahead space"},
 }
 MISSING = case_of(line(angle=0), ccw(tangent=True), line(tangent=True, angle=90, x_end=60, y_end=40))
 USR = on("overrun-square", {"usr": "0:lookahead 4 enter"})
