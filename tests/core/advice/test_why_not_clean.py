@@ -18,10 +18,10 @@ from core.comp.lookahead import calculated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.progress import Stopped
 from core.units import Unit, sentence
 from tests.bench.families import gear
 from tests.core.comp.contours import lines, mixed, shut
+from tests.progress import looks_until_stopped
 from tests.properties import exercised, must_exercise
 
 DIAMETER_STEP = 0.001
@@ -357,16 +357,8 @@ def test_a_clean_look_ahead_is_named_when_the_calculated_one_gouges():
 def test_unwanted_advice_stops_before_the_next_remedy(tries):
     """Nothing helps this shape: the advice asks before each remedy and stops at the first no."""
     cutting = setup(STAR, Side.LEFT, closed=True, blend=0.1)
-    asked: list[float] = []
-
-    def check(done: float) -> None:
-        asked.append(done)
-        if len(asked) > tries:
-            raise Stopped
-
-    with pytest.raises(Stopped):
-        advice_for(cutting, 8, judge_lookaheads(cutting), check)
-    assert len(asked) == tries + 1
+    table = judge_lookaheads(cutting)
+    assert looks_until_stopped(lambda check: advice_for(cutting, 8, table, check), tries) == tries + 1
 
 
 def test_the_largest_tool_has_the_radius_of_the_inside_corners():

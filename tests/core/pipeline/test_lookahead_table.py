@@ -10,11 +10,11 @@ from core.pipeline.derive import advice_for_block, cutting_setup, derive, look_a
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
-from core.progress import Stopped
 from core.units import Unit, sentence
 from core.verify.judge import judge
 from tests.bench.keys import gear
 from tests.core.pipeline.parts import NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
+from tests.progress import looks_until_stopped
 
 
 def table(points, comp):
@@ -142,16 +142,8 @@ def test_unwanted_advice_stops_before_the_next_remedy(tries):
     """The gear tries six starts and one without blend moves; the advice asks before each and stops at the first no."""
     part = gear(200)
     derived = derive(part).blocks[0]
-    asked: list[float] = []
-
-    def check(done: float) -> None:
-        asked.append(done)
-        if len(asked) > tries:
-            raise Stopped
-
-    with pytest.raises(Stopped):
-        advice_for_block(derived, part, progress=check)
-    assert len(asked) == tries + 1
+    asked = looks_until_stopped(lambda check: advice_for_block(derived, part, progress=check), tries)
+    assert asked == tries + 1
 
 
 def test_the_first_tool_roughs_before_a_finish_tool():
