@@ -1,4 +1,4 @@
-"""The kinds of locales, through a real pseudo-terminal: only characters of their set are written."""
+"""Every form of a locale name, through a real pseudo-terminal: only characters of its set are written."""
 
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ NONE = {"LANG": None}
     [
         (NONE, "ascii"),
         ({"LANG": "C.UTF-8", "LC_ALL": "C"}, "ascii"),
-        # not installed: Python treats it as C
+        ({"LANG": "C.UTF-8", "LC_CTYPE": "POSIX"}, "ascii"),
+        # these two are not installed: Python treats them as C
+        ({"LANG": "C", "LC_CTYPE": "de_DE.ISO-8859-1"}, "latin-1"),
         ({"LANG": "C.UTF-8", "LC_ALL": "de_DE@euro"}, "latin-1"),
+        ({"LANG": "xx_YY.UTF-8"}, "utf-8"),
         ({**NONE, "LC_CTYPE": "UTF-8"}, "utf-8"),
     ],
     ids=str,

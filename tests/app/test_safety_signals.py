@@ -56,7 +56,7 @@ def ended(pid: int, longest: float = PATIENCE) -> int:
     raise AssertionError("still running")
 
 
-@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGINT, signal.SIGQUIT])
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT])
 def test_a_signal_ends_the_program_cleanly(part: Path, number: signal.Signals) -> None:
     with running([*PROGRAM, str(part)]) as terminal:
         before = termios.tcgetattr(terminal.fd)

@@ -210,8 +210,8 @@ def handshake(root: str) -> bytes:
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find the programs")
 @pytest.mark.parametrize(
     ("number", "painted"),
-    [(signal.SIGKILL, False), (signal.SIGTERM, True), (signal.SIGINT, False)],
-    ids=["killed", "ended when painted", "Ctrl+C"],
+    [(signal.SIGKILL, False), (signal.SIGKILL, True), (signal.SIGTERM, True), (signal.SIGINT, False)],
+    ids=["killed", "killed when painted", "ended when painted", "Ctrl+C"],
 )
 async def test_programs_end_with_their_server(number: int, *, painted: bool, tmp_path: Path) -> None:
     async with server(tmp_path) as (process, address), aiohttp.ClientSession() as session:

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
+
 from app.documents.files import load
 from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM
@@ -99,8 +101,9 @@ def type_on_after_a_take_over(part: Path, first: Terminal) -> None:
         saved(second)
 
 
-def test_a_torn_lock_is_ignored(part: Path) -> None:
-    part.with_name(f".{part.name}.cutcomp-lock").write_bytes(b'{"user": "a')
+@pytest.mark.parametrize("content", [b"", b'{"user": "a'])
+def test_an_empty_or_torn_lock_is_ignored(part: Path, content: bytes) -> None:
+    part.with_name(f".{part.name}.cutcomp-lock").write_bytes(content)
     with operator(part, "ann") as ann:
         ann.until("MILL CONTOUR", longest=PATIENCE)
         ann.read(quiet=0.3)

@@ -399,6 +399,9 @@ def test_long_moves_between_contours_without_gouges_are_not_reported(control: st
 def test_closed_or_single_contours_are_not_reported_as_moves_between_contours() -> None:
     closed = lines_through(*RING, *OTHER, (5, 5), (4, 5), (3, 5), (-1, -1))
     assert [rows for rows in contours_of(closed) if not is_closed(closed, rows)] == [(8, 12)]
+    alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
+    assert contours_of(alone) == ((0, 3),)
+    assert not is_closed(alone, (0, 3))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
     findings_by_program = [judged_findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
     assert [sum(finding.code == "WAY" for finding in findings) for findings in findings_by_program] == [0, 1]
