@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import suppress
 from math import inf
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from textual import on, work
 from textual.reactive import var
@@ -275,9 +274,6 @@ class DerivationActions(WorkActions):
     @property
     def proofs(self) -> list[ProofScreen]:
         """Every open NC PROOF screen."""
-        if "app.nc_proof.screen" not in sys.modules:
-            # do not load the controls and numpy before the first paint just to find out
-            return []
-        from app.nc_proof.screen import ProofScreen
-
-        return [screen for screen in self.screen_stack if isinstance(screen, ProofScreen)]
+        # by a mark: importing the class would load the controls and numpy before the first paint
+        screens = [screen for screen in self.screen_stack if isinstance(screen, BaseScreen) and screen.SHOWS_NC_TEXT]
+        return [cast("ProofScreen", screen) for screen in screens]

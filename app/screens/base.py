@@ -69,6 +69,8 @@ class BaseScreen(Screen[None]):
     SOFTKEYS: ClassVar[tuple[Softkey | None, ...]] = (None,) * 8
     MORE_KEYS: ClassVar[tuple[tuple[str, str], ...]] = (("^K", "ALL ACTIONS"), ("?", "KEYS, HELP"))
     """Further keys, listed under the softkeys."""
+    SHOWS_NC_TEXT: ClassVar[bool] = False
+    """Whether this is the screen NC PROOF."""
 
     session: var[Session | None] = var(None, init=False)
     said: var[Sentence | None] = var(None, init=False)
