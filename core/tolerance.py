@@ -31,6 +31,10 @@ UNCUT: Final = 1.5e-7
 """Does the cutter reach a point of the surface?  It does if the path is within the radius plus this.  A best path may
 lie JOINED away from where its contour is typed."""
 
+INDEPENDENT: Final = 1e-3
+"""Do two conditions on a center determine it?  If the sine of the angle between them is smaller, the last digits of
+typed numbers decide where it is."""
+
 AGREES: Final = 2e-5
 """Do two angles agree?  Radians, a little more than the 0.001 degree that the form displays."""
 

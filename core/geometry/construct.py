@@ -12,7 +12,7 @@ from math import cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING, TypeVar
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
-from core.tolerance import ARC_RADII, GRAZE, JOINED, ON_PATH
+from core.tolerance import ARC_RADII, CLOSED, GRAZE, INDEPENDENT, JOINED, ON_PATH
 
 if TYPE_CHECKING:
     from core.geometry.path import Points
@@ -128,9 +128,12 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePo
 
 
 def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> OnePoint | NotDetermined:
-    """Find the point equally far from `start` and `end` whose coordinate `axis` is `value`."""
+    """Find the point equally far from `start` and `end` whose coordinate `axis` is `value`.
+
+    Not if the chord runs along that axis: rounding of the ends would then decide where the point is.
+    """
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
-    if abs(across) <= SLIVER * abs(along) or across == 0.0:
+    if abs(across) <= max(CLOSED, INDEPENDENT * abs(along)):
         return NotDetermined()
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
     return OnePoint(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))

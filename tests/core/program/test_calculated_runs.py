@@ -223,9 +223,9 @@ def test_a_contradiction_names_the_value_that_the_other_numbers_give() -> None:
 
 def test_each_piece_starts_at_the_end_of_the_piece_before() -> None:
     """This includes a short arc whose end is moved onto its circle."""
-    tiny = ccw(start_angle=89.9999999, y_end=0.005)
-    last = line(tangent=True, angle=90, x_end=0.00254, y_end=50)
-    first, second = solved(case_of(tiny, last, start=(0.001, 0))).segments
+    tiny = ccw(x_center=0, y_center=0)
+    last = line(angle=90, length=50, x_end=5.001, y_end=50.005)
+    first, second = solved(case_of(tiny, last, start=(5, 0))).segments
     assert first.piece is not None
     assert second.piece is not None
     assert dist(first.piece.end, second.piece.start) <= 1e-7
@@ -381,6 +381,19 @@ def test_tangent_is_offered_only_where_a_heading_is_open() -> None:
 def test_a_radius_that_follows_from_start_and_center_is_not_requested() -> None:
     texts = texts_of(case_of(ccw(x_center=0, y_center=20), cw(radius=30, tangent=True)))
     assert any("2 more values: SWEEP ANGLE of 1, or an end" in text for text in texts), texts
+
+
+def test_a_center_coordinate_along_the_chord_determines_nothing_if_the_joint_is_rounded() -> None:
+    second = cw(x_end=5.6569, y_end=-4.798, x_center=3.5863, y_center=2.9294, start_angle=285.0)
+    assert codes(solved(case_of(cw(x_center=5.6569), second, start=(0.0, 5.0)))) == ["NOT_YET"]
+    answers = document(case_of(cw(x_center=5.6569, radius=8.0), second, start=(0.0, 5.0)))["runs"][0]["solutions"]
+    assert [answer["segments"][0]["y_center"] for answer in answers] == pytest.approx([-0.6568, 10.6568], abs=1e-3)
+
+
+def test_a_center_coordinate_along_the_radius_at_the_start_determines_nothing_if_the_heading_is_rounded() -> None:
+    before = line(length=25.0, angle=40.0), line(x_end=19.1511, y_end=40.0)
+    result = solved(case_of(*before, cw(tangent=True, x_end=39.1511, y_center=40.0001)))
+    assert codes(result) == ["NOT_YET"]
 
 
 def test_a_full_circle_may_be_tangent() -> None:

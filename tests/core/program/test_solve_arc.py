@@ -244,6 +244,12 @@ def test_missing_data_are_named(typed, missing, words):
     assert text(result) == f"MISSING {missing[0]}: More data needed: {words}"
 
 
+def test_a_center_coordinate_along_the_chord_determines_nothing_if_the_start_is_rounded():
+    result = solved(arc("CW", x_end=20.0, y_end=0.0, x_center=10.0001), 0.0, 0.00004)
+    assert result.piece is None
+    assert text(result).startswith("MISSING y_center: More data needed: type the end and the center, ")
+
+
 coordinates = st.floats(-50, 50).map(lambda value: round(value, 4))
 GIVEN = (
     ("x_end", "y_end", "x_center", "y_center"),
