@@ -32,7 +32,7 @@ from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.fields_stage import solve_block_fields
 from core.pipeline.jobs import job
-from core.pipeline.parameters import parameter, stocks
+from core.pipeline.parameters import MAX_SIDE_PASSES, parameter, stocks
 from core.program.model import PathChoice, Program
 from core.progress import Progress, part, silent
 from core.units import Kind, decimals_shown, to_mm
@@ -154,6 +154,10 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
         trouble = (*path_findings(work), *size_warning(block.radius, work.surface))
         if block.side is not None:
             trouble += tight_arcs(work.verdict, work.surface, block.side, block.radius)
+    if len(work.rough) > MAX_SIDE_PASSES:
+        text = f"MAX OFFSET makes more than {MAX_SIDE_PASSES} side passes. "
+        text += "Reduce it or POCKET OVERLAP, or use a larger tool."
+        trouble += (Finding("SIDE_PASSES", Severity.ERROR, text, field="max_offset"),)
     if block.solved.whole:
         trouble += open_finding(work.surface, 2 * block.radius, closed=closed)
     findings = by_severity((*back, *block.findings, *trouble))

@@ -9,8 +9,8 @@ from core.program.fields import Form, default_value, field_of
 from core.program.model import Number, Program
 from core.units import Kind, to_mm
 
-MAX_SIDE_PASSES: Final = 1000
-"""More passes than this are a typing mistake in MAX OFFSET or POCKET OVERLAP."""
+MAX_SIDE_PASSES: Final = 200
+"""More passes than this are a typing mistake in MAX OFFSET, POCKET OVERLAP or the tool's diameter."""
 
 
 def parameter(program: Program, name: str) -> float:
@@ -26,7 +26,8 @@ def stocks(block: DerivedBlock, program: Program) -> tuple[float, ...]:
     """Return what each pass before the finish path leaves on the surface, in millimeters, outermost first.
 
     PROFILE comes in from MAX OFFSET; each pass overlaps the one before by POCKET OVERLAP percent of the cutter's
-    diameter.  A finish tool follows a roughing pass that leaves FINISH XY.
+    diameter.  A finish tool follows a roughing pass that leaves FINISH XY.  If there are more than MAX_SIDE_PASSES, the
+    inner ones are left out.
     """
     assert block.solved.tool_diameter is not None
     finishing = block.solved.finish_diameter is not None
@@ -35,7 +36,7 @@ def stocks(block: DerivedBlock, program: Program) -> tuple[float, ...]:
     if block.profile:
         stock = parameter(program, "max_offset")
         step = block.solved.tool_diameter * (1.0 - parameter(program, "pocket_overlap") / 100.0)
-        while stock > least + 1e-9 and step > 0.0 and len(widths) < MAX_SIDE_PASSES:
+        while stock > least + 1e-9 and step > 0.0 and len(widths) <= MAX_SIDE_PASSES:
             widths.append(stock)
             stock -= step
     return (*widths, least) if finishing else tuple(widths)

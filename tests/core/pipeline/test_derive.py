@@ -116,6 +116,14 @@ def test_profile_steps_in_from_the_largest_offset_to_the_finish_stock():
     )
 
 
+def test_more_side_passes_than_are_made_block_posting():
+    parameters = ProgramParameters(max_offset=Number(1.01), pocket_overlap=Number(99.0))
+    (result,) = derive(program(block(OUTSIDE_SQUARE, CutterComp.PROFILE_RIGHT), parameters=parameters)).blocks
+    (finding,) = result.errors
+    assert (finding.code, finding.field) == ("SIDE_PASSES", "max_offset")
+    assert finding.text.startswith("MAX OFFSET makes more than 200 side passes. Reduce it or POCKET OVERLAP, ")
+
+
 def test_a_gouging_roughing_pass_is_a_separate_error():
     """The roughing tool does not fit into the notch that the small finish tool clears."""
     slot = ((0, 0), (2, 0), (2, -1), (2.3, -1), (2.3, 0), (5, 0))
