@@ -184,10 +184,12 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
     }
 )
 _FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
+_LENGTHS: Final = frozenset("IJKQRUVWXYZ")
+"""The letters of words that are lengths."""
 
 
 class MacroReader(ExpressionReader):
-    """Reads values as a Fanuc control does; `increment` is what ROUND rounds a word to, 0 outside words."""
+    """Reads values as a Fanuc control does; `increment` is the least one of a length in a word, 0 outside words."""
 
     increment = 0.0
     ranks = _RANKS
@@ -217,6 +219,10 @@ class MacroReader(ExpressionReader):
         if negative:
             self.note_use(value)
         return -value if negative else value
+
+    def to_increment(self, value: float) -> float:
+        """Return a value rounded to the increment."""
+        return _rounded(value / self.increment) * self.increment
 
     def note_use(self, *values: float | None) -> None:
         """Note common variables that nothing has set and whose values matter here."""
@@ -268,7 +274,7 @@ class MacroReader(ExpressionReader):
         if name == "POW" or second is not None:
             return self._apply_to_two(begin, name, first, second)
         if name == "ROUND" and self.increment:
-            return _rounded(first / self.increment) * self.increment
+            return self.to_increment(first)
         return self._apply_function(begin, name, first)
 
     def _apply_function(self, begin: int, name: str, value: float) -> float:
@@ -327,13 +333,14 @@ def words_of(
 ) -> tuple[list[Word], tuple[str, float] | None, int]:
     """Return a block's words with the values of their variables, words with vacant ones left out.
 
+    A calculated length is rounded to the increment, as the control rounds it; the argument of a macro call is not.
     Return also the block's `,R` or `,C`, and the column of its block skip, 0 without one.
     """
     text, reader = line.text, MacroReader(line.text, values, start)
     reader.increment = increment
     if ")" in text:
         raise FaultError("PS0114", "A ) has no ( before it: a comment cannot hold another one.", text.index(")"))
-    words, corner, skip = list[Word](), None, 0
+    words, corner, skip, macro_call = list[Word](), None, 0, False
     while reader.at < len(text):
         begin, first = reader.at, text[reader.at]
         reader.at += 1
@@ -350,10 +357,14 @@ def words_of(
             value = _word_value(reader, first, begin)
             reader.note_use(value)
             if not isinstance(value, Vacant):
+                calculated = "#" in text[begin : reader.at] or "[" in text[begin : reader.at]
+                if calculated and first in _LENGTHS and not macro_call:
+                    value = reader.to_increment(value)
                 number = plain(value)
                 # the point of a number that is written with one still counts
                 point = "." if "." in text[begin : reader.at] and "." not in number else ""
                 words.append(Word(first, f"{number}{point}", line.column(begin)))
+                macro_call = macro_call or (first == "G" and number in ("65", "66"))
         else:
             raise FaultError("WORD", not_a_word(text[begin:]), begin)
     return words, corner, skip

@@ -20,7 +20,7 @@ from core.controls.makers import fanuc
 from core.controls.registry import UnknownControl
 from core.finding import Severity
 from core.units import Unit
-from tests.core.controls.hand import DATA, findings_of
+from tests.core.controls.hand import DATA, findings_of, lines_and_ends
 
 GOLDEN: Final[list[dict[str, Any]]] = json.loads((DATA / "fanuc.json").read_text())["cases"]
 HEAD: Final = "G21 G17 G90 G1 F100\n"
@@ -410,6 +410,20 @@ def values(program: str) -> dict[int, float]:
 )
 def test_an_expression_has_the_value_calculated_by_hand(expression: str, value: float) -> None:
     assert values(f"#100=2\n#101=100\n#102={expression}\nM30")[102] == pytest.approx(value)
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a"])
+@pytest.mark.parametrize(("unit", "x", "y"), [("G21", 10.123, -6.667), ("G20", 10.1235, -6.6667)])
+def test_a_calculated_length_is_rounded_to_the_least_increment(control: str, unit: str, x: float, y: float) -> None:
+    run = ran(f"{unit}\n#1=10.12346\nG0 X#1 Y-[20./3]\nM30", control)
+    assert lines_and_ends(run) == [(x, y)]
+
+
+def test_an_argument_of_a_macro_call_is_not_rounded() -> None:
+    assert values("O1\n#1=1.23456\nG65 P9 X#1 I[1/8192]\nM30\nO9\n#100=#24\n#101=#4\nM99") == {
+        100: 1.23456,
+        101: pytest.approx(1 / 8192),
+    }
 
 
 @pytest.mark.parametrize(
