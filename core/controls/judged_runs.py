@@ -196,13 +196,13 @@ def programmed_surface(stretch: Stretch) -> Path:
 
 
 def _judge_without_moves_above(run: ControlRun, stretch: Stretch, height: float) -> list[Judged]:
-    """Judge a stretch; if it gouges, omit its moves at `height` or higher if that leaves fewer gouges."""
+    """Judge a stretch; if it gouges, omit its moves at `height` or higher unless that leaves more gouges."""
     whole = _judge_stretch(run, stretch)
     if not any(result.verdict.gouges or result.verdict.wrong_side for result in whole):
         return whole
     parted = divided(run.moves, stretch, height)
     pieces = None if parted is None else _judge_pieces(run, stretch, parted)
-    return whole if pieces is None or _count_gouges(pieces) >= _count_gouges(whole) else pieces
+    return whole if pieces is None or _count_gouges(pieces) > _count_gouges(whole) else pieces
 
 
 def _count_gouges(results: Sequence[Judged]) -> int:

@@ -193,6 +193,14 @@ def test_a_rapid_over_a_clamp_along_a_contour_is_clean(control: str) -> None:
     assert not codes(findings)
 
 
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "nine-series:a"])
+def test_a_plunge_into_a_wall_gouges_at_the_first_move_at_depth(control: str) -> None:
+    """The rapid in line 5 ends 5.1 off the wall at X0, but above the part."""
+    way_in = "G0 X30. Y30. Z10.\nG41 D1 X5.1 Y6.\nG1 Z-2. F200\nX30. Y6.\nY0.\n"
+    _, findings = judged(f"{way_in}X60.\nY60.\nX0.\nY0.\nX30.\nG40 Y30.\nG0 Z10.\n", control)
+    assert [finding.line for finding in findings if finding.code == "GOUGE"] == [7]
+
+
 def test_klartext_leads_above_the_part_cut_nothing() -> None:
     program = (
         "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 DR+0\nL X-20 Y-20 R0 FMAX\nL Z+10 R0 FMAX\nL Z-2 R0 F200\n"
