@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final, NoReturn
 
 from core.controls.moves import Moves, Plane
@@ -44,7 +44,8 @@ class Stretch:
     `entry` and `exit` count the moves at its beginning and end that lead in and out and are not surface.  `first` ...
     `last` - 1 are the stretch's rows in the run's moves.  `radius` is in millimeters and positive: `side` is already
     the one that a negative radius flips to.  `led_in` and `led_out`: the control enters and leaves on leads of its own,
-    not in programmed moves.  `changes`: where its side or radius changes.
+    not in programmed moves.  `changes`: where its side or radius changes.  `wear`: its radius
+    is a small negative one, the wear of a program that describes the cutter's center path.
     """
 
     side: Side
@@ -58,16 +59,25 @@ class Stretch:
     led_in: bool = False
     led_out: bool = False
     changes: tuple[Change, ...] = ()
+    wear: bool = False
 
     def has_part(self, part: Stretch) -> bool:
         """True if `part` is this stretch or a part of it; the next stretch may begin where this one ends."""
         return self.first <= part.first < self.last - 1
+
+    def without_wear(self) -> Stretch:
+        """Return the stretch as it is with no wear: the center runs on the programmed path, on the side programmed."""
+        if not self.wear:
+            return self
+        return replace(self, side=Side.RIGHT if self.side is Side.LEFT else Side.LEFT, radius=0.0)
 
     def parts(self) -> tuple[Stretch, ...]:
         """Return the stretch in parts of one side and radius each; moves across belong to the smaller radius.
 
         Anything larger does not fit there, whatever the control does: the center is square to the smaller one.
         """
+        if not self.changes:
+            return (self,)
         parts, side, radius, entry, first = list[Stretch](), self.side, self.radius, self.entry, self.first
         begin = 1
         for change in self.changes:

@@ -158,7 +158,7 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
         cut_short = _is_cut_short(run, stretch)
         results += [
             replace(_without_shallow(result, least), cut_short=cut_short)
-            for result in _judge_without_moves_above(run, stretch, float(heights[stretch.last - 1]))
+            for result in _judge_without_moves_above(run, stretch.without_wear(), float(heights[stretch.last - 1]))
         ]
     if results:
         contours = [
@@ -402,7 +402,14 @@ def _with_leads(
 
 
 def _center_path(run: ControlRun, stretch: Stretch) -> Path:
-    """Return the tool's center path without repeated passes; if the tool stands still, a line of no length."""
+    """Return the tool's center path without repeated passes; if the tool stands still, a line of no length.
+
+    Of a center path with wear it is the programmed path, as with no wear, and the move that leaves it.
+    """
+    if stretch.wear:
+        programmed = stretch.programmed.path(stretch.plane)
+        way_out = run.moves.part(stretch.last - 2, stretch.last).path(stretch.plane)
+        return without_repeats(programmed if _is_cut_short(run, stretch) else joined([programmed, way_out]))
     moves = run.moves.part(stretch.first, stretch.last)
     center = without_repeats(moves.path(stretch.plane))
     if len(center) or not len(moves):
@@ -417,7 +424,7 @@ def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: floa
     surface, loops = without_corner_loops(without_repeats(contour), stretch.side)
     leads = Leads.MOVES if contours == 1 else Leads.SEGMENTS
     verdict = judge(surface, stretch.side, stretch.radius, center, accepted, leads=leads)
-    if stretch.radius <= GOUGE or contours > 1:
+    if (stretch.radius <= GOUGE and not stretch.wear) or contours > 1:
         # a center on the contour itself has no side, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
     return Judged(stretch, surface, center, verdict, lines, loops=loops)

@@ -4,14 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import copysign, dist
+from typing import Final
 
 from core.controls.compensation.corner_rules import Joint
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Change, Log, Stretch
 from core.controls.moves import Plane, Point3, Tape, flat, solid
+from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
+
+MAX_WEAR: Final = 0.254
+"""Millimeters (0.010 in) up to which a negative radius is the wear of a center path; a larger one flips the side."""
+
+_OUTLINE_JUDGED: Final = "The programmed path is judged as the part's outline, not as a center path with a wear offset."
+_WEAR_LEFT_OUT: Final = "So small a radius is taken for the wear of a center path, and the path is judged without it."
+"""What a negative radius is taken to mean."""
 
 
 @dataclass(slots=True)
@@ -23,6 +32,7 @@ class _OpenStretch:
     plane: Plane
     first: int
     programmed: Tape
+    wear: bool
     changes: list[Change] = field(default_factory=list)
 
 
@@ -45,7 +55,7 @@ class Recorder:
     """Records the moves of programmed elements, without compensation unless a control adds it.
 
     `active`: compensation is in force.  `plane` and `unit` are those in force.  `leaving`: compensation is canceled,
-    but the next move in the plane still belongs to the stretch.
+    but the next move in the plane still belongs to the stretch.  `wear`: the radius last read is a wear.
     """
 
     def __init__(self, log: Log) -> None:
@@ -55,6 +65,7 @@ class Recorder:
         self.unit = Unit.MM
         self.active = False
         self.leaving = False
+        self.wear = False
         self.stretches: list[Stretch] = []
         self._open: _OpenStretch | None = None
 
@@ -107,11 +118,19 @@ class Recorder:
         """Return the axis position that a program reads, millimeters; uncompensated, the programmed point."""
         return programmed
 
+    def note_radius(self, radius: float, rule: str, flips: str, line: int, column: int) -> None:
+        """Note whether a radius is a wear; report a negative one with the sentence that it flips the side."""
+        self.wear = -MAX_WEAR <= radius < 0.0
+        if self.wear:
+            self.log.tell(Severity.WARNING, rule, f"{flips} {_WEAR_LEFT_OUT}", line, column)
+        elif radius < 0.0:
+            self.log.tell(Severity.INFO, rule, f"{flips} {_OUTLINE_JUDGED}", line, column)
+
     def open_stretch(self, offset: float, element: Element) -> None:
         """Begin a stretch of compensated moves with this element; moves already on the tape come before it."""
         self.close_stretch()
         start = Tape(solid(element.start[0], element.start[1], element.start_height, self.plane))
-        self._open = _OpenStretch(side_of(offset), abs(offset), self.plane, len(self.tape) - 1, start)
+        self._open = _OpenStretch(side_of(offset), abs(offset), self.plane, len(self.tape) - 1, start, self.wear)
 
     @property
     def stretch_open(self) -> bool:
@@ -134,7 +153,7 @@ class Recorder:
     def begin_stretch(self, offset: float) -> None:
         """Give the stretch this signed radius from its first element on."""
         if self._open is not None:
-            self._open.side, self._open.radius = side_of(offset), abs(offset)
+            self._open.side, self._open.radius, self._open.wear = side_of(offset), abs(offset), self.wear
 
     def note(self, element: Element) -> None:
         """Record an element programmed under compensation."""
@@ -150,6 +169,16 @@ class Recorder:
         opened, self._open, self.leaving = self._open, None, False
         if opened is None:
             return
-        moves, last, changes = opened.programmed.moves(), len(self.tape), tuple(opened.changes)
-        stretch = Stretch(opened.side, opened.radius, opened.plane, moves, 1, 0, opened.first, last, changes=changes)
+        stretch = Stretch(
+            opened.side,
+            opened.radius,
+            opened.plane,
+            opened.programmed.moves(),
+            entry=1,
+            exit=0,
+            first=opened.first,
+            last=len(self.tape),
+            changes=tuple(opened.changes),
+            wear=opened.wear,
+        )
         self.stretches.append(stretch)

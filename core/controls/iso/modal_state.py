@@ -25,9 +25,6 @@ G54: Final = 540
 EXTERNAL: Final = 0
 """The key of the offset that shifts all work offsets, on controls that have one."""
 
-OUTLINE_JUDGED: Final = "The programmed path is judged as the part's outline, not as a center path with a wear offset."
-"""Says what a negative radius is not taken to mean."""
-
 TAKEN_AS_ZERO: Final = "is not in the program; it is taken as zero."
 """Ends the finding on a work offset that the program does not set: its positions compare with no other offset's."""
 

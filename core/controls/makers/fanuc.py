@@ -20,7 +20,6 @@ from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import NON_MODAL_ACTIONS, Control
 from core.controls.iso.macro_b_machine import HAAS_SYSTEMS, MacroMachine
-from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
 from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
 from core.controls.moves import flat
@@ -201,9 +200,7 @@ class Fanuc(VectorQueue, Control):
         if radius is None:
             text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
             self.log.stop("PS0030", text, line, column)
-        if radius < 0.0:
-            text = f"The radius is negative, so G41 and G42 change places. {OUTLINE_JUDGED}"
-            self.log.tell(Severity.INFO, "FN-D2", text, line, column)
+        self.note_radius(radius, "FN-D2", "The radius is negative, so G41 and G42 change places.", line, column)
         machine.compare_offset(radius, f"D{number}", line, column)
         return radius
 

@@ -20,7 +20,7 @@ from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
-from core.controls.iso.modal_state import OUTLINE_JUDGED, system_code
+from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole, whole_word
 from core.controls.moves import Plane, flat, solid
 from core.finding import Severity
@@ -256,10 +256,9 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("N-ONWHENON", text, block.line, block.side_column())
         radius, orientation = self.radius(block)
-        if radius < 0.0:
-            text = f"The diameter is negative: the tool runs on the other side. {OUTLINE_JUDGED}"
-            self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
-        elif radius == 0.0:
+        text = "The diameter is negative: the tool runs on the other side."
+        self.note_radius(radius, "NEGATIVE", text, block.line, block.side_column())
+        if radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, block.side_column())
         if "D" in block.words:
             self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))

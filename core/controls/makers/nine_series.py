@@ -32,7 +32,6 @@ from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
-from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole_word
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -141,9 +140,8 @@ class NineSeries(ElementQueue, Control):
             text = f"Offset {self.number} is not entered; enter its radius or write another D."
             self.log.stop("TOOL", text, block.line, block.column("DG"))
         radius = tool.diameter_mm(self.machine.unit) / 2
-        if radius < 0.0:
-            text = f"The radius is negative: the tool runs on the other side. {OUTLINE_JUDGED}"
-            self.log.tell(Severity.INFO, "R4", text, block.line, block.column("DG"))
+        text = "The radius is negative: the tool runs on the other side."
+        self.note_radius(radius, "R4", text, block.line, block.column("DG"))
         self.machine.compare_offset(radius, f"D{self.number}", block.line, block.column("DG"))
         return radius
 

@@ -22,7 +22,6 @@ from core.controls.iso.code_support import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.expressions import ParameterStore
 from core.controls.iso.machine import Control
-from core.controls.iso.modal_state import OUTLINE_JUDGED
 from core.controls.iso.reader import SWITCHES, Block, whole_word
 from core.controls.moves import Plane
 from core.finding import Severity
@@ -70,10 +69,8 @@ class RosettaCnc(Control):
         radius = self._diameter(block) / 2 if by_diameter else self._table_radius(block)
         if radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, column)
-        if radius < 0.0:
-            assumed = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
-            text = f"{assumed} {OUTLINE_JUDGED}"
-            self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
+        text = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
+        self.note_radius(radius, "NEGATIVE", text, block.line, column)
         if "D" in block.words:
             self.machine.compare_offset(radius, f"D{block.words['D']:g}", block.line, block.column("D"))
         return radius * side.sign

@@ -168,6 +168,8 @@ class ThreeBlock(ElementQueue, Control):
             text = "The diameter {0} is beyond the largest of this control, {1}."
             lengths = (diameter, LARGEST_DIAMETER)
             self.log.stop("B4-MAX", text, block.line, block.side_column(), lengths=lengths)
+        text = "The diameter is negative: the tool runs on the other side."
+        self.note_radius(diameter / 2, "NEGATIVE", text, block.line, block.side_column())
         return diameter / 2
 
     def idle(self, block: Block) -> None:

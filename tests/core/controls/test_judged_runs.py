@@ -164,6 +164,40 @@ def test_a_later_negative_offset_is_on_the_wrong_side() -> None:
     }
 
 
+CENTER_PATH = (
+    "G21 G17 G90 G40 F400\nT1 M6\nG0 X{start} Y20.\nG1 Z-5.\nG41 D1 X-15. Y10.\nG3 X-5. Y20. I0 J10.\nG1 Y40.\n"
+    "G2 X0 Y45. I5. J0\nG1 X60.\nG2 X65. Y40. I0 J-5.\nG1 Y0\nG2 X60. Y-5. I-5. J0\nG1 X0\nG2 X-5. Y0 I0 J5.\n"
+    "G1 Y20.\nG3 X-15. Y30. I-10. J0\nG40 G1 X{end} Y20.\nM30\n"
+)
+"""The center path of a 10 mm cutter around a block of 60 by 40 mm, with arcs that lead in and out on tangent."""
+
+WEAR_CONTROLS = ["fanuc:a", "fanuc:b", "haas:a-yasnac", "linuxcnc", "rosettacnc:normal", "nine-series:b"]
+
+
+@pytest.mark.parametrize("control", WEAR_CONTROLS)
+@pytest.mark.parametrize("diameter", [0.02, -0.02])
+def test_a_center_path_with_wear_is_clean(diameter: float, control: str) -> None:
+    run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=diameter)
+    assert run.stopped_at is None
+    assert not [finding for finding in judged_findings(judge_run(run)) if finding.severity is not Severity.INFO]
+
+
+@pytest.mark.parametrize("control", WEAR_CONTROLS)
+@pytest.mark.parametrize(("start", "end", "line"), [(20, -25, 5), (-25, 20, 17)])
+def test_a_center_path_with_negative_wear_that_begins_or_ends_in_the_part_is_on_the_wrong_side(
+    start: int, end: int, line: int, control: str
+) -> None:
+    run = ran(CENTER_PATH.format(start=start, end=end), control, t1=-0.02)
+    errors = [finding for finding in judged_findings(judge_run(run)) if finding.severity is Severity.ERROR]
+    assert [(finding.code, finding.line) for finding in errors] == [("WRONG-SIDE", line)]
+
+
+@pytest.mark.parametrize("control", WEAR_CONTROLS)
+def test_a_larger_negative_radius_is_that_of_a_tool_along_the_outline(control: str) -> None:
+    run = ran(CENTER_PATH.format(start=-25, end=-25), control, t1=-0.6)
+    assert "GOUGE" in {finding.code for finding in judged_findings(judge_run(run))}
+
+
 def test_a_tool_that_is_not_loaded_is_named_only_if_it_is_the_only_one() -> None:
     for control in ("linuxcnc", "rosettacnc", "nine-series:a"):
         (one_tool,) = findings_of(ran(POCKET.format(load="M3"), control, t3=0.5), "RADIUS0")
