@@ -31,7 +31,7 @@ from core.controls.repeated_passes import path_key, without_repeats
 from core.controls.roughing_passes import RoughingPass, without_roughing_passes
 from core.finding import Finding, Severity
 from core.geometry.nearby import BoxTree, near_pairs
-from core.geometry.path import Path, Rows, joined
+from core.geometry.path import EMPTY, Path, Rows, joined
 from core.progress import Progress, silent
 from core.progress import part as part_of
 from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
@@ -366,9 +366,22 @@ def _judge_part(
         count = len(walls) + len(roughing)
         results = [_judge_contour(stretch, whole.part(*rows), center, accepted, count) for rows in walls]
     results = [replace(result, open_lines=lines) for result, lines in zip(results, walls.values(), strict=True)]
+    for each in roughing:
+        low = _below_later_pass(run, stretch, each)
+        if len(low):
+            results.append(_judge_contour(stretch, whole.part(*each.rows), low, accepted, len(walls) + len(roughing)))
     slack = max(result.verdict.radius_slack for result in results)
     results[0] = replace(results[0], roughing=roughing, uneven=_most_uneven(slack, whole, center))
     return _with_leads(results, whole, tuple(contours if roughing else walls), accepted, arcs=walls.keys() != set(kept))
+
+
+def _below_later_pass(run: ControlRun, stretch: Stretch, roughing: RoughingPass) -> Path:
+    """Return the center path of a roughing pass below the later pass, which leaves the wall there; empty if none is."""
+    moves = run.moves.part(stretch.first, stretch.last)
+    later = np.flatnonzero(moves.lines == roughing.later_numbers[0])[:1]
+    heights = moves.points[: later[0], 2] if len(later) else np.empty(0)
+    low = np.flatnonzero(heights < moves.points[later, 2] - ON_PATH)
+    return moves.part(int(low[0]), int(low[-1]) + 1).path(stretch.plane) if len(low) else EMPTY
 
 
 def _with_leads(

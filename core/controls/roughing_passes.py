@@ -26,8 +26,9 @@ MIN_POINTS: Final = 4
 
 @dataclass(frozen=True, slots=True)
 class RoughingPass:
-    """A pass and the later one that cuts it away, by the numbers of their first and last moves."""
+    """A pass and the later one that cuts it away, by the numbers of their first and last moves; `rows` are its own."""
 
+    rows: RowRange
     numbers: tuple[float, float]
     later_numbers: tuple[float, float]
 
@@ -49,7 +50,7 @@ def without_roughing_passes(
         if later is None:
             kept.append(rows)
         else:
-            roughing.append(RoughingPass(_ends(path, rows), _ends(path, later)))
+            roughing.append(RoughingPass(rows, _ends(path, rows), _ends(path, later)))
     return (tuple(kept), tuple(roughing)) if roughing else (tuple(contours), ())
 
 

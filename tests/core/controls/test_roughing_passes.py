@@ -52,6 +52,18 @@ def test_a_pass_that_a_later_pass_cuts_away_is_roughing(
     assert (told.severity, told.line) == (Severity.WARNING, line)
 
 
+@pytest.mark.parametrize(("start", "height", "gouges"), [(-16, -2, [5]), (-15, -2, []), (-16, -10, [])])
+def test_a_gouge_below_a_wider_pass_counts(start: int, height: int, gouges: list[int]) -> None:
+    """The tool plunges 1 mm into the wall of a bore that a later pass widens, but not down to its depth."""
+    text = (
+        f"G21 G17 G40 G90 F400\nT1 M6\nG0 X{start}. Y0.\nG1 Z-10.\nG41 D1 X20.\nG3 I-20.\n"
+        f"G1 Z{height}.\nX24.\nG3 I-24.\nG40 G1 X0.\nM30\n"
+    )
+    findings = judged_findings(judge_run(ran(text, "fanuc:a", t1=10.0)))
+    assert [finding.line for finding in findings if finding.code == "GOUGE"] == gouges
+    assert [finding.line for finding in findings if finding.code == "ROUGHING"] == [6]
+
+
 @pytest.mark.parametrize(
     ("shape", "first", "second"),
     [
