@@ -18,6 +18,9 @@ MAX_FINDINGS_OF_A_RULE: Final = 100
 MAX_ALIKE: Final = 3
 """Most INFO findings of one rule with the same text that are kept: more would bury what matters."""
 
+LIMIT_RULES: Final = frozenset({"LIMIT", "FN-ENDLESS"})
+"""The rules that end a run because it repeats too much to follow."""
+
 NOT_RUN_TEXT: Final = "The lines from here on stand behind the end of the program and were not run. Check them."
 
 
@@ -107,6 +110,15 @@ class ControlRun:
     stretches: tuple[Stretch, ...] = ()
     unplaced: frozenset[int] = frozenset()
     variables: Mapping[int, float] = field(default_factory=dict)
+
+    @property
+    def endless(self) -> bool:
+        """True if the run was given up because it repeats too much to follow."""
+        return any(finding.code in LIMIT_RULES for finding in self.findings)
+
+    def stops_within(self, stretch: Stretch) -> bool:
+        """True if the control stops within the stretch."""
+        return self.stopped_at is not None and stretch.last == len(self.moves)
 
 
 class AlarmError(Exception):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 from core.controls.program_text import lines_of
@@ -65,6 +65,10 @@ class ToolTable:
     def with_tools(self, other: ToolTable) -> ToolTable:
         """Return this table with another's tools added; those replace tools of the same number or name."""
         return ToolTable({**self.tools, **other.tools})
+
+    def scaled(self, share: float) -> ToolTable:
+        """Return this table with a share of each tool's diameter."""
+        return ToolTable.of(*(replace(tool, diameter=share * tool.diameter) for tool in self.tools.values()))
 
     def without(self, number: ToolId) -> ToolTable:
         """Return this table without a tool."""

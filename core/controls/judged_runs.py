@@ -51,9 +51,6 @@ JUDGED: Final = 0.8
 MAX_LINES: Final = 6
 """Most line numbers that one finding lists."""
 
-LIMIT_RULES: Final = frozenset({"LIMIT", "FN-ENDLESS"})
-"""The rules that end a run because it repeats too much to follow."""
-
 CAM_ROUNDING: Final = 0.0127 + ROUNDING
 """Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
 
@@ -149,13 +146,13 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
     A run given up as endless has no verdicts: its own finding says so, and the same moves a thousand times over would
     be judged against one another.
     """
-    if any(finding.code in LIMIT_RULES for finding in run.findings):
+    if run.endless:
         return ()
     least, results, heights = smallest_gouge(run.unit), list[Judged](), heights_above(run)
     judging, comparing = part_of(progress, 0.0, JUDGED), part_of(progress, JUDGED, 1.0)
     for done, stretch in enumerate(run.stretches):
         judging(done / len(run.stretches))
-        cut_short = _is_cut_short(run, stretch)
+        cut_short = run.stops_within(stretch)
         results += [
             replace(_without_shallow(result, least), cut_short=cut_short)
             for result in _judge_without_moves_above(run, stretch.without_wear(), float(heights[stretch.last - 1]))
@@ -171,11 +168,6 @@ def judge_run(run: ControlRun, progress: Progress = silent) -> tuple[Judged, ...
         others = tuple(cut for cut in cuts_of_other_contours(run, contours, comparing) if cut.gouge.depth >= least)
         results[0] = replace(results[0], uncompensated=cuts, of_others=others)
     return tuple(results)
-
-
-def _is_cut_short(run: ControlRun, stretch: Stretch) -> bool:
-    """True if the control stops within the stretch."""
-    return run.stopped_at is not None and stretch.last == len(run.moves)
 
 
 def _without_shallow(result: Judged, least: float) -> Judged:
@@ -360,7 +352,7 @@ def _judge_part(
     if any(result.verdict.gouges for result in results):
         kept, roughing = without_roughing_passes(whole, kept, stretch.side, stretch.radius)
         opened = {rows: contours.get(rows, frozenset()) for rows in kept}
-        cut_short = _is_cut_short(run, stretch)
+        cut_short = run.stops_within(stretch)
         walls = {between_lead_arcs(whole, rows, stretch, cut_short=cut_short): lines for rows, lines in opened.items()}
     if walls != contours:
         count = len(walls) + len(roughing)
@@ -422,7 +414,7 @@ def _center_path(run: ControlRun, stretch: Stretch) -> Path:
     if stretch.wear:
         programmed = stretch.programmed.path(stretch.plane)
         way_out = run.moves.part(stretch.last - 2, stretch.last).path(stretch.plane)
-        return without_repeats(programmed if _is_cut_short(run, stretch) else joined([programmed, way_out]))
+        return without_repeats(programmed if run.stops_within(stretch) else joined([programmed, way_out]))
     moves = run.moves.part(stretch.first, stretch.last)
     center = without_repeats(moves.path(stretch.plane))
     if len(center) or not len(moves):

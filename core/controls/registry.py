@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
+import numpy as np
+
 from core.controls.control_names import CONTROL_NAMES, ControlChoice, inside_name, shown_name
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
@@ -143,15 +145,45 @@ def run(
     full = resolve(control)
     if isinstance(full, UnknownControl):
         return full
-    name, _, variant = full.partition(":")
+    made = _run(text, full, tools, unit, library, progress)
+    if made.stretches and made.stops_within(made.stretches[-1]) and not made.endless:
+        made = _with_rest_of_contour(made, _run(text, full, tools, unit, library, progress, TINY_SHARE))
+    return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
+
+
+def _run(
+    text: bytes,
+    control: str,
+    tools: ToolTable,
+    unit: Unit | None,
+    library: ProgramLibrary,
+    progress: Progress,
+    share: float = 1.0,
+) -> ControlRun:
+    """Run a program on a control, given by its full name, at a share of each tool's radius."""
+    name, _, variant = control.partition(":")
     entry = CONTROLS[name]
     make = entry.variants[variant]
     if entry.dialect is None or make is None:
-        made = klartext.run_klartext(text, tools, progress=progress)
-    else:
-        dialect = replace(entry.dialect, unit=unit or entry.dialect.unit)
-        made = execute(text, full, dialect, tools, make, library, progress)
-    return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
+        return klartext.run_klartext(text, tools, share, progress)
+    dialect = replace(entry.dialect, unit=unit or entry.dialect.unit)
+    return execute(text, control, dialect, tools.scaled(share), make, library, progress)
+
+
+def _with_rest_of_contour(stopped: ControlRun, whole: ControlRun) -> ControlRun:
+    """Return a run that stops within a contour with the rest of the contour at that height, which it may cut already.
+
+    `whole` is the same program with almost no radius.
+    """
+    stretch, known = stopped.stretches[-1], len(stopped.stretches[-1].programmed)
+    longer = next(iter(whole.stretches[len(stopped.stretches) - 1 :]), stretch)
+    points = longer.programmed.points
+    if stretch.changes or longer.changes or not np.array_equal(points[:known], stretch.programmed.points):
+        return stopped
+    other_heights = np.flatnonzero(points[known:, 2] != points[known - 1, 2])
+    rows = known + int(other_heights[0]) if len(other_heights) else len(points)
+    longer = replace(stretch, programmed=longer.programmed.part(0, rows), exit=max(rows - len(points) + longer.exit, 0))
+    return replace(stopped, stretches=(*stopped.stretches[:-1], longer))
 
 
 def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> ControlRun | None:

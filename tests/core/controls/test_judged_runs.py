@@ -164,6 +164,21 @@ def test_a_later_negative_offset_is_on_the_wrong_side() -> None:
     }
 
 
+GROOVE = (
+    "G21 G17 G90 G40 F200\nT1 M6\nG0 X-30. Y20.\nG1 Z-5.\nG41 D1 X-20. Y0.\nX0.\nY-20.\nX6.\nY0.\nX50.\nG40 Y30.\nM30\n"
+)
+
+
+@pytest.mark.parametrize("control", ["fanuc:a", "haas:a", "linuxcnc", "rosettacnc:normal", "nine-series:a"])
+def test_a_wall_that_is_cut_before_the_alarm_that_precedes_it_is_gouged(control: str) -> None:
+    """The 10 mm cutter runs down one wall of a groove 6 mm wide, 4 mm deep into the other one."""
+    run = ran(GROOVE, control, t1=10.0)
+    assert run.stopped_at is not None
+    (gouge,) = [finding for finding in judged_findings(judge_run(run)) if finding.severity is Severity.ERROR]
+    assert (gouge.code, gouge.line) == ("GOUGE", 7)
+    assert gouge.value == pytest.approx(4.0)
+
+
 CENTER_PATH = (
     "G21 G17 G90 G40 F400\nT1 M6\nG0 X{start} Y20.\nG1 Z-5.\nG41 D1 X-15. Y10.\nG3 X-5. Y20. I0 J10.\nG1 Y40.\n"
     "G2 X0 Y45. I5. J0\nG1 X60.\nG2 X65. Y40. I0 J-5.\nG1 Y0\nG2 X60. Y-5. I-5. J0\nG1 X0\nG2 X-5. Y0 I0 J5.\n"
