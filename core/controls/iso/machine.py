@@ -266,7 +266,7 @@ class Machine(ModalState):
             case CodeAction.OF_THIS_CONTROL:
                 self.control.own_code(code.value, block)
             case CodeAction.UNSUPPORTED:
-                text = f"cutcomp does not support G{code.value / 10:g}, and the path after it would be wrong."
+                text = f"cutcomp does not support G{code.value / 10:g}. Write out the moves that it makes or changes."
                 text = lathe_cycle(code.value, block.words) or text
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 

@@ -396,7 +396,7 @@ class MacroMachine(Machine):
     def _scale(self, block: Block) -> None:
         words = block.words
         if not {"I", "J", "K"}.isdisjoint(words) or "P" not in words:
-            text = "cutcomp follows G51 with one P for all axes only, and the path after it would be wrong."
+            text = "cutcomp follows G51 with one P for all axes only. Write out the moves that it scales or mirrors."
             self.log.stop("BEYOND", text, block.line, block.column("G", 510))
         number = words["P"]
         whole_number = any(word.letter == "P" and "." not in word.number for word in block.written())
@@ -412,7 +412,7 @@ class MacroMachine(Machine):
     def _rotate(self, block: Block) -> None:
         words, column = block.words, block.column("G", 680)
         if not {"I", "J", "K"}.isdisjoint(words):
-            text = "cutcomp follows G68 with an angle R only, and the path after it would be wrong."
+            text = "cutcomp follows G68 with an angle R only. Write out the moves that it turns."
             self.log.stop("BEYOND", text, block.line, column)
         if "R" not in words:
             text = "G68 has no R: the control may turn by the angle of a parameter or setting. Write R."

@@ -76,7 +76,7 @@ def cycle(state: State, block: Block) -> None:
         text = "Cycle 247 selects the workpiece datum. All positions count from it."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in _MOVED or number >= _FIRST_PROBE:
-        text = f"Cycle {number} moves or transforms the contour, which is not supported."
+        text = f"Cycle {number} moves or transforms the contour, which is not supported. Write out its moves."
         state.stop("BEYOND", text, block)
     else:
         _define(state, block, number)
