@@ -9,9 +9,8 @@ from __future__ import annotations
 import io
 import logging
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from core.importing.drawing import MAX_ENTITIES, DrawingError
@@ -29,8 +28,8 @@ from core.importing.dxf_tags import (
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
+    from ezdxf.lldxf.types import DXFTag
 
-R12: Final = "AC1009"
 R2000: Final = "AC1015"
 LAYER: Final = 8
 _OWN_CODES: Final = frozenset({10, 11, 12, 13, 38, 39, 40, 41, 42, 43, 44, 70, 71, 72, 73, 74, 90, 91, 210})
@@ -59,82 +58,76 @@ def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
         raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
     _silence(logging.getLogger(ezdxf.__name__))
     if data.startswith(BINARY_MARK):
-        return _binary_document(data)
+        return _binary_document(data, damaged=damaged)
     scan = scan_text(data)
     if not scan.whole and not scan.bad_line:
         data = _up_to_break(data, scan, damaged=damaged)
+    _check(scan, damaged=damaged)
+    return scan, _loaded(data, scan, damaged=damaged)
+
+
+def _check(scan: Scan, *, damaged: bool) -> None:
+    """Raise if a file has too many entities, or one whose group codes cannot be right."""
     if len(scan.entities) > MAX_ENTITIES:
         raise too_much("entities", len(scan.entities), MAX_ENTITIES)
     if scan.first_fault is not None and not damaged:
         fault = scan.first_fault
         readable = sum(not entity.fault for entity in scan.entities)
         raise damaged_file(f"The {fault.kind} {fault.where} {fault.fault}", readable)
-    return scan, _loaded(_normalized(data, scan), scan, damaged=damaged)
 
 
-def _normalized(data: bytes, scan: Scan) -> bytes:
-    """Return a text file in which ezdxf reads every entity whole.
+def _normalized(tags: Iterable[DXFTag], scan: Scan) -> Iterator[DXFTag]:
+    """Yield the tags up to EOF, changed so that ezdxf reads every entity whole.
 
     In a file of R12, or of no version, ezdxf reads only what comes before an entity's first subclass marker: such a
-    file becomes R2000.  It reads no LWPOLYLINE or SPLINE without its markers: they are inserted.  It reads no file with
-    the handle 0, and gives an entity without a handle its own: the 0 is dropped.  What follows EOF is left out.
+    file becomes R2000.  It reads no LWPOLYLINE or SPLINE without its markers, and no POLYLINE without SEQEND: they are
+    inserted.  It reads no file with the handle 0, and gives an entity without a handle its own: the 0 is dropped.
     """
-    is_r12 = scan.version in ("", R12) and (scan.marked or scan.unmarked)
-    if scan.bad_line or not (is_r12 or scan.unmarked or scan.null_handle):
-        return data
-    lines = text_lines(data)
-    written, begin = list[bytes](), 0
-    for row in range(2, len(lines) - 1, 2):
-        if int(lines[row]):
-            continue
-        written += _with_markers(_without_null_handle(lines[begin:row]))
-        begin = row
-        if lines[row + 1].strip() == b"EOF":
-            break
-    written += lines[begin : begin + 2]
-    return b"\n".join([*(_as_r2000(written) if is_r12 else written), b""])
+    from ezdxf.lldxf.tags import group_tags
+    from ezdxf.lldxf.types import DXFTag
+
+    if scan.becomes_r2000 and scan.version is None:
+        yield from (*_as_r2000([DXFTag(0, "SECTION"), DXFTag(2, "HEADER")]), DXFTag(0, "ENDSEC"))
+    kind = ""
+    for entity in group_tags(tags):
+        before, kind = kind, entity[0].value.strip()
+        if before in ("POLYLINE", "VERTEX") and kind not in ("VERTEX", "SEQEND"):
+            yield DXFTag(0, "SEQEND")
+        if kind == "SECTION":
+            is_header = any(_stripped(tag) == (2, "HEADER") for tag in entity[1:2])
+            yield from _as_r2000(entity) if is_header and scan.becomes_r2000 else entity
+        else:
+            yield from _with_markers([tag for tag in entity if _stripped(tag) != (HANDLE, NO_HANDLE)])
+        if kind == "EOF":
+            return
 
 
-def _as_r2000(lines: list[bytes]) -> list[bytes]:
-    """Return the lines of a file with the version R2000 in its header."""
-    values = [line.strip() for line in lines]
-    version = _lines_of([(9, "$ACADVER"), (1, R2000)])
-    if b"$ACADVER" in values:
-        at = values.index(b"$ACADVER") - 1
-        return [*lines[:at], *version, *lines[at + 4 :]]
-    header = [row for row, pair in enumerate(pairwise(values[1::2])) if pair == (b"SECTION", b"HEADER")]
-    if header:
-        at = 2 * header[0] + 4
-        return [*lines[:at], *version, *lines[at:]]
-    return [*_lines_of([(0, "SECTION"), (2, "HEADER")]), *version, *_lines_of([(0, "ENDSEC")]), *lines]
+def _as_r2000(header: list[DXFTag]) -> list[DXFTag]:
+    """Return the tags of a header with the version R2000."""
+    from ezdxf.lldxf.types import DXFTag
+
+    at = next((row for row, tag in enumerate(header) if _stripped(tag) == (9, "$ACADVER")), len(header))
+    return [*header[:2], DXFTag(9, "$ACADVER"), DXFTag(1, R2000), *header[2:at], *header[at + 2 :]]
 
 
-def _without_null_handle(lines: list[bytes]) -> list[bytes]:
-    """Return an entity's lines without the handle 0; those of a section as they are."""
-    if lines[1].strip() == b"SECTION":
-        return lines
-    tags = zip(lines[::2], lines[1::2], strict=True)
-    null = NO_HANDLE.encode()
-    return [line for tag in tags if int(tag[0]) != HANDLE or tag[1].strip() != null for line in tag]
+def _with_markers(entity: list[DXFTag]) -> list[DXFTag]:
+    """Return an entity's tags with the markers it lacks; as they are if its layer comes too late."""
+    from ezdxf.lldxf.types import DXFTag
 
-
-def _with_markers(lines: list[bytes]) -> list[bytes]:
-    """Return an entity's lines with the markers it lacks; as they are if its layer comes too late."""
-    kind = lines[1].strip().decode("latin-1")
+    kind = entity[0].value.strip()
     if kind not in MARKERS:
-        return lines
-    codes = [int(code) for code in lines[::2]]
-    named = {value.strip().decode("latin-1") for code, value in zip(codes, lines[1::2], strict=True) if code == MARKER}
-    common, own = (_lines_of([(MARKER, name)]) if name not in named else [] for name in MARKERS[kind])
+        return entity
+    codes, named = [tag.code for tag in entity], set(map(_stripped, entity))
+    common, own = ([] if (MARKER, name) in named else [DXFTag(MARKER, name)] for name in MARKERS[kind])
     first = next((row for row, code in enumerate(codes) if code in _OWN_CODES), len(codes))
     if own and (first == len(codes) or LAYER in codes[first:]):
-        return lines
+        return entity
     begin = 2 if codes[1] == HANDLE else 1
-    return [*lines[: 2 * begin], *common, *lines[2 * begin : 2 * first], *own, *lines[2 * first :]]
+    return [*entity[:begin], *common, *entity[begin:first], *own, *entity[first:]]
 
 
-def _lines_of(tags: Sequence[tuple[int, str]]) -> list[bytes]:
-    return [line.encode() for code, value in tags for line in (str(code), value)]
+def _stripped(tag: DXFTag) -> tuple[int, str]:
+    return tag.code, str(tag.value).strip()
 
 
 def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
@@ -156,18 +149,15 @@ def damaged_file(text: str, readable: int | None = None) -> DrawingError:
     return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
 
 
-def _binary_document(data: bytes) -> tuple[Scan, Document]:
+def _binary_document(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
     from ezdxf.document import Drawing as Document
     from ezdxf.lldxf.tagger import binary_tags_loader
 
     try:
         scan = scan_tags((tag.code, tag.value) for tag in binary_tags_loader(data))
-        if len(scan.entities) > MAX_ENTITIES:
-            raise too_much("entities", len(scan.entities), MAX_ENTITIES)
-        if scan.unmarked or (scan.marked and scan.version in ("", R12)):
-            raise damaged_file("its version does not have its kinds of entity. Export it as text DXF of R2000")
+        _check(scan, damaged=damaged)
         if scan.whole:
-            return scan, Document.load(binary_tags_loader(data))
+            return scan, Document.load(_normalized(binary_tags_loader(data), scan))
     except DrawingError:
         raise
     except Exception as error:  # a damaged file may bring any exception out of a package for files
@@ -185,14 +175,18 @@ def _loaded(data: bytes, scan: Scan, *, damaged: bool) -> Document:
     from ezdxf.lldxf.repair import tag_reorder_layer
     from ezdxf.lldxf.tagger import ascii_tags_loader
 
-    text = b"\n".join([*text_lines(data), b""]).decode(_encoding(data), "surrogateescape")
+    encoding = _encoding(data)
+    text = b"\n".join([*text_lines(data), b""]).decode(encoding, "surrogateescape")
+    if (scan.irregular or scan.unmarked or scan.becomes_r2000) and not scan.bad_line:
+        tags = _normalized(ascii_tags_loader(io.StringIO(text)), scan)
+        text = "".join(f"{tag.code}\n{tag.value}\n" for tag in tags)
     try:
         return read(io.StringIO(text))
     except Exception as error:  # noqa: BLE001  # as above
         why = f"line {scan.bad_line} is no group code" if scan.bad_line else _structure_fault(error)
     with suppress(Exception):
         return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
-    recovered = _recovered(data)
+    recovered = _recovered(text.encode(encoding, "surrogateescape"))
     if damaged and recovered is not None:
         scan.repaired = why
         return recovered

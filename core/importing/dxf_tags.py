@@ -16,6 +16,7 @@ from typing import Final, NamedTuple
 
 BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
 
+R12: Final = "AC1009"
 COMMENT: Final = 999
 HANDLE: Final = 5
 NO_HANDLE: Final = "0"
@@ -100,14 +101,14 @@ class Scan:
     blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
     units: int = 0
     """$INSUNITS, 0 if the file has none."""
-    version: str = ""
-    """$ACADVER, empty if the file has none."""
+    version: str | None = None
+    """$ACADVER, empty if the header has none, None if the file has no header."""
     marked: bool = False
     """An entity has subclass markers (group code 100), which R12 does not know."""
     unmarked: bool = False
     """An entity lacks one of its `MARKERS`."""
-    null_handle: bool = False
-    """An entity has the handle 0."""
+    irregular: bool = False
+    """An entity has the handle 0, or a POLYLINE has no SEQEND."""
     bad_line: int = 0
     """The first line that should be a group code and is not, 0 if there is none."""
     open_section: str = ""
@@ -117,7 +118,12 @@ class Scan:
     """Why the file could be read only after a repair, empty if it needed none."""
     unknown_sections: list[str] = field(default_factory=list)
     lost: list[ScannedEntity] = field(default_factory=list)
-    """Entities that no reader can see, because their kind is missing."""
+    """Entities that no reader can see, because their kind or their POLYLINE is missing."""
+
+    @property
+    def becomes_r2000(self) -> bool:
+        """True if the version is R12 or none, which has neither subclass markers nor the kinds in `MARKERS`."""
+        return self.version in (None, "", R12) and (self.marked or self.unmarked)
 
     @property
     def first_fault(self) -> ScannedEntity | None:
@@ -215,6 +221,8 @@ class _Scanner:
     def open(self, tag: Tag) -> None:
         """Begin a section, a block or an entity at its marker."""
         name = tag.value
+        if self.open_polyline and name not in _SUBORDINATE:
+            self.scan.irregular, self.open_polyline = True, False
         if name == "SECTION":
             return
         if name == "ENDSEC":
@@ -224,6 +232,9 @@ class _Scanner:
         elif name in _SUBORDINATE:
             if name == "SEQEND":
                 self.open_polyline = False
+            elif name == "VERTEX" and not self.open_polyline:
+                number = len(self.scan.entities) + 1
+                self.scan.lost.append(ScannedEntity(name, tag.line, number, fault="belongs to no POLYLINE"))
         elif self.section == "ENTITIES" or self.block is not None:
             self._add(tag)
         elif self.section == "BLOCKS":
@@ -252,7 +263,7 @@ class _Scanner:
             elif self.section not in _SECTIONS:
                 self.scan.unknown_sections.append(self.section)
             return
-        self.scan.null_handle |= any(tag[:2] == (HANDLE, NO_HANDLE) for tag in body)
+        self.scan.irregular |= any(tag[:2] == (HANDLE, NO_HANDLE) for tag in body)
         if marker.value == "BLOCK" and self.section == "BLOCKS":
             self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
             self.scan.blocks.setdefault(self.block, [])
@@ -260,6 +271,7 @@ class _Scanner:
             self._check(marker.value, body)
 
     def _header(self, body: list[Tag]) -> None:
+        self.scan.version = ""
         for variable, value in pairwise(body):
             if variable[:2] == (9, "$ACADVER"):
                 self.scan.version = value.value

@@ -18,7 +18,7 @@ from core.importing.segments import DoesNotFitError, block_of
 from core.program.model import Program
 from core.tolerance import JOINED
 from core.units import Unit
-from tests.core.importing.drawings import MADE, arc, block, circle, dxf, line, listed, made, square
+from tests.core.importing.drawings import MADE, arc, binary, block, circle, dxf, line, listed, made, polyline, square
 
 ACCEPTED = [case for case in MADE if "refused" not in case]
 
@@ -482,6 +482,36 @@ def test_entities_with_the_handle_zero_are_read(version: str | None) -> None:
     sides = [[kind, (5, "0"), *more] for kind, *more in square(0, 0, 10)]
     drawing = read(of_version(version, *(tag for side in sides for tag in side)))
     assert drawing.entities == 4
+    assert read(binary(version or "AC1009", *(tag for side in sides for tag in side))).entities == 4
+
+
+@pytest.mark.parametrize("version", ["AC1009", "AC1015", "AC1032"])
+def test_a_polyline_without_its_end_is_read(version: str) -> None:
+    whole = polyline((0, 0), (10, 0), (10, 5), closed=False)
+    tags = [*whole[:-1], *line((20, 0), (30, 0)), *whole[:-1]]
+    for data in (of_version(version, *tags), binary(version, *tags)):
+        drawing = listed(data)
+        assert [contour.drawn for contour in drawing.contours] == [2, 1]
+        assert (drawing.drawing.entities, drawing.duplicates) == (3, 2)
+    inserted = dxf(insert("B", (0, 0)), more=block("B", whole[:-1], line((20, 0), (30, 0))))
+    assert [contour.drawn for contour in listed(inserted).contours] == [2, 1]
+
+
+def test_a_vertex_of_no_polyline_is_damage() -> None:
+    corners = [(0, 0), (10, 0), (10, 5), (0, 5)]
+    tags = [(0, "VERTEK") if row == 17 else tag for row, tag in enumerate(polyline(*corners))]
+    for data, where in ((dxf(tags), "at line 63"), (binary("AC1015", *tags), "that is entity 3")):
+        with pytest.raises(DrawingError) as refused:
+            read(data)
+        assert refused.value.text == f"This file is damaged: The VERTEX {where} belongs to no POLYLINE."
+
+
+@pytest.mark.parametrize("version", ["AC1009", "AC1015"])
+def test_a_binary_polyline_is_read_whole_in_every_version(version: str) -> None:
+    corners = [(10, 0.0), (20, 0.0), (10, 50.0), (20, 0.0), (10, 50.0), (20, 30.0)]
+    tags = [(0, "LWPOLYLINE"), (5, "1A"), (8, "CUT"), (90, 3), (70, 1), *corners]
+    (contour,) = listed(binary(version, *tags)).contours
+    assert (contour.closed, contour.drawn, contour.layer) == (True, 3, "CUT")
 
 
 CLAMPED = [0, 0, 0, 1, 2, 3, 3, 3]
