@@ -8,14 +8,17 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
-from math import atan2, dist, floor, pi, tau
+from itertools import combinations, pairwise
+from math import atan2, dist, floor, inf, pi, tau
 from typing import Final, NamedTuple
 
 import numpy as np
 import shapely
 
+from core.geometry.chords import chords_of
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.importing.nesting import CHORD_ERROR
 from core.importing.nodes import Nodes, exact_nodes, nodes_of
 
 MOST_SLACK: Final = 0.01
@@ -42,14 +45,17 @@ class LayeredPiece(NamedTuple):
 class Cleaned:
     """The pieces that stay, and how many were too short, equal to others, or joined with those they overlap.
 
-    `closed_entities` holds the pieces of closed entities that share a piece with another one: each is chained alone.
+    `closed` holds the pieces of each closed entity, or cell, that meets another one: these are chained alone.  `shared`
+    counts the edges of cells that are drawn twice.  `off` is how far a duplicate differs at most, and where.
     """
 
     pieces: list[LayeredPiece] = field(default_factory=list)
-    closed_entities: list[list[LayeredPiece]] = field(default_factory=list)
+    closed: list[list[LayeredPiece]] = field(default_factory=list)
     tiny: int = 0
     duplicates: int = 0
     overlaps: int = 0
+    shared: int = 0
+    off: tuple[float, Point] = (0.0, (0.0, 0.0))
 
 
 _Beyond = tuple[tuple[int, ...], tuple[int, ...]]
@@ -62,14 +68,13 @@ def clean_up(pieces: Iterable[LayeredPiece], tolerance: float) -> Cleaned:
     count = len(kept)
     kept = _without_tiny(kept, tolerance)
     cleaned = Cleaned(tiny=count - len(kept))
-    slack = min(tolerance, MOST_SLACK)
     count = len(kept)
-    kept, cleaned.closed_entities = _without_duplicates(kept, tolerance, slack)
-    cleaned.duplicates = count - len(kept) - sum(map(len, cleaned.closed_entities))
+    kept = _without_duplicates(kept, tolerance, cleaned)
+    cleaned.duplicates = count - len(kept)
     count = len(kept)
-    kept = _without_overlaps(kept, tolerance, slack)
+    kept = _without_overlaps(kept, tolerance, min(tolerance, MOST_SLACK))
     cleaned.overlaps = count - len(kept)
-    cleaned.pieces = sorted(kept, key=_key)
+    cleaned.pieces, cleaned.closed = _closed_entities(sorted(kept, key=_key), tolerance)
     return cleaned
 
 
@@ -147,14 +152,12 @@ def _runs(nodes: Nodes) -> Iterator[list[int]]:
         yield run
 
 
-def _without_duplicates(
-    items: list[LayeredPiece], tolerance: float, slack: float
-) -> tuple[list[LayeredPiece], list[list[LayeredPiece]]]:
-    """Drop each piece that equals another one, forward or backward, unless both are edges of closed entities.
+def _without_duplicates(items: list[LayeredPiece], tolerance: float, cleaned: Cleaned) -> list[LayeredPiece]:
+    """Drop each piece that equals another one, forward or backward, unless both are edges of closed contours.
 
-    Return the pieces that stay, and apart from them those of the closed entities that share an edge.
+    Closed contours are closed entities, and cells: faces between pieces of which each has a copy of every edge.
     """
-    copies = _equal_rows(items, slack)
+    copies = _equal_rows(items, tolerance, cleaned)
     shared = {items[row].entity for rows in copies for row in rows if len(rows) > 1} - {0}
     edges: defaultdict[int, dict[int, int]] = defaultdict(dict)
     for number, rows in enumerate(copies):
@@ -163,48 +166,115 @@ def _without_duplicates(
                 edges[items[row].entity].setdefault(number, row)
     # an entity with the same edges as one before it is a copy
     whole = {frozenset(edge_rows): edge_rows for edge_rows in reversed(edges.values()) if len(edge_rows) > 1}
-    closed = [rows for rows in whole.values() if _is_closed([items[row].piece for row in rows.values()], tolerance)]
-    owners = Counter(number for rows in closed for number in rows)
-    apart = [rows for rows in closed if any(owners[number] > 1 for number in rows)]
-    taken = {number for rows in apart for number in rows}
-    kept = [items[rows[0]] for number, rows in enumerate(copies) if number not in taken]
-    return kept, [[items[row] for row in rows.values()] for rows in apart]
+    closed = {key: rows for key, rows in whole.items() if _is_closed([items[row] for row in rows.values()], tolerance)}
+    owners = {entity for entity, edge_rows in edges.items() if frozenset(edge_rows) in closed}
+    taken = frozenset[int]().union(*closed)
+    free = [[row for row in rows if items[row].entity not in owners] for rows in copies]
+    cells, sides = _cells(free, taken, _faces(items, free, taken, tolerance))
+    used = Counter(number for cell in cells for number in cell)
+    cleaned.shared = sum(sides[number] > 1 or number in taken for number in used)
+    kept = [items[row] for rows in closed.values() for row in rows.values()]
+    # a cell is no entity of the drawing: its number is below 0
+    kept += [items[free[number].pop()]._replace(entity=-row) for row, cell in enumerate(cells, 1) for number in cell]
+    kept += [
+        items[rows[0]]
+        for number, rows in enumerate(free)
+        if rows and number not in taken and used[number] < max(sides[number], 1)
+    ]
+    return sorted(kept, key=_key)
 
 
-def _is_closed(pieces: Sequence[Piece], tolerance: float) -> bool:
+def _cells(
+    free: Sequence[Sequence[int]], taken: frozenset[int], faces: list[list[int]]
+) -> tuple[list[list[int]], Counter[int]]:
+    """Return the faces that share an edge and have copies enough of all theirs, and the number of faces at each edge.
+
+    Edges of closed entities are taken: a face may use another copy of some of them.
+    """
+    sides = Counter(number for face in faces for number in face)
+    # if all of the drawing is drawn twice, a dividing line is no edge of two cells
+    times = min((len(free[number]) for number in sides if sides[number] == 1 and number not in taken), default=1)
+    cells = [
+        face
+        for face in faces
+        if all(len(free[number]) >= times * sides[number] for number in face)
+        and any(sides[number] > 1 or number in taken for number in face)
+        and not taken.issuperset(face)
+    ]
+    return cells, sides
+
+
+def _faces(
+    items: Sequence[LayeredPiece], free: Sequence[Sequence[int]], taken: frozenset[int], tolerance: float
+) -> list[list[int]]:
+    """Return the edges of each face between pieces, by their numbers; none if no piece has a copy to spare."""
+    numbers = [number for number, rows in enumerate(free) if rows and not is_circle(items[rows[0]].piece)]
+    if not any(len(free[number]) > 1 or number in taken for number in numbers):
+        return []
+    pieces = [items[free[number][0]].piece for number in numbers]
+    nodes = nodes_of(pieces, tolerance)
+    chords: list[list[Point]] = []
+    for piece, (start, end) in zip(pieces, nodes.of_piece, strict=True):
+        inner = chords_of(Path.from_pieces([piece]), CHORD_ERROR)[1:-1].tolist()
+        chords.append([nodes.places[start], *map(tuple, inner), nodes.places[end]])
+    number_of = {frozenset(points[:2]): number for points, number in zip(chords, numbers, strict=True)}
+    rings = [face.exterior.coords for face in shapely.polygonize([shapely.LineString(line) for line in chords]).geoms]
+    return [[number_of[ends] for ends in map(frozenset, pairwise(ring)) if ends in number_of] for ring in rings]
+
+
+def _closed_entities(
+    items: Sequence[LayeredPiece], tolerance: float
+) -> tuple[list[LayeredPiece], list[list[LayeredPiece]]]:
+    """Return the pieces of each closed entity that meets another one, and apart from them all other pieces."""
+    curves = [item for item in items if not is_circle(item.piece)]
+    nodes = nodes_of([item.piece for item in curves], tolerance)
+    meeting = {curves[row].entity for rows in nodes.pieces if len(rows) > 2 for row in rows} - {0}
+    entities: defaultdict[int, list[LayeredPiece]] = defaultdict(list)
+    for item in curves:
+        if item.entity in meeting:
+            entities[item.entity].append(item)
+    closed = {number: own for number, own in entities.items() if len(own) > 1 and _is_closed(own, tolerance)}
+    return [item for item in items if item.entity not in closed], list(closed.values())
+
+
+def _is_closed(items: Sequence[LayeredPiece], tolerance: float) -> bool:
     """True if an even number of ends meets at each node: the pieces make loops alone."""
-    return all(len(ends) % 2 == 0 for ends in nodes_of(pieces, tolerance).pieces)
+    return all(len(ends) % 2 == 0 for ends in nodes_of([item.piece for item in items], tolerance).pieces)
 
 
-def _equal_rows(items: Sequence[LayeredPiece], slack: float) -> list[list[int]]:
-    """Return the rows of equal pieces together, in order of the first of them."""
+def _equal_rows(items: Sequence[LayeredPiece], tolerance: float, cleaned: Cleaned) -> list[list[int]]:
+    """Return the rows of equal pieces together, in order of the first of them; note the largest difference."""
     # each of perhaps a thousand copies is compared only with the first of them
-    width, groups = max(slack, 1e-7), list[list[int]]()
+    slack, groups = min(tolerance, MOST_SLACK), list[list[int]]()
+    width = max(slack, 1e-7)
     cells: defaultdict[tuple[int, int], list[list[int]]] = defaultdict(list)
     for row, item in enumerate(items):
-        middle = item.piece.start if is_circle(item.piece) else item.piece.point_at(0.5)
+        piece = item.piece
+        middle = piece.center if isinstance(piece, Arc) and is_circle(piece) else piece.point_at(0.5)
         x, y = floor(middle[0] / width), floor(middle[1] / width)
-        around = [cells.get((x + right, y + up), ()) for right in (-1, 0, 1) for up in (-1, 0, 1)]
-        near = max(min(slack, item.piece.length / 4.0), 1e-7)
-        rows = next((rows for cell in around for rows in cell if _equal(item.piece, items[rows[0]].piece, near)), None)
-        if rows is None:
-            rows = []
-            cells[x, y].append(rows)
-            groups.append(rows)
-        rows.append(row)
+        near = max(min(slack, piece.length / 4.0), 1e-7)
+        around = (rows for right in (-1, 0, 1) for up in (-1, 0, 1) for rows in cells.get((x + right, y + up), ()))
+        differences = ((_difference(piece, items[rows[0]].piece), rows) for rows in around)
+        off, group = next((equal for equal in differences if equal[0] <= near), (0.0, []))
+        if not group:
+            cells[x, y].append(group)
+            groups.append(group)
+        group.append(row)
+        cleaned.off = max(cleaned.off, (off, middle))
     return groups
 
 
-def _equal(first: Piece, second: Piece, slack: float) -> bool:
-    if is_circle(first) is not is_circle(second):
-        return False
-    if is_circle(first):
+def _difference(first: Piece, second: Piece) -> float:
+    """Return how far two pieces are from each other, infinite if one of them is a full circle."""
+    if is_circle(first) and is_circle(second):
         assert isinstance(first, Arc)
         assert isinstance(second, Arc)
-        return dist(first.center, second.center) <= slack and abs(first.radius - second.radius) <= slack
-    forward = dist(first.start, second.start) <= slack and dist(first.end, second.end) <= slack
-    backward = dist(first.start, second.end) <= slack and dist(first.end, second.start) <= slack
-    return (forward or backward) and dist(first.point_at(0.5), second.point_at(0.5)) <= slack
+        return dist(first.center, second.center) + abs(first.radius - second.radius)
+    if is_circle(first) or is_circle(second):
+        return inf
+    forward = max(dist(first.start, second.start), dist(first.end, second.end))
+    backward = max(dist(first.start, second.end), dist(first.end, second.start))
+    return max(min(forward, backward), dist(first.point_at(0.5), second.point_at(0.5)))
 
 
 def _without_overlaps(items: list[LayeredPiece], tolerance: float, slack: float) -> list[LayeredPiece]:
@@ -320,7 +390,8 @@ class _Joiner:
             ):
                 return
         self.into[second] = first
-        self.items[first] = self.items[first]._replace(piece=piece)
+        longer = second if ends[0][0] == ends[1][0] == 1 else first
+        self.items[first] = self.items[longer]._replace(piece=piece)
         self.beyond[first] = (both[ends[0][0]][ends[0][1]], both[ends[1][0]][ends[1][1]])
 
     def _row(self, row: int) -> int:

@@ -89,7 +89,8 @@ class Branch:
 class ContourList:
     """All contours of a drawing: largest first, holes after the contour around them, open ones last.
 
-    `tiny`, `duplicates` and `overlaps` count what clean-up removed.  `notes` are sentences for the operator.
+    `tiny`, `duplicates` and `overlaps` count what clean-up removed, `shared` the pieces that two contours have; `off`
+    is how far a duplicate differs at most, and where.  `notes` are sentences for the operator.
     """
 
     drawing: Drawing
@@ -101,6 +102,8 @@ class ContourList:
     gap: float = 0.0
     branches: tuple[Branch, ...] = ()
     notes: tuple[str, ...] = field(default=())
+    shared: int = 0
+    off: tuple[float, Point] = (0.0, (0.0, 0.0))
 
     @property
     def unit(self) -> Unit:
@@ -124,7 +127,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     progress("chaining", 0, 1)
     result = chained([item.piece for item in cleaned.pieces], options.tolerance)
     contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in result.chains]
-    for items in cleaned.closed_entities:
+    for items in cleaned.closed:
         loops = chained([item.piece for item in items], options.tolerance)
         contours += [_contour(chain, items, options.tolerance) for chain in loops.chains]
     contours = [contour for contour in contours if contour.pieces]
@@ -143,6 +146,8 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
         max((contour.gap for contour in ordered), default=0.0),
         _branches(result.branches, ordered, options.tolerance),
         tuple(notes),
+        cleaned.shared,
+        cleaned.off,
     )
 
 

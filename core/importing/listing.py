@@ -11,10 +11,11 @@ from typing import Final
 import numpy as np
 
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line
+from core.geometry.piece import Arc, Line, Point
 from core.importing.contour import Contour, ContourKind, fit_sentence
 from core.importing.contours import ContourList
 from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
+from core.importing.nodes import SAME_POINT
 from core.tolerance import JOINED
 from core.units import Kind, Unit, decimals_shown, from_mm, show
 
@@ -112,22 +113,30 @@ def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
         layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
         yield f"frozen, off or invisible, not taken: {layers}."
     tolerance = show(from_mm(options.tolerance, unit), Kind.LENGTH, unit)
-    for count, single, several in (
-        (
-            listed.tiny,
-            f"1 piece shorter than TOLERANCE {tolerance} was",
-            f"pieces shorter than TOLERANCE {tolerance} were",
-        ),
-        (listed.duplicates, "1 equal piece was", "equal pieces were"),
-    ):
-        if count:
-            yield f"{single if count == 1 else f'{count} {several}'} dropped."
+    if listed.tiny:
+        yield f"{_were(listed.tiny, 'piece', f'shorter than TOLERANCE {tolerance}')} dropped."
+    if listed.duplicates:
+        off, at = listed.off
+        most = f", off by up to {_gap_text(off, unit)} at {_place(at, unit)}" if off > SAME_POINT else ""
+        yield f"{_were(listed.duplicates, 'equal piece')} dropped{most}."
     if listed.overlaps:
-        yield f"{listed.overlaps} overlapping {'piece was' if listed.overlaps == 1 else 'pieces were'} joined."
+        yield f"{_were(listed.overlaps, 'overlapping piece')} joined."
+    if listed.shared:
+        yield f"{_were(listed.shared, 'piece', 'drawn twice')} kept for two contours."
     yield f"largest gap {_gap_text(listed.gap, unit)}."
     for branch in listed.branches:
-        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in branch.at)
-        yield f"branch at X {x} Y {y}: {branch.ways - 1} ways."
+        yield f"branch at {_place(branch.at, unit)}: {branch.ways - 1} ways."
+
+
+def _were(count: int, noun: str, which: str = "") -> str:
+    return " ".join(
+        filter(None, (str(count), noun if count == 1 else f"{noun}s", which, "was" if count == 1 else "were"))
+    )
+
+
+def _place(point: Point, unit: Unit) -> str:
+    x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in point)
+    return f"X {x} Y {y}"
 
 
 def _gap_text(gap: float, unit: Unit) -> str:

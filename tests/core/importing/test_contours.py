@@ -276,6 +276,58 @@ def test_closed_polylines_that_share_edges_stay_closed(columns: int, rows: int) 
         assert drawing.duplicates == (0 if len(entities) == len(cells) else 5)
 
 
+@pytest.mark.parametrize(
+    "corners",
+    [
+        # three that touch in a ring, two that cross at both tips, two of which one ends where the other bends
+        (((0, 0), (10, 0), (5, -3)), ((10, 0), (5, 8), (9, 8)), ((5, 8), (0, 0), (1, 8))),
+        (((0, 0), (20, 0), (10, 15)), ((0, 0), (10, -15), (20, 0), (10, -5))),
+        (((0, 0), (10, 0), (10, 10)), ((10, 0), (20, 0), (10, 10), (14, 5))),
+    ],
+)
+def test_closed_polylines_that_touch_at_corners_stay_apart(
+    corners: tuple[tuple[tuple[float, float], ...], ...],
+) -> None:
+    drawing = listed(dxf(*(polyline(*points) for points in corners)))
+    assert [contour.closed for contour in drawing.contours] == [True] * len(corners)
+    areas = sorted(shapely.Polygon(points).area for points in corners)
+    assert sorted(contour.area for contour in drawing.contours) == pytest.approx(areas)
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(1, 2), (3, 1), (3, 3)])
+@pytest.mark.parametrize("times", [1, 2])
+def test_outlines_of_lines_that_share_edges_stay_closed(columns: int, rows: int, times: int) -> None:
+    entities = [side for x in range(columns) for y in range(rows) for side in square(10 * x, 10 * y, 10)] * times
+    random.Random(columns).shuffle(entities)
+    drawing = listed(dxf(*entities))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * (columns * rows)
+    inner = (columns - 1) * rows + columns * (rows - 1)
+    assert (drawing.shared, drawing.duplicates) == (inner, len(entities) * (times - 1) // times)
+
+
+def test_outlines_of_arcs_and_lines_share_an_arc() -> None:
+    half = arc((0, 0), 10, 0, 180)
+    above = [line((10, 0), (10, 20)), line((10, 20), (-10, 20)), line((-10, 20), (-10, 0)), half]
+    drawing = listed(dxf(*above, line((-10, 0), (10, 0)), half))
+    areas = [contour.area for contour in drawing.contours if contour.closed]
+    assert areas == pytest.approx([400 - 50 * math.pi, 50 * math.pi])
+
+
+def test_a_line_outline_keeps_its_edge_on_a_closed_polyline() -> None:
+    drawing = listed(dxf(rectangle(0, 0), *square(40, 0, 30)))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4)] * 2
+    assert (drawing.shared, drawing.duplicates) == (1, 0)
+    lines = [line(a, b) for a, b in itertools.pairwise([(0, 0), (40, 0), (40, 30), (0, 30), (0, 0)])]
+    drawing = listed(dxf(rectangle(0, 0), *lines))
+    assert (len(drawing.contours), drawing.shared, drawing.duplicates) == (1, 0, 4)
+
+
+def test_a_doubled_drawing_keeps_its_dividing_line() -> None:
+    drawing = listed(dxf(*([*square(0, 0, 10), line((0, 0), (10, 10))] * 2)))
+    assert [(contour.closed, contour.drawn) for contour in drawing.contours] == [(True, 4), (False, 1)]
+    assert (drawing.shared, drawing.duplicates) == (0, 5)
+
+
 def test_an_inserted_block_beside_itself_shares_an_edge() -> None:
     at = [[(0, "INSERT"), (8, "0"), (2, "B"), (10, x), (20, 0), (30, 0)] for x in (0, 40)]
     drawing = listed(dxf(*at, more=block("B", rectangle(0, 0))))

@@ -303,6 +303,14 @@ def test_cleanup_is_reported() -> None:
         "1 piece shorter than TOLERANCE 0.010 was dropped.",
         "largest gap 0.001.",
     ]
+    assert every_sentence(listed(dxf(circle((20, 30), 5), circle((20.004, 30), 5.003), circle((60, 30), 5)))) == [
+        "1 equal piece was dropped, off by up to 0.007 at X 20.004 Y 30.000.",
+        "largest gap none.",
+    ]
+    assert every_sentence(listed(dxf(*square(0, 0, 10), *square(10, 0, 10)))) == [
+        "1 piece drawn twice was kept for two contours.",
+        "largest gap none.",
+    ]
     assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(made("d09-branch.dxf")))
 
 
