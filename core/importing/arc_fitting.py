@@ -159,15 +159,14 @@ def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
 def _longest(points: Points, at: int, fit: float, make: _Make) -> tuple[_Fit | None, int]:
     """Return the longest fit from a point, and its end: steps double while they fit, then the last one is bisected."""
     last = len(points) - 1
-    good, made, step = at + 1, None, 2
+    good, made, step = at + 1, None, MIN_LINES
     high = last + 1
     while at + step <= last:
         here = make(points[at : at + step + 1], fit)
-        if here is None and step >= MIN_LINES:
+        if here is None:
             high = at + step
             break
-        if here is not None:
-            good, made = at + step, here
+        good, made = at + step, here
         step *= 2
     while high - good > 1:
         middle = min((good + high) // 2, last)
