@@ -24,12 +24,13 @@ from core.importing.contour import (
     rounded,
     started_at_usual_place,
 )
-from core.importing.curves import pieces_of_ellipse, pieces_of_spline
+from core.importing.curves import moved_piece, pieces_of_ellipse, pieces_of_spline
 from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
 from core.importing.joints import joined_chain, reversed_pieces
 from core.importing.loops import Chain, chained
-from core.importing.nesting import boxes_of, containers, crosses_itself, crossings
-from core.units import Kind, Unit, from_mm, show
+from core.importing.nesting import box_of, boxes_of, containers, crosses_itself, crossings
+from core.program.fields import FARTHEST
+from core.units import Kind, Unit, decimals_shown, from_mm, show
 
 TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
 """Largest distance in millimeters of ends that are joined, by the program's unit; the operator may change it."""
@@ -122,6 +123,13 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
             raise DrawingError("NOT_FLAT", entity.text)
     shapes = [drawn for drawn in drawing.shapes if options.layers is None or drawn.layer in options.layers]
     pieces = _pieces(shapes, options, progress)
+    notes = list(drawing.notes)
+    left, bottom, right, top = box_of([item.piece for item in pieces]) if pieces else (0.0, 0.0, 0.0, 0.0)
+    if max(left, bottom, -right, -top) > FARTHEST:
+        pieces = [item._replace(piece=moved_piece(item.piece, -left, -bottom)) for item in pieces]
+        unit = options.program_unit
+        x, y = (f"{from_mm(value, unit):.{decimals_shown(Kind.LENGTH, unit)}f}" for value in (left, bottom))
+        notes.append(f"The drawing begins at X {x} Y {y}, farther out than the form takes: it is moved to X 0 Y 0.")
     progress("cleaning", 0, 1)
     cleaned = clean_up(pieces, options.tolerance)
     progress("chaining", 0, 1)
@@ -133,7 +141,6 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     contours = [contour for contour in contours if contour.pieces]
     progress("nesting", 0, 1)
     ordered = _with_open_gaps(_nested(contours), options.program_unit, options.tolerance)
-    notes = list(drawing.notes)
     if result.given_up:
         notes.append("There are too many branches: closed contours may be listed as open ones. Choose fewer layers.")
     return ContourList(

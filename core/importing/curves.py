@@ -149,7 +149,8 @@ def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
     # cached about the origin: drawings often repeat an ellipse of one size
     x, y = shape.center.real, shape.center.imag
     return [
-        _moved(piece, x, y) for piece in _ellipse_about_origin(shape.first, shape.second, shape.begin, shape.end, fit)
+        moved_piece(piece, x, y)
+        for piece in _ellipse_about_origin(shape.first, shape.second, shape.begin, shape.end, fit)
     ]
 
 
@@ -173,7 +174,8 @@ def _ellipse_about_origin(first: complex, second: complex, begin: float, end: fl
     return tuple(pieces)
 
 
-def _moved(piece: Piece, x: float, y: float) -> Piece:
+def moved_piece(piece: Piece, x: float, y: float) -> Piece:
+    """Return a piece moved by x and y."""
     start, end = (piece.start[0] + x, piece.start[1] + y), (piece.end[0] + x, piece.end[1] + y)
     if isinstance(piece, Arc):
         return Arc(start, end, (piece.center[0] + x, piece.center[1] + y), piece.turn)

@@ -103,6 +103,23 @@ def test_a_gap_beyond_the_tolerance_stays_open() -> None:
     assert contours[0].length == pytest.approx(39.98)
 
 
+@pytest.mark.parametrize("corner", [(5e6, 400.0), (-5e6, 400.0), (0.0, -260_000.0), (254_001.0, 254_001.0)])
+def test_a_drawing_beyond_the_range_of_the_form_is_moved_to_the_origin(corner: tuple[float, float]) -> None:
+    x, y = corner
+    drawing = listed(dxf(*square(x, y, 40), circle((x + 15, y + 20), 5)))
+    outside, hole = drawing.contours
+    assert outside.start == pytest.approx((20.0, 0.0))
+    assert hole.start == pytest.approx((10.0, 20.0))
+    text = f"The drawing begins at X {x:.3f} Y {y:.3f}, farther out than the form takes: it is moved to X 0 Y 0."
+    assert drawing.notes == (text,)
+
+
+def test_a_drawing_that_reaches_into_the_range_of_the_form_stays_where_it_is() -> None:
+    drawing = listed(dxf(*square(5e6, 0, 40), *square(0, 0, 10)))
+    assert [max(piece.start[0] for piece in contour.pieces) for contour in drawing.contours] == [5e6 + 40, 10]
+    assert drawing.notes == ()
+
+
 def test_holes_follow_their_outlines_and_islands_follow_their_holes() -> None:
     squares = [*square(100, 0, 20), *square(0, 0, 80), *square(10, 10, 40), *square(20, 20, 10)]
     data = dxf(*squares, circle((70, 70), 3), circle((65, 10), 2))
