@@ -83,6 +83,12 @@ class Layer:
             return [self.path] if len(self.path) else []
         return PathParts(self.path, self.drawn).paths
 
+    @property
+    def boxes(self) -> Floats:
+        """(n, 4) bounding boxes of the pieces that are drawn."""
+        boxes = self.path.boxes.T
+        return boxes if self.drawn is None else boxes[self.drawn]
+
 
 @dataclass(frozen=True, slots=True)
 class Circle:
@@ -149,7 +155,7 @@ class Scene:
     def _boxes(self, without: Container[Style]) -> list[Floats]:
         layers = [*(layer for layer in self.layers if layer.style not in without), *map(_outline, self.circles)]
         with np.errstate(invalid="ignore", over="ignore"):
-            return [path.boxes.T for layer in layers for path in layer.parts]
+            return [layer.boxes for layer in layers]
 
 
 def _outline(circle: Circle) -> Layer:
