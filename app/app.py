@@ -110,7 +110,9 @@ class CutcompApp(TransformActions):
         self.set_reactive(CutcompApp.shown, session)
         for each in theme.themes():
             self.register_theme(each)
-        self.theme = theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK
+        # without the watcher, which would parse every style once more
+        self.set_reactive(CutcompApp.theme, theme.SIXTEEN if few_colors else theme.LIGHT if light else theme.DARK)
+        self.stylesheet.set_variables(self.get_css_variables())
 
     def get_line_filters(self) -> Sequence[LineFilter]:
         """Add a filter so that no text from a file can move the terminal's cursor, wherever it is shown."""
