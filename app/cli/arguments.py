@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from importlib.resources import files
 from pathlib import Path
 
 from app.cli.shell import HELP, SHOP_HELP
+from app.documents.programs import examples
 
 DESCRIPTION = """\
 Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.
@@ -69,5 +69,4 @@ def command_parser(name: str) -> argparse.ArgumentParser:
 
 def example_names() -> tuple[str, ...]:
     """Return the names of the example parts that ship with the program."""
-    names = (entry.name for entry in files("app").joinpath("examples").iterdir())
-    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
+    return tuple(sorted(path.stem for path in examples().glob("*.toml")))

@@ -18,9 +18,7 @@ def example(name: str) -> Path:
 
 def examples() -> Path:
     """Return the folder of the example parts."""
-    from importlib.resources import files as packaged
-
-    return Path(str(packaged("app").joinpath("examples")))
+    return Path(__file__).parents[1] / "examples"
 
 
 def empty_program(unit: Unit = Unit.IN) -> Program:
