@@ -81,17 +81,20 @@ class Journal:
 
 def beginning(kind: Kind, head: Head, work: Work, place: Place, time: str) -> Iterator[Record]:
     """Yield the records of a new journal: what the last edits of this work began with, and these edits."""
-    first = last = work
+    first = work
     for _ in work.past[-MAX_WHOLE_EDITS:]:
         first = first.undo()
-    for _ in work.future:
-        last = last.redo()
-    first = _without_future(first)
     stamp = None if head.stamp is None else [head.stamp.size, head.stamp.changed, head.stamp.digest]
     whose = {"owner": asdict(head.owner), "file": head.file, "stamp": stamp}
     yield {"journal": FORMAT, "kind": kind, **whose, "base": _base(first), "at": place, "time": time}
-    undone: list[Record] = [{"undo": 1} for _ in work.future]
-    yield from continuing([*(records_between(first, last) or ()), *undone], place, time)
+    yield from continuing([*_redone(first), *({"undo": 1} for _ in work.future)], place, time)
+
+
+def _redone(work: Work) -> Iterator[Record]:
+    """Yield the records of all edits that can be redone."""
+    while work.future:
+        before, work = work, work.redo()
+        yield _edit(before, work)
 
 
 def continuing(records: Iterable[Record], place: Place, time: str) -> Iterator[Record]:

@@ -65,10 +65,11 @@ def _lines_of(text: NcText, values: list[object]) -> tuple[str, ...]:
 
 def known_in_file(work: NcText, file: NcText) -> NcText:
     """Return the work, marked with the change after which it equals the file: undone to there, nothing is unsaved."""
-    at = work.first
+    lines, wanted = list(work.first.lines), list(file.lines)
     for change in (None, *work.past, *reversed(work.future)):
-        at = at if change is None else at.done(change)
-        if at.lines == file.lines and at.encoding == file.encoding:
+        if change is not None:
+            lines[change.row : change.row + len(change.removed)] = change.inserted
+        if lines == wanted and work.encoding == file.encoding:
             return replace(work, saved=change)
     return work
 
