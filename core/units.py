@@ -190,7 +190,7 @@ def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
     except CannotReadError as fault:
         return Unreadable(str(fault))
     if kind is Kind.COUNT and exact.denominator != 1:
-        return Unreadable("Type a whole number, such as 2.")
+        return Unreadable(f"Type a whole number, such as {max(round(exact), 1)}.")
     if abs(exact) * (MM_PER[unit] if kind in (Kind.LENGTH, Kind.FEED) else 1) > Fraction(LARGEST):
         return Unreadable("Too large for any machine.")
     return float(exact)

@@ -69,6 +69,8 @@ def test_a_plain_number_reads_the_same_in_parentheses(text: str, kind: Kind, uni
     [
         ("x", Kind.COUNT, "x is not a number: type a whole number."),
         ("2.5", Kind.COUNT, "Type a whole number, such as 2."),
+        ("2400.7", Kind.COUNT, "Type a whole number, such as 2401."),
+        ("-3.5", Kind.COUNT, "Type a whole number, such as 1."),
         ("10mm", Kind.COUNT, "mm is not a unit here: type a whole number."),
         ("45mm", Kind.ANGLE, "mm is not a unit here: type degrees such as 22.5."),
         ("45deg", Kind.LENGTH, "deg is not a unit here: type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm."),
