@@ -62,8 +62,10 @@ def _travel(before: CenterMove, motion: CenterMove) -> float:
 
 def times_text(times: Times) -> str:
     """Return cut, rapid and total in words, such as `cut 2:05, rapid 0:12, total 2:17 (min:s)`."""
-    parts = ((name, getattr(times, name)) for name in ("cut", "rapid", "total"))
-    return ", ".join(f"{name} {minutes_text(value)}" for name, value in parts)
+    cut, total = (round(60.0 * value, 0) / 60.0 for value in (times.cut, times.total))
+    # not rounded on its own, so that cut and rapid add up to the total
+    rapid = total - cut
+    return f"cut {minutes_text(cut)}, rapid {minutes_text(rapid)}, total {minutes_text(total)}"
 
 
 def minutes_text(minutes: float) -> str:

@@ -56,3 +56,8 @@ def test_minutes_are_shown_with_seconds_and_hours(minutes, text):
 
 def test_cut_rapid_and_total_stand_in_one_line():
     assert times_text(Times(3.5, 0.2)) == "cut 3:30, rapid 0:12, total 3:42"
+
+
+def test_cut_and_rapid_add_up_to_the_total():
+    assert times_text(Times(66.7 / 60, 0.6 / 60)) == "cut 1:07, rapid 0:00, total 1:07"
+    assert times_text(Times(0.5, float("inf"))) == "cut 0:30, rapid -, total -"
