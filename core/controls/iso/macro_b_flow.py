@@ -126,7 +126,7 @@ class MacroFlow(Flow):
         self.numbered: dict[int, list[int]] = {}
         self.calls = [Call(0)]
         self.modal_call: ModalCall | None = None
-        self.no_point: list[tuple[int, int]] = []
+        self.no_point: list[tuple[str, int, int]] = []
         self.rows_run_again = 0
         self.rows_without_movement = 0
         self.rows_without_progress = 0
@@ -321,8 +321,8 @@ class MacroFlow(Flow):
         if not _NO_LENGTHS.search(bare):
             pattern = _WITHOUT_POINT if _ARC.search(bare) else _WITHOUT_POINT_NO_CENTER
             pattern = _ARGUMENTS_WITHOUT_POINT if _MACRO_CALL.search(bare) else pattern
-            columns = (match.start() + self.starts[row] + 1 for match in pattern.finditer(bare))
-            self.no_point.extend((self.numbers[row], column) for column in columns)
+            for match in pattern.finditer(bare):
+                self.no_point.append((match[0], self.numbers[row], match.start() + self.starts[row] + 1))
 
     def _tell_unset(self, row: int) -> None:
         """Report the first common variable that a row reads before the program sets it."""
@@ -664,12 +664,16 @@ class MacroFlow(Flow):
             message = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
             self.log.tell(Severity.INFO, "FN-BODY", message, 1, 1)
         if self.no_point:
-            unit, count = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in", len(self.no_point)
+            (word, *place), count = self.no_point[0], len(self.no_point)
+            word = "".join(word.split())
+            value = float(word[1:])
+            least = f"{value / 1000:g} mm" if self.machine.unit is Unit.MM else f"{value / 10000:g} in"
             which = f"{count} lengths, the first one here, have" if count > 1 else "This length has"
             message = (
-                f"{which} no decimal point. cutcomp takes X10 as 10 units; {self.dialect.without_point} it is {unit}."
+                f"{which} no decimal point. cutcomp takes {word} as {value:g} units; "
+                f"{self.dialect.without_point} it is {least}."
             )
-            self.log.tell(Severity.WARNING, "FN-POINT", message, *self.no_point[0])
+            self.log.tell(Severity.WARNING, "FN-POINT", message, *place)
         if not alarmed:
             self._tell_not_run()
 

@@ -608,7 +608,10 @@ def test_the_last_of_two_codes_of_one_group_takes_effect() -> None:
 def test_coordinates_without_a_decimal_point_make_one_finding() -> None:
     (finding,) = findings_of(ran("G21 G1 F100.\nX10 Y-5\nX0\nX3.\nM30"), "FN-POINT")
     assert finding.text.startswith("2 lengths")
+    assert finding.text.endswith("cutcomp takes X10 as 10 units; at 3401#0 = 0 it is 0.01 mm.")
     assert (finding.line, finding.column) == (2, 1)
+    (finding,) = findings_of(ran("G20 G1 F10.\nX1. Y- 5\nM30"), "FN-POINT")
+    assert finding.text.endswith("cutcomp takes Y-5 as -5 units; at 3401#0 = 0 it is -0.0005 in.")
 
 
 # transforms and roundings before compensation
