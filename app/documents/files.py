@@ -29,7 +29,10 @@ LARGEST_FILE: Final = 4_000_000
 """The size of the largest program file in bytes: about twenty thousand segments."""
 SEARCHED_BYTES: Final = 4096
 """The number of bytes at the start of a file in which a program's `format` key must appear."""
-_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
+_PROGRAM: Final = re.compile(
+    rb"(?:\xef\xbb\xbf)?(?:[ \t\r]*(?:#[^\n]*|[\w.-]+[ \t]*=[^\n]*)?\n)*?[ \t]*format[ \t]*=",
+)
+"""The beginning of a program: comments and keys up to the key `format`."""
 MAX_NAME_BYTES: Final = 200
 """The most bytes of a file's name that the name of a hidden file beside it repeats."""
 
@@ -126,7 +129,7 @@ def load(path: str | Path) -> Program:
 
 def holds_program(data: bytes) -> bool:
     """True if a file's content, or its beginning, is that of a contour program."""
-    return _PROGRAM.search(data[:SEARCHED_BYTES]) is not None
+    return _PROGRAM.match(data[:SEARCHED_BYTES]) is not None
 
 
 def _other_kind(path: Path) -> str:

@@ -117,6 +117,8 @@ def test_a_text_knows_what_its_encoding_cannot_hold() -> None:
         ("a.nc", "G1 X1\n", True),
         ("a.toml", "G1 X1\n", False),
         ("a.txt", "# mine\nformat = 1\nunits = 'IN'\n", False),
+        ("a.txt", "\ufeff# mine\r\n\r\nunits = 'IN'\r\nformat = 1\r\n", False),
+        ("a.nc", "G20\nformat = 1\n", True),
         ("a", "%\nG0\n", True),
         ("empty.nc", "", True),
     ],
