@@ -490,7 +490,8 @@ class ProofScreen(BaseScreen):
         here = (row, at) if at is not None and lines and lines[at][0] == row else (row, -1 if by > 0 else len(lines))
         there = [each for each in lines if (each > here if by > 0 else each < here)]
         if not there:
-            self.say("No further finding." if lines else "There are no findings.")
+            which = "further" if by > 0 else "earlier"
+            self.say(f"No {which} finding." if lines else "There are no findings.")
             return
         self._take_finding((there[0] if by > 0 else there[-1])[1])
 
@@ -685,6 +686,8 @@ def read_tool(text: str, tool: ToolId, unit: Unit) -> CutterTool | ToolId | Unre
     tool, size = (tool_id(match[1]), match[2]) if match else (tool, text)
     if match and not size.strip():
         return tool
+    if text.strip() == str(tool):
+        return Unreadable(f"{tool} is the number of the tool. For a diameter of {tool}, type {tool}={tool}.")
     value = parse(size, Kind.LENGTH, unit)
     return value if isinstance(value, Unreadable) else CutterTool(tool, value, unit=unit)
 

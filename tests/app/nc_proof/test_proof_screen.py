@@ -188,6 +188,8 @@ async def test_n_and_p_step_through_the_findings_from_the_gravest_one(tmp_path):
         assert user.findings()[0].endswith(f"{lines[0]}: {user.prompt}")
         await user.press("n", "p")
         assert user.line == lines[0]
+        await user.press("p")
+        assert user.prompt == "No earlier finding."
         await user.press(">")
         assert user.line == lines[options.highlighted], "the chosen one stays highlighted after another run"
 
@@ -410,6 +412,10 @@ async def test_the_tool_dialog_asks_for_the_tool_that_the_control_lacks(tmp_path
     text = b"(BRACKET 4417)\nG20 G17 F10\nT2 M6\nG1 X0 Y-1\nG42 D5 X1 Y1\nX3\nY3\nG40 X0\nM2\n"
     async with at_proof(tmp_path, text) as user:
         assert first_tool(user.proof.document.text) == 2
+        await with_tool(user, "2")
+        (trouble,) = user.app.screen.query("#phrase-trouble").results(Static)
+        assert str(trouble.content) == "2 is the number of the tool. For a diameter of 2, type 2=2."
+        await user.press("escape")
         await with_tool(user, ".25")
         assert user.proof.question.tools.get(2) == CutterTool(2, 0.25, unit=Unit.IN)
         await user.press("t")
