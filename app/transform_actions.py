@@ -9,6 +9,7 @@ from textual import work
 
 from app.file_actions import FileActions
 from app.screens.dialogs import NumberEntry, NumberForm
+from app.session.words import segment_numbers
 from core.program import transform
 from core.program.edit import Edited, Refused
 from core.units import Kind, to_mm
@@ -59,9 +60,11 @@ class TransformActions(FileActions):
         if edited is not None and self.apply(edited, f"{title} {number}"):
             # messages about the previous edit no longer apply
             self.quiet()
-            before, after = (each.blocks[number - 1].cutter_comp for each in (program, self.session.program))
-            side = "" if after is before else f" CUTTER COMP. is {after} now."
-            self.notify(f"{title} {number} is done.{side} Ctrl+Z undoes it.", timeout=4)
+            before, after = (each.blocks[number - 1] for each in (program, self.session.program))
+            side = "" if after.cutter_comp is before.cutter_comp else f" CUTTER COMP. is {after.cutter_comp} now."
+            lost = segment_numbers(transform.no_longer_typed(before, after))
+            points = f" Typed points replace the data of segments {lost}." if lost else ""
+            self.notify(f"{title} {number} is done.{side}{points} Ctrl+Z undoes it.", timeout=4)
 
     @work(exclusive=True, group="question")
     async def action_shift_block(self) -> None:

@@ -1,7 +1,8 @@
 """This module moves, rotates and mirrors blocks, and repeats segments, as one edit.
 
 Results are typed numbers with six decimals.  Calculated fields stay blank if they still give the same contour: the new
-contour is solved and compared with the old one, and if it differs, all ends and centers are typed.
+contour is solved and compared with the old one, and if it differs, all ends and centers are typed.  `no_longer_typed`
+says which segments have lost data in this way.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from core.program.model import (
     Program,
     Relative,
     Segment,
-    Typed,
+    changed,
 )
 from core.program.solve.block import solve_block
 from core.program.solve.solved import SolvedBlock, SolvedSegment
@@ -36,6 +37,8 @@ DECIMALS: Final = 6
 """Decimals of the resulting typed numbers."""
 SAME_PLACE: Final = 1e-3
 """Millimeters by which six decimals may move a point: their rounding, magnified in calculated values."""
+PARALLEL_TO_AXIS: Final = 1e-12
+"""The sine of an angle that is 0 or 180 degrees but for rounding."""
 MAX_COPIES: Final = 400
 OTHER_SIDE: Final = {
     CutterComp.LEFT: CutterComp.RIGHT,
@@ -109,6 +112,16 @@ def transform_block(program: Program, number: int, motion: Motion) -> Edited:
         if _follows(solve_block(made, program), solved.segments, motion):
             return with_part(program, FormPlace(number), made)
     return Refused("The block cannot be typed at its new place with six decimals.")
+
+
+def no_longer_typed(before: Block, after: Block) -> list[int]:
+    """Return the segments of a moved block that had typed data which are blank now, such as an angle or TANGENT."""
+    pairs = enumerate(zip(before.segments, after.segments, strict=True), 1)
+    return [
+        number
+        for number, (old, new) in pairs
+        if any(getattr(old, name) and not getattr(new, name) for name in old.__match_args__)
+    ]
 
 
 def repeat_segments(program: Program, number: int, first: int, last: int, motion: Motion, copies: int) -> Edited:
@@ -191,45 +204,49 @@ def _transformed(
     """Yield the moved segments; if `explicit`, every end and center is typed."""
     for segment, shape in zip(segments, shapes, strict=True):
         match segment:
+            case LineSegment() | ArcSegment() if not explicit and (made := _moved_data(segment, motion, unit)):
+                yield made
             case LineSegment():
-                yield _line(segment, shape, motion, unit, explicit=explicit)
+                x, y = motion.point(_end(shape))
+                yield LineSegment(_typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
             case ArcSegment():
-                yield _arc(segment, shape, motion, unit, explicit=explicit)
+                yield _arc(segment, shape, motion, unit)
             case BlendSegment() | ChamferSegment():
                 yield segment
             case _:
                 assert_never(segment)
 
 
-def _line(segment: LineSegment, shape: SolvedSegment, motion: Motion, unit: Unit, *, explicit: bool) -> LineSegment:
-    length, angle = segment.length, segment.angle
-    polar = isinstance(length, Number) and isinstance(angle, Number) and not _given(segment.x_end, segment.y_end)
-    if polar and isinstance(angle, Number) and not explicit:
-        turned = Number(round(motion.angle(angle.value), DECIMALS))
-        return LineSegment(length=length, angle=turned, z_end=segment.z_end, feed=segment.feed)
-    x, y = motion.point(_end(shape))
-    return LineSegment(_typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
+def _moved_data(segment: LineSegment | ArcSegment, motion: Motion, unit: Unit) -> LineSegment | ArcSegment | None:
+    """Return a segment with its typed numbers moved; None if one has no counterpart, such as X END alone."""
+    values = dict[str, object]()
+    for names in (("x_end", "y_end"), ("x_center", "y_center"), ("point_x", "point_y"), ("pick_x", "pick_y")):
+        x, y = (getattr(segment, name, None) for name in names)
+        alone = (x is None) is not (y is None) and abs(motion.turn.imag) > PARALLEL_TO_AXIS
+        if alone or not isinstance(x, Number | None) or not isinstance(y, Number | None):
+            return None
+        at = motion.point((to_mm(x.value if x else 0.0, unit), to_mm(y.value if y else 0.0, unit)))
+        values |= {name: _typed(to, unit) for name, old, to in zip(names, (x, y), at, strict=True) if old}
+    for name in ("angle", "start_angle"):
+        match getattr(segment, name, None):
+            case Number(degrees):
+                values[name] = Number(round(motion.angle(degrees), DECIMALS))
+            case Relative(degrees) if motion.mirrored:
+                values[name] = Relative(-degrees)
+    if isinstance(segment, ArcSegment) and motion.mirrored:
+        values["direction"] = OTHER_WAY[segment.direction]
+    return changed(segment, values)
 
 
-def _arc(segment: ArcSegment, shape: SolvedSegment, motion: Motion, unit: Unit, *, explicit: bool) -> ArcSegment:
+def _arc(segment: ArcSegment, shape: SolvedSegment, motion: Motion, unit: Unit) -> ArcSegment:
     direction = OTHER_WAY[segment.direction] if motion.mirrored else segment.direction
-    made = ArcSegment(direction, z_end=segment.z_end, feed=segment.feed)
-    ends = explicit or _given(segment.x_end, segment.y_end)
-    centers = explicit or _given(segment.x_center, segment.y_center)
-    whole = isinstance(shape.sharp, Arc) and shape.sharp.start == shape.sharp.end
-    if ends:
-        x, y = motion.point(_end(shape))
-        made = replace(made, x_end=_typed(x, unit), y_end=_typed(y, unit))
-    if centers and isinstance(shape.sharp, Arc):
+    x, y = motion.point(_end(shape))
+    made = ArcSegment(direction, _typed(x, unit), _typed(y, unit), segment.z_end, feed=segment.feed)
+    if isinstance(shape.sharp, Arc):
         x, y = motion.point(shape.sharp.center)
-        made = replace(made, x_center=_typed(x, unit), y_center=_typed(y, unit))
-    if not (ends and centers) or whole:
-        made = replace(made, radius=None if centers else segment.radius, sweep=segment.sweep)
+        sweep = segment.sweep if shape.sharp.start == shape.sharp.end else None
+        made = replace(made, x_center=_typed(x, unit), y_center=_typed(y, unit), sweep=sweep)
     return made
-
-
-def _given(*values: Typed) -> bool:
-    return any(isinstance(value, Number | Relative) for value in values)
 
 
 def _follows(made: SolvedBlock, before: Sequence[SolvedSegment], motion: Motion) -> bool:

@@ -24,6 +24,7 @@ from app.widgets.drawing import Drawing
 from core.program.model import Coolant, Number
 from core.units import Unit
 from tests.app.widget_pilot import Operator, operator
+from tests.core.program.run_files import program_of
 
 
 async def run(user: Operator, action: str) -> None:
@@ -356,6 +357,19 @@ async def test_the_palette_mirrors_a_block_in_one_edit():
         assert user.session.block.x_start == Number(-2.0)
         await user.press("ctrl+z")
         assert user.session.program == before
+
+
+async def test_the_palette_names_segments_whose_data_do_not_turn_with_the_block():
+    kept, lost = {"angle": 30, "length": 50}, {"angle": 30, "x_end": 50}
+    for line, said in ((lost, " Typed points replace the data of segments 1."), (kept, "")):
+        part = {"start": [0, 0], "segments": [{"kind": "LINE", **line}]}
+        async with operator(program_of(part)) as user:
+            await user.app.run_action("app.rotate_block")
+            await user.settle()
+            await user.press("enter", "enter", *"10", "enter")
+            await everything(user)
+            done = f"ROTATE BLOCK 1 is done.{said} Ctrl+Z undoes it."
+            assert done in [message.message for message in user.app._notifications]
 
 
 async def test_tool_setup_names_all_blocks_that_use_a_tool():

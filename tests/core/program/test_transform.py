@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from math import dist
 from pathlib import Path
@@ -13,8 +14,10 @@ from core.program.edit import Refused
 from core.program.file.read import loads_bytes
 from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program
 from core.program.solve.block import solve_block
-from core.program.transform import Motion, mirrored, moved, repeat_segments, rotated, transform_block
+from core.program.transform import Motion, mirrored, moved, no_longer_typed, repeat_segments, rotated, transform_block
+from tests.core.program.run_files import Case, program_of
 
+GOLDEN = json.loads((Path(__file__).parents[2] / "data/calculated_runs/golden.json").read_text(encoding="utf-8"))
 EXAMPLES = Path(__file__).parents[3] / "app" / "examples"
 
 
@@ -158,3 +161,60 @@ def test_a_line_that_leads_to_a_copy_also_leads_to_its_height() -> None:
     assert not isinstance(after, Refused)
     solved = solve_block(after.blocks[0], after).segments
     assert [(segment.z_start, segment.z_end) for segment in solved[1:]] == [(-5.0, -2.0), (-2.0, -5.0), (-5.0, -2.0)]
+
+
+RUN: Case = {
+    "start": [0, 0],
+    "segments": [
+        {"kind": "LINE", "angle": 0},
+        {"kind": "ARC", "direction": "CCW", "tangent": True, "radius": 10},
+        {"kind": "LINE", "tangent": True, "angle": 90, "x_end": 60, "y_end": 40},
+    ],
+}
+
+
+@pytest.mark.parametrize("motion", [moved(3.0, -2.0), rotated((1.0, 2.0), 33.0), mirrored((1.0, 2.0), 20.0)])
+def test_a_moved_run_keeps_its_data(motion: Motion) -> None:
+    before = program_of(RUN)
+    after = transform_block(before, 1, motion)
+    assert not isinstance(after, Refused)
+    held_against(before, after, motion)
+    line, arc, last = after.blocks[0].segments
+    assert line == LineSegment(angle=Number(round(motion.angle(0.0), 6)))
+    assert arc == ArcSegment(Direction.CW if motion.mirrored else Direction.CCW, radius=Number(10.0), tangent=True)
+    assert isinstance(last, LineSegment)
+    assert last.tangent
+    assert no_longer_typed(before.blocks[0], after.blocks[0]) == []
+
+
+def test_data_that_cannot_be_kept_are_named() -> None:
+    before = program_of({"start": [0, 0], "segments": [{"kind": "LINE", "x_end": 50, "angle": 30}]})
+    shifted = transform_block(before, 1, moved(1.0, 0.0))
+    assert not isinstance(shifted, Refused)
+    assert shifted.blocks[0].segments == (LineSegment(Number(51.0), angle=Number(30.0)),)
+    turned = transform_block(before, 1, rotated((0.0, 0.0), 10.0))
+    assert not isinstance(turned, Refused)
+    assert no_longer_typed(before.blocks[0], turned.blocks[0]) == [1]
+
+
+@pytest.mark.parametrize("case", [case for case in GOLDEN if case["solutions"]], ids=lambda case: case["name"])
+@pytest.mark.parametrize(
+    "motion",
+    [
+        moved(3.0, -2.0),
+        rotated((1.0, 2.0), 90.0),
+        rotated((1.0, 2.0), 33.0),
+        mirrored((0.0, 0.0), 90.0),
+        mirrored((1.0, 2.0), 20.0),
+    ],
+)
+def test_every_calculated_run_lies_where_the_motion_puts_it(case: Case, motion: Motion) -> None:
+    for choice in range(len(case["solutions"])):
+        before = program_of(case, {1: choice})
+        after = transform_block(before, 1, motion)
+        if isinstance(after, Refused):
+            assert "not determined" in after.text, "the choice belongs to a later segment"
+            continue
+        held_against(before, after, motion)
+        if motion == moved(3.0, -2.0):
+            assert no_longer_typed(before.blocks[0], after.blocks[0]) == []
