@@ -14,6 +14,8 @@ from core.program.tools import called_tool
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
+PARTNERS: Final = (("point_x", "point_y"), ("point_y", "point_x"), ("point_dist", "point_x"), ("offset", "parallel"))
+"""Fields of a LINE or an ARC, each with another without which it has no effect."""
 VISIBLE: Final = 0.01
 """Millimeters: a longer length is displayed as something other than 0 in any unit."""
 
@@ -22,6 +24,7 @@ def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Itera
     """Yield what may surprise the operator about a block's fields and the program's parameters and setup."""
     yield from _z_ends(solved)
     yield from _safe_z(solved, program)
+    yield from _without_partner(block, solved)
     yield from _blank_feeds(block, solved, program)
     yield from _allowances_without_finish_tool(block, program)
     yield from _finish_tool_without_allowance(block, program)
@@ -70,6 +73,16 @@ def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     severity = Severity.INFO if typed is None else Severity.WARNING
     lengths = (clear, clearance, solved.z_start)
     yield Finding("SAFE_Z", severity, f"{text}Enter SAFE Z on PART SETUP.", field="safe_z", value=safe, lengths=lengths)
+
+
+def _without_partner(block: Block, solved: SolvedBlock) -> Iterator[Finding]:
+    """Warn about typed numbers that have no effect without another one, such as OFFSET without PARALLEL TO."""
+    for number, segment in enumerate(block.segments[: solved.determined], 1):
+        for name, partner in PARTNERS:
+            if getattr(segment, name, None) is not None and getattr(segment, partner) is None:
+                label, needed = (field_of(Form.LINE, each).label for each in (name, partner))
+                text = f"{label} has no effect without {needed}. Enter {needed}, or blank {label}."
+                yield Finding("NO_PARTNER", Severity.WARNING, text, number, name)
 
 
 def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:

@@ -356,3 +356,21 @@ def test_a_smaller_finish_tool_without_allowance_still_cuts_the_corners():
     for diameter, count in ((0.1, 0), (5.0, 1)):
         tools = (*part.tools, Tool(9, "END MILL", Number(diameter)))
         assert len(findings_of(replace(part, tools=tools), "NOTHING_LEFT")) == count
+
+
+@pytest.mark.parametrize(
+    ("typed", "texts"),
+    [
+        ({"offset": 12.0}, ["OFFSET has no effect without PARALLEL TO. Enter PARALLEL TO, or blank OFFSET."]),
+        ({"point_y": 5.0}, ["POINT Y has no effect without POINT X. Enter POINT X, or blank POINT Y."]),
+        ({"point_dist": 5.0}, ["DISTANCE has no effect without POINT X. Enter POINT X, or blank DISTANCE."]),
+        ({"point_x": 5.0, "point_y": 0.0, "point_dist": 0.0}, []),
+    ],
+)
+def test_a_number_without_effect_is_reported(typed, texts):
+    line = LineSegment(x_end=Number(9.0), y_end=Number(0.0))
+    line = changed(line, {name: Number(value) for name, value in typed.items()})
+    part = program(replace(block(NOTCH, CutterComp.LEFT), x_start=Number(0.0), y_start=Number(0.0), segments=(line,)))
+    found = findings_of(part, "NO_PARTNER")
+    assert [text for _, text in found] == texts
+    assert all((finding.severity, finding.segment) == (Severity.WARNING, 1) for finding, _ in found)
