@@ -279,3 +279,12 @@ async def test_an_undetermined_run_is_sketched_from_known_headings_and_centers()
         assert before is not None
         assert after is not None
         assert before.picture.rows != after.picture.rows
+
+
+async def test_a_contradiction_on_another_segment_is_named_with_its_number():
+    text = "XY LENGTH is 49.000, but 50.000 by segments 1 and 2: correct or blank one of them."
+    async with operator(program_of(case_of(line(angle=30), line(x_end=100, y_end=0, angle=300, length=49)))) as user:
+        await user.press("pagedown")
+        assert user.prompt.startswith(f"Segment 2: {text}")
+        await user.press("pagedown")
+        assert user.prompt.startswith(text)
