@@ -648,3 +648,15 @@ def test_an_end_coordinate_that_the_angle_implies_adds_no_value() -> None:
         texts.append(texts_of(case))
     assert texts[0] == texts[1]
     assert "2 more values" in texts[0][0]
+
+
+def test_the_angle_of_a_line_to_the_right_is_0_and_not_360() -> None:
+    case = case_of(
+        line(angle=0),
+        ccw(tangent=True, x_center=30, radius=15),
+        line(tangent=True, angle=180),
+        ccw(tangent=True, x_center=-30, radius=15),
+        line(tangent=True, x_end=0, y_end=-15),
+        start=(0, -15),
+    )
+    assert document(case)["segments"][-1]["angle"]["value"] == pytest.approx(0.0, abs=1e-6)
