@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.geometry.corner import Corner, NoCorner, Reason, fillet
+from core.geometry.corner import Corner, NoCorner, Reason, chamfer, fillet
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from tests.properties import exercised, must_exercise
 
@@ -153,3 +153,59 @@ def test_the_largest_radius_of_a_corner_fits(corner, before_length, after_length
     assert largest is not None
     assert isinstance(fillet(before, after, largest * (1 - 1e-9)), Corner)
     assert isinstance(fillet(before, after, largest * (1 + 1e-6)), NoCorner)
+
+
+UP = Line((10.0, 0.0), (10.0, 10.0))
+RIGHT = Line((0.0, 0.0), (10.0, 0.0))
+QUARTER = Arc((10.0, 0.0), (20.0, 10.0), (10.0, 10.0), Turn.CCW)
+"""A quarter circle that leaves (10, 0) to the right, radius 10."""
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "length", "between"),
+    [
+        (RIGHT, UP, 2.0, Line((8.0, 0.0), (10.0, 2.0))),
+        (Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0)), 2.0, Line((0.0, 0.0), (2.0, 2.0))),
+        # 6 along the tangent of a circle of 10: 8 is left to its center
+        (Line((10.0, -10.0), (10.0, 0.0)), QUARTER, 6.0, Line((10.0, -6.0), (16.0, 2.0))),
+        (Line((10.0, -10.0), (10.0, 0.0)), QUARTER, 10.0, Line((10.0, -10.0), (20.0, 10.0))),
+        (
+            Arc((20.0, 10.0), (10.0, 0.0), (10.0, 10.0), Turn.CW),
+            Line((10.0, 0.0), (10.0, -10.0)),
+            6.0,
+            Line((16.0, 2.0), (10.0, -6.0)),
+        ),
+    ],
+)
+def test_a_chamfer_takes_its_length_off_both_pieces(before: Piece, after: Piece, length: float, between: Line) -> None:
+    corner = chamfer(before, after, length)
+    assert isinstance(corner, Corner)
+    assert isinstance(corner.between, Line)
+    assert near(corner.between.start, between.start)
+    assert near(corner.between.end, between.end)
+    ends = (None if corner.before is None else corner.before.end, None if corner.after is None else corner.after.start)
+    whole = (near(between.start, before.start), near(between.end, after.end))
+    assert ends == (None if whole[0] else corner.between.start, None if whole[1] else corner.between.end)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "length", "refusal"),
+    [
+        (RIGHT, Line((10.0, 0.0), (20.0, 0.0)), 1.0, NoCorner(Reason.TANGENT)),
+        (RIGHT, Line((10.0, 0.0), (0.0, 0.0)), 1.0, NoCorner(Reason.REVERSAL)),
+        (RIGHT, Line((10.0, 0.0), (10.0, 3.0)), 3.1, NoCorner(Reason.TOO_LARGE, 3.0)),
+        # an arc takes no more than its radius, and no more than its end is away along the tangent
+        (Line((10.0, -20.0), (10.0, 0.0)), QUARTER, 10.1, NoCorner(Reason.TOO_LARGE, 10.0)),
+        (
+            Line((10.0, -20.0), (10.0, 0.0)),
+            Arc((10.0, 0.0), (16.0, 2.0), (10.0, 10.0), Turn.CCW),
+            6.1,
+            NoCorner(Reason.TOO_LARGE, 6.0),
+        ),
+    ],
+)
+def test_a_chamfer_that_does_not_fit_says_why(before: Piece, after: Piece, length: float, refusal: NoCorner) -> None:
+    found = chamfer(before, after, length)
+    assert isinstance(found, NoCorner)
+    assert found.reason is refusal.reason
+    assert found.largest == (None if refusal.largest is None else pytest.approx(refusal.largest))

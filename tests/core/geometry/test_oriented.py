@@ -7,7 +7,7 @@ from math import pi
 import pytest
 from numpy.testing import assert_allclose
 
-from core.geometry.oriented import Circle, OrientedLine, headings_at_distances, meeting, touch_point
+from core.geometry.oriented import Circle, OrientedLine, headings_at_distances, line_through, meeting, touch_point
 from core.geometry.piece import Point
 
 
@@ -39,9 +39,24 @@ def test_circles_beside_or_within_each_other_share_nothing(distance: float) -> N
     assert meeting(Circle((1.0, 2.0), 5.0), Circle((1.0 + distance, 2.0), 2.0)).points == ()
 
 
+def test_circles_about_one_center_are_the_same_or_share_nothing() -> None:
+    met = [meeting(Circle((1.0, 2.0), 5.0), Circle((1.0, 2.0), radius)) for radius in (5.0, 4.0)]
+    assert [(one.points, one.coincident) for one in met] == [((), True), ((), False)]
+
+
+def test_shifted_loci_meet_at_the_shifted_point() -> None:
+    line, circle = line_through((3.0, 4.0), 0.5), Circle((3.0, 4.0 + 5.0), 5.0)
+    shifted = meeting(line.shifted(10.0, 20.0), circle.shifted(10.0, 20.0)).points
+    assert_allclose(shifted, [(x + 10.0, y + 20.0) for x, y in meeting(line, circle).points])
+
+
 def test_lines_meet_where_both_equations_hold() -> None:
     # y = 5, traveled to the right, and x = 3, traveled up: its left normal is (-1, 0)
     assert_allclose(meeting(OrientedLine(0.0, 5.0), OrientedLine(pi / 2, -3.0)).points, [(3.0, 5.0)])
+
+
+def test_lines_through_a_point_meet_there() -> None:
+    assert_allclose(meeting(line_through((1.0, 2.0), 0.3), line_through((1.0, 2.0), 1.4)).points, [(1.0, 2.0)])
 
 
 def test_a_line_at_distances_from_two_points_has_one_heading_each_way() -> None:

@@ -80,6 +80,17 @@ def test_part_and_join():
     assert whole.numbers.tolist() == [1, 2, 3, 4]
 
 
+def test_without_pieces_of_no_length_each_piece_starts_where_the_one_before_ends():
+    near = 0.001
+    lines = [Line((0, 0), (2, 0)), Line((2, 0), (2, near)), Line((2, near), (2, 5)), Line((2, 5), (0, 5))]
+    circle = Arc((2, near), (2, near), (3, near), Turn.CW)
+    path = Path.from_pieces([*lines[:2], circle, *lines[2:]])
+    left = path.without(np.array([1]))
+    assert left.numbers.tolist() == [1, 3, 4, 5]
+    # the full circle stays full
+    assert left.points.tolist() == [[0, 0], [2, near], [2, near], [2, 5], [0, 5]]
+
+
 def test_nothing():
     assert Path.from_pieces([]) is EMPTY
     assert joined([]) is EMPTY
