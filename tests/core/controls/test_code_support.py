@@ -20,6 +20,26 @@ HAVE = {
 }
 ISO = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 
+NOT_FOLLOWED = {
+    "rosettacnc": "G51 G65 G66 G68",
+    "nine-series": "G14.1 G16 G51.1 G68",
+    "linuxcnc": "G5 G5.1 G5.2 G5.3 G6 G6.1 G6.2 G28.1 G30.1 G33 G33.1 G70 G71 G71.1 G71.2 G72 G72.1 G72.2 G76",
+    "fanuc": "G2.1 G2.2 G2.3 G2.4 G3.1 G3.2 G3.3 G3.4 G6.2 G7 G7.1 G12.1 G13.1 G29 G33 G37 G43.1 G43.4 G43.5 "
+    "G45 G46 G47 G48 G66.1 G68.2 G68.3 G68.4",
+    "haas": "G12 G13 G35 G36 G70 G71 G72 G100 G101 G107 G136 G141 G143 G150 G174 G184 G234 G254 G255",
+}
+"""Codes that a control has and whose path cutcomp does not know."""
+
+WITHOUT_EFFECT = {
+    "threeblock": "G43 G49",
+    "rosettacnc": "G43 G49 G50 G61 G64 G69",
+    "nine-series": "G14 G15 G43 G49 G50.1 G61 G64 G69",
+    "linuxcnc": "G8 G61 G61.1 G64",
+    "fanuc": "G5 G5.1 G8 G9 G11 G22 G23 G27 G43 G44 G49 G60 G61 G62 G63 G64 G67",
+    "haas": "G103 G187",
+}
+"""Codes that do not change the path in the plane."""
+
 
 def alarm(run: ControlRun) -> str:
     """The text of the alarm that stops a run, or an empty text."""
@@ -34,6 +54,20 @@ def test_controls_named_for_a_code_have_it(code: int) -> None:
         dialect = CONTROLS[HAVE[name]].dialect
         assert dialect is not None
         assert code in dialect.codes, name
+
+
+@pytest.mark.parametrize("control", NOT_FOLLOWED)
+def test_codes_that_are_not_followed_stop_the_run(control: str) -> None:
+    for code in NOT_FOLLOWED[control].split():
+        run = ran(f"G20 G17 F9.\n{code} X1.\nM30\n", control)
+        assert (run.stopped_at, [finding.code for finding in run.findings][-1]) == (2, "BEYOND"), code
+
+
+@pytest.mark.parametrize("control", WITHOUT_EFFECT)
+def test_codes_without_effect_in_the_plane_are_accepted(control: str) -> None:
+    for code in WITHOUT_EFFECT[control].split():
+        run = ran(f"G20 G17 F9.\n{code}\nG1 X1.\nM30\n", control)
+        assert (run.stopped_at, lines_and_ends(run)) == (None, [(1.0, 0.0)]), code
 
 
 @pytest.mark.parametrize("code", ["G61.1", "G90.1", "G91.1"])

@@ -94,6 +94,12 @@ def test_the_orientation_of_a_lathe_tool_shifts_its_moves(orientation: int, tmp_
     assert not difference(printed(ours), theirs.moves)
 
 
+def test_l_next_to_g41_1_is_the_orientation_of_the_lathe_tool() -> None:
+    """Radius 1, orientation 3: the controlled point is one radius behind the nose's center in Z, and above it in X."""
+    run = ran("G21 G18 F9\nG41.1 D2 L3\nG1 Z5\nZ9\nG40\nM2\n", "linuxcnc")
+    assert [(move.point[0], move.point[2]) for move in run.moves if move.line] == [(2.0, 4.0), (2.0, 8.0)]
+
+
 @needs_witness
 @pytest.mark.parametrize("name", MODAL)
 def test_modal_programs_match_the_interpreter(name: str, tmp_path: Path) -> None:

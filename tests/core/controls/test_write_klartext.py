@@ -16,6 +16,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run_klartext
 from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame
+from core.controls.write.klartext_program import write_klartext
 from core.controls.write.read_back import MIN_TOLERANCE
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.geometry.path import Path
@@ -94,6 +95,14 @@ def test_the_text_of_a_square_from_mid_side() -> None:
             "16 END PGM PART MM\n",
         )
     )
+
+
+@pytest.mark.parametrize("blend", [0.0, 3.0])
+def test_every_line_of_the_contour_and_its_leads_belongs_to_a_segment(blend: float) -> None:
+    lines = write_klartext([cut(compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=blend))], "PART", Unit.MM)
+    assert isinstance(lines, tuple)
+    numbers = [1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.0]
+    assert [line.segment for line in lines] == [*[None] * 7, *numbers, *[None] * 3]
 
 
 @pytest.mark.parametrize("side", list(Side))

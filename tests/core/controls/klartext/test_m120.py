@@ -79,6 +79,32 @@ def test_it_begins_and_ends_within_a_contour() -> None:
     assert flat(made)[5:] == [NEAR(want) for want in behind]
 
 
+AFTER_A_CORNER = ("L X+0 Y+0 RL F100", "L Y+20")
+"""A wall, after whose corner one block more comes before M120; its offset is cut off at X-5."""
+
+
+@pytest.mark.parametrize(
+    ("blocks", "path"),
+    [
+        # a slanted wall: its offset runs through (-4, 17) with a slope of -4 to 3
+        (("L X-30 Y+60",), [(-5, 17 + 4 / 3), (-32.5, 55)]),
+        # an arc of 25 about (-20, 5): its offset has the radius 20, and 400 = 15^2 + 175
+        (("CC X-20 Y+5", "C X-5 Y+25 DR+"), [(-5, 5 + sqrt(175)), (-20 + sqrt(175), 20, -20, 5, 1)]),
+    ],
+)
+def test_the_block_before_it_keeps_its_trimmed_start(blocks: tuple[str, ...], path: list[tuple[float, ...]]) -> None:
+    made = runs(START, *AFTER_A_CORNER, *blocks, "L X-60 M120 LA5", "L Y+90 R0")
+    assert made.stopped_at is None
+    assert flat(made)[1:-2] == [NEAR(want) for want in path]
+
+
+@pytest.mark.parametrize("blocks", [("L X-1.8 Y+22.4",), ("CC X-20 Y+5", "C X-2.5 Y+22.8535711 DR+")])
+def test_a_block_before_it_that_is_trimmed_away_stops_the_control(blocks: tuple[str, ...]) -> None:
+    made = runs(START, *AFTER_A_CORNER, *blocks, "L X-60 M120 LA5", "L Y+90 R0")
+    assert (made.stopped_at, codes(made)[0]) == (6 + len(blocks), ("HE3", 6 + len(blocks)))
+    assert "no length left" in made.findings[0].text
+
+
 def test_it_ends_with_r0() -> None:
     again = (START, "L X+0 Y+0 RL F100", *GROOVE, "L X-30 R0")
     made = runs(START, "L X+0 Y+0 RL F100 M120 LA5", *GROOVE, "L X-30 R0", *again)
