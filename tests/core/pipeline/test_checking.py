@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.judged_runs import judge_run
 from core.controls.registry import run
-from core.pipeline.checking import Asked, answer, answer_all, reasons, same_contours, with_largest_tool
+from core.pipeline.checking import (
+    Asked,
+    answer,
+    answer_all,
+    answered,
+    lines,
+    reasons,
+    same_contours,
+    unreadable,
+    with_largest_tool,
+)
 from core.progress import Stopped
 from core.units import Unit, from_mm
 
@@ -132,9 +143,9 @@ def test_a_lead_that_alone_gouges_should_be_moved(start: str, end: str, y: str) 
 
 
 def test_the_table_of_all_controls_names_the_largest_tool_for_each() -> None:
-    lines = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
-    assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in lines
-    assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in lines)
+    every = list(reasons(answer_all(SLOT, asked("all", CutterTool(1, 0.5)))))
+    assert "fanuc:a: Tool 1 is too big; the largest that does not gouge: 0.4000." in every
+    assert any(reason.startswith("fanuc:a and fanuc:b at line 8 (PS0041): ") for reason in every)
 
 
 def test_the_largest_tool_is_named_for_a_program_without_a_unit() -> None:
@@ -144,3 +155,138 @@ def test_the_largest_tool_is_named_for_a_program_without_a_unit() -> None:
     fitting = [[row.control for row in each if row.fits is not None] for each in (silent_rows, rows)]
     assert fitting[0] == fitting[1]
     assert fitting[1]
+
+
+AROUND = b"G21 F9.\nT1 M6\nG0 X-20 Y-20\n%s D1 G1 X0 Y0\nY30.\nX40\nY0\nX0\nG40 X-20 Y-20\nM2\n"
+KLARTEXT = b"0 BEGIN PGM A MM\n1 L X+1 F9\n2 END PGM A MM\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "outcome", "moves"),
+    [
+        ("linuxcnc", b"", "has nothing to run", 0),
+        ("linuxcnc", b"G21\nM2\n", "moves nothing", 0),
+        ("linuxcnc", b"G21 F9\nG1 X1\nM2\n", "runs", 1),
+        ("fanuc:a", b"G21 F9.\nG1 X1.\n", "runs, 1 warning (END)", 1),
+        (
+            "fanuc:a",
+            b"G21 F9.\nG41 D0 G1 X9.\nX20.\nG40 X30.\nM30\n",
+            "runs, nothing compensated, 1 warning (FN-D0)",
+            3,
+        ),
+        ("linuxcnc", b"G21 F9\nG33 X1\nM2\n", "cannot be followed past line 2 (BEYOND)", 0),
+        ("linuxcnc", AROUND % b"G41", "runs, 1 warning (UNCUT)", 10),
+        ("linuxcnc", AROUND % b"G42", "gouges by 10.000 at line 4, 1 warning (UNCUT)", 8),
+        (
+            "linuxcnc",
+            (AROUND % b"G42").replace(b"X40", b"G17 G18 X40"),
+            "gouges by 0.076 at line 4, then alarms at line 6 (N-TWOG)",
+            3,
+        ),
+        ("linuxcnc", KLARTEXT, "alarms at line 1 (WORD), 1 warning (LANGUAGE)", 0),
+        ("klartext", b"G21 F9.\nG1 X1.\nM30\n", "alarms at line 1 (WORD), 1 warning (LANGUAGE)", 0),
+    ],
+)
+def test_the_outcome_says_the_worst_in_a_few_words(control: str, text: bytes, outcome: str, moves: int) -> None:
+    row = answer(text, asked(control, CutterTool(1, 10.0)))
+    assert (row.outcome_and_warnings, row.count) == (outcome, moves)
+    assert row.uncompensated is ("nothing compensated" in outcome)
+    assert row.errors is any(word in outcome for word in ("nothing to run", "cannot", "gouges", "alarms"))
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "tool"),
+    [
+        ("fanuc:a", b"G21 F100.\nG41 D3 G1 X10. Y0\nX20.\nM30\n", 3),
+        ("linuxcnc", b"G21 F100\nT4 M6\nG1 X10\nM2\n", 4),
+        ("linuxcnc", b"G21 F100\nG1 X10\nM2\n", None),
+        ("linuxcnc", b"G21 F100\nG33 X10\nM2\n", None),
+    ],
+)
+def test_nc_proof_names_its_key_for_a_missing_diameter(control: str, text: bytes, tool: int | None) -> None:
+    done = run(text, control, ToolTable())
+    assert isinstance(done, ControlRun)
+    row = answered(done, judge_run(done), text)
+    assert row.missing == tool
+    assert row.why_said.endswith(f"T gives tool {tool} its diameter.") is (tool is not None)
+
+
+ARC = b"G20\nF9.\nG0 X1.\nG3 X2. Y1. I0. J1.\n%sM30\n"
+
+
+def test_the_machine_readable_answer_is_in_program_units() -> None:
+    row = answer(ARC % b"G33 X9.\n", asked("fanuc:a"))
+    text = "cutcomp does not support G33, and the path after it would be wrong."
+    finding = {"rule": "BEYOND", "severity": "error", "line": 5, "column": 1, "text": text, "lengths": []}
+    rapid: dict[str, object] = {"type": "line", "mode": "rapid", "y": 0.0, "z": 0.0, "feed": None}
+    arc = {"type": "arc", "mode": "feed", "line": 4, "x": 2.0, "y": 1.0, "z": 0.0, "feed": 9.0}
+    assert row.json() == {
+        "control": "fanuc:a",
+        "units": "IN",
+        "state": "not_followed",
+        "stopped_at": 5,
+        "deepest_gouge": None,
+        "parts_from": None,
+        "stretches": 0,
+        "moves": [
+            {**rapid, "line": 0, "x": 0.0},
+            {**rapid, "line": 3, "x": 1.0},
+            {**arc, "cx": 1.0, "cy": 1.0, "cz": 0.0, "plane": "XY", "ccw": True},
+        ],
+        "findings": [finding],
+    }
+    assert list(lines(row)) == [
+        f"      5:1  error    BEYOND         {text}",
+        "fanuc:a: cannot be followed past line 5 (BEYOND); 2 moves, 0 compensated stretches, IN.",
+    ]
+
+
+def test_a_file_that_cannot_be_read_has_the_same_keys_as_an_answer() -> None:
+    document, row = unreadable("a.nc", "It is empty."), answer(ARC % b"", asked("linuxcnc")).json()
+    assert set(document) == {"file", *row}
+    assert document["findings"] == [
+        {"rule": "UNREADABLE", "severity": "error", "line": None, "column": None, "text": "It is empty.", "lengths": []}
+    ]
+
+
+def test_a_path_that_leaves_that_of_the_reference_says_from_where_and_how_far() -> None:
+    """At the square corner Klartext makes an arc of radius 5; its middle is farthest from the offset lines."""
+    text = b"G21 F9.\nG0 X-20. Y-10.\nG41 D1 G1 X0. Y0.\nY30.\nX40.\nG40 X60. Y50.\nM30\n"
+    rows = answer_all(text, asked("all", CutterTool(1, 10.0)), "haas:a")
+    row = next(row for row in rows if row.control == "klartext")
+    assert row.parts == "its contour only; differs from haas:a from line 4, by 1.464 at line 4"
+    distance = pytest.approx(5 * (1 - sqrt(0.5)))
+    assert row.json()["parts_from"] == {"control": "haas:a", "line": 4, "farthest_line": 4, "distance": distance}
+    assert row.findings[0].code == "LANGUAGE"
+
+
+def test_a_program_without_a_contour_is_not_compared_with_another_language() -> None:
+    (row,) = [row for row in answer_all(b"G21 F9.\nG1 X1.\nM30\n", asked("all")) if row.control == "klartext"]
+    assert (row.outcome, row.count, row.errors) == ("reads another language", 0, False)
+    assert row.parts.startswith("not compared: ")
+
+
+FIRST = b"G21 F9.\nG41 D1 G1 X9.\nX20.\nY40.\nG40 X30.\nM30\n"
+
+
+@pytest.mark.parametrize(
+    ("second", "sentences"),
+    [
+        (FIRST, ["Contour 1: the same."]),
+        (FIRST.replace(b"Y40", b"Y41"), ["Contour 1: line 4 of the second is 1.000 MM off."]),
+        (FIRST.replace(b"G41", b"G42"), ["Contour 1: the sides or planes differ."]),
+        (
+            FIRST.replace(b"M30", b"G41 X60.\nX70.\nG40 X90.\nM30"),
+            ["Contour 1: the same.", "The first program has 1 contour, the second 2."],
+        ),
+        (b"G21 F9.\nG1 X1.\nM30\n", ["The first program has 1 contour, the second 0."]),
+    ],
+)
+def test_two_programs_are_compared_contour_by_contour(second: bytes, sentences: list[str]) -> None:
+    same, found = same_contours(FIRST, second, asked("fanuc:a", CutterTool(1, 5.0)))
+    assert (same, list(found)) == (second == FIRST, sentences)
+
+
+def test_programs_without_contours_are_not_the_same() -> None:
+    text = b"G21 F9.\nG1 X1.\nM30\n"
+    assert same_contours(text, KLARTEXT, asked("all")) == (False, ("Neither program has a compensated contour.",))
