@@ -14,6 +14,7 @@ from core.advice.path_findings import (
     better_path_findings,
     by_severity,
     move_names,
+    nearest_place,
     open_finding,
     path_findings,
     size_warning,
@@ -251,3 +252,13 @@ def test_an_inside_arc_smaller_than_the_tool_is_named(tool: float, told: str | N
     findings = tight_arcs(verdict, plate, Side.LEFT, tool)
     assert [sentence(finding, Unit.MM).partition(" To cut")[0] for finding in findings] == ([told] if told else [])
     assert all((finding.segment, finding.value) == (3.0, 1.5) for finding in findings)
+
+
+def test_the_nearest_place_is_where_the_path_comes_nearest_to_the_surface() -> None:
+    assert nearest_place(None) is None
+    wall = work(lines((0, 0), (2, 0), (2, 3)))
+    assert nearest_place(replace(wall, verdict=None)) is None
+    place = nearest_place(wall)
+    assert place is not None
+    assert place.distance == pytest.approx(0.25)
+    assert (place.at, place.surface_at, place.surface_number) == ((0.0, 0.25), (0.0, 0.0), 1.0)

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from core.geometry.piece import Arc
-from core.program.edit import FormPlace, delete_segment, insert_segment, take_solution, type_field
+from core.program.edit import FormPlace, Refused, delete_segment, insert_segment, take_solution, type_field
 from core.program.file.read import StoreError, loads
 from core.program.file.write import dumps
 from core.program.model import LineSegment, Number, Program, Unread
@@ -450,6 +450,11 @@ def test_the_solution_field_lists_the_shortest_answer_first() -> None:
     asked = solution_at(solve_block(program.blocks[0], program), 2)
     assert asked is not None
     assert (asked.number, asked.label, asked.labels) == (1, "? of 2", ("1 of 2", "2 of 2"))
+    for index in (-1, 2):
+        assert take_solution(program, FormPlace(1, 3), index) == Refused("There is no such solution to pick here.")
+    other = take_solution(program, FormPlace(1, 3), 0)
+    assert isinstance(other, Program)
+    assert solve_block(other.blocks[0], other).segments[0].end == pytest.approx((18.413365, 12.193081), abs=1e-6)
     taken = take_solution(program, FormPlace(1, 3), 1)
     assert isinstance(taken, Program)
     block = solve_block(taken.blocks[0], taken)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, radians, sin, sqrt
+from math import cos, hypot, pi, radians, sin, sqrt
 from typing import Any
 
 import pytest
@@ -27,6 +27,8 @@ def refusal(name: str, **typed: Any) -> str:
     return refused.text
 
 
+CIRCLE = {"x_center": 0, "y_center": 0, "radius": 5}
+HOLE = {"x_center": 0, "y_center": 0, "diameter": 9, "count": 6, "start_angle": 0, "hole": 1}
 FULL = {"adjacent": 4.0, "opposite": 3.0, "hypotenuse": 5.0, "angle": 36.86989764584402}
 
 
@@ -52,6 +54,10 @@ def test_an_arc_of_radius_and_chord_is_short_or_long() -> None:
     assert answers("ARC", chord=8, height=2)[0]["radius"] == pytest.approx(5.0)
     assert answers("ARC", radius=5, height=2)[0]["chord"] == pytest.approx(8.0)
     assert answers("ARC", height=2, sweep=short["sweep"])[0]["radius"] == pytest.approx(5.0)
+    assert answers("ARC", radius=5, sweep=180)[0] == pytest.approx(
+        {"radius": 5.0, "chord": 10.0, "height": 5.0, "sweep": 180.0, "length": 5.0 * pi}
+    )
+    assert answers("ARC", chord=8, sweep=short["sweep"])[0]["radius"] == pytest.approx(5.0)
 
 
 def test_a_height_over_a_sweep_next_to_none_gives_its_arc() -> None:
@@ -103,6 +109,20 @@ def test_sums_and_units_are_typed_as_in_a_field() -> None:
         ("TANGENT FROM A POINT", {"x": 0, "y": 0, "x_center": 1, "y_center": 0, "radius": 2}, "The point lies inside"),
         ("TANGENT FROM A POINT", {"x": 0}, "Y OF THE POINT is blank: enter it."),
         ("TWO LINES MEET", {"x": 0, "y": 0, "angle": 3, "x2": 0, "y2": 9, "angle2": 183}, "They never meet."),
+        ("RIGHT TRIANGLE", {"adjacent": 0, "opposite": 3}, "Each must be above 0."),
+        ("ARC", {"radius": 3}, "Enter two of the four"),
+        ("ARC", {"radius": 3, "sweep": 360}, "The sweep is below 360."),
+        ("ARC", {"radius": 3, "height": 6}, "The height is below the diameter."),
+        ("TANGENT FROM A POINT", {"x": 9, "y": 0, **CIRCLE, "radius": 0}, "RADIUS must be above 0."),
+        ("POINT ON A BOLT CIRCLE", HOLE | {"count": 0}, "HOLES must be from 1 to 9999."),
+        ("POINT ON A BOLT CIRCLE", HOLE | {"count": 10000}, "HOLES must be from 1 to 9999."),
+        ("POINT ON A BOLT CIRCLE", HOLE | {"hole": 0}, "HOLE must be from 1 to 6."),
+        ("POINT ON A BOLT CIRCLE", HOLE | {"hole": 7}, "HOLE must be from 1 to 6."),
+        ("POINT ON A BOLT CIRCLE", HOLE | {"diameter": 0}, "DIAMETER must be above 0."),
+        ("LINE MEETS CIRCLE", {"x": 0, "y": 0, "angle": 0, **CIRCLE, "radius": 0}, "RADIUS must be above 0."),
+        ("TWO CIRCLES MEET", {**CIRCLE, "x_center2": 8, "y_center2": 0, "radius2": 0}, "RADIUS must be above 0."),
+        ("TWO CIRCLES MEET", {**CIRCLE, "x_center2": 0, "y_center2": 0, "radius2": 5}, "Both are the same"),
+        ("TWO CIRCLES MEET", {**CIRCLE, "x_center2": 0, "y_center2": 0, "radius2": 4}, "They never meet."),
     ],
 )
 def test_what_cannot_be_is_refused_with_its_reason(name: str, typed: dict[str, Any], text: str) -> None:

@@ -292,6 +292,14 @@ def test_short_or_separate_or_crossing_leads_are_information(contour: Path) -> N
     assert over_run.severity is Severity.INFO
 
 
+def test_long_leads_at_both_ends_are_named_as_possible_walls() -> None:
+    """The lead-in is 3 of the first line's 4.5, the lead-out 1 of the last line's 2.5."""
+    contour = lines((-3, 0), *SQUARE, (0, 1))
+    (over_run, *_) = verdict_findings(judge(contour, Side.LEFT, R, around(R)), contour)
+    assert (over_run.code, over_run.severity) == ("OVER_RUN", Severity.WARNING)
+    assert "Taken for lead beyond it: segments 1 and 4. " in over_run.text
+
+
 LEAF_CENTER = (0.75, 2.25)
 LEAF_FOOT = (0.0, 2.25 - sqrt(3.25**2 + 0.25**2 - 0.75**2))
 LEAF_BACK = (Line((4, 2), (0, 2)), Line((0, 2), (0, -2.5)))
