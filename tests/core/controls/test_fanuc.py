@@ -764,6 +764,38 @@ def test_lengths_without_a_decimal_point_are_reported_and_counts_are_not(blocks:
     assert [finding.column for finding in findings_of(ran(HEAD + blocks), "FN-POINT")] == [column] * bool(column)
 
 
+@pytest.mark.parametrize(
+    ("blocks", "last"),
+    [
+        ("#2201=5.\nX#2201 Y#2001", (5.0, 0.0)),
+        ("#2001=5.\nX#2001 Y#2201", (5.0, 0.0)),
+        ("#2400=5.\nX#2400 Y#2200", (5.0, 0.0)),
+        ("G10 L10 P1 R5.\nX#2201 Y#2001", (5.0, 0.0)),
+        ("G10 L11 P1 R5.\nX#2001 Y#2201", (5.0, 0.0)),
+        ("X#4001 Y#4109", (1.0, 100.0)),
+        ("T7\nX#4120 Y#4003", (7.0, 90.0)),
+        ("X7.\nX[#5001+1.] Y#5041", (8.0, 7.0)),
+        ("G10 L2 P1 X5.\nG91 G10 L2 P1 X2.\nG90 G54 G0 X1.", (8.0, 0.0)),
+        ("G51 X0 Y0 P2.\nX5.\nG50\nX6. Y1.", (6.0, 1.0)),
+        ("G51 X0 Y0 P2.\nX6. Y1.", (12.0, 2.0)),
+        ("G51.1 X0 Y0\nX5. Y3.\nG50.1 X0\nX6. Y3.", (6.0, -3.0)),
+        ("G51.1 X0 Y0\nX5. Y3.\nG50.1\nX7. Y4.", (7.0, 4.0)),
+    ],
+)
+def test_memories_modal_values_and_canceled_transforms_are_as_calculated(
+    blocks: str, last: tuple[float, float]
+) -> None:
+    run = ran(f"{HEAD}{blocks}\nM30")
+    assert not alarms(run)
+    assert ends(run)[-1] == last
+
+
+def test_a_body_of_a_macro_that_runs_as_a_program_says_so() -> None:
+    (finding,) = findings_of(ran(f"{HEAD}G0 X#1\nM99"), "FN-BODY")
+    assert (finding.line, finding.severity) == (1, Severity.INFO)
+    assert not findings_of(ran(f"{HEAD}G0 X#1\nM30"), "FN-BODY")
+
+
 def test_common_variables_that_are_read_before_they_are_set_are_reported() -> None:
     used = ("X#500", "X-#500", "IF[#501EQ1]GOTO9", "#1=#502+1", "G#503 X1.", "#1=#502\nX#1", "IF[ABS[#500]LT1]GOTO9")
     for block in (*used, "IF[[#500EQ#0]OR[#510EQ1]]GOTO9", "IF[#501GE#502]GOTO9", "IF[#501EQ#502]GOTO9"):
