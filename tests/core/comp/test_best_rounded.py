@@ -75,6 +75,17 @@ def test_a_drawing_gives_the_same_closed_loops_at_every_rounding(seed):
         assert len(path.loops) == len(best[7].loops) or part.is_neck(decimals)
 
 
+@pytest.mark.parametrize(("seed", "decimals"), [(47, 4), (291, 5), (527, 4), (1695, 5), (3112, 5)])
+def test_neighbors_that_rounding_lets_run_past_each_other_are_cut_back_and_joined(seed: int, decimals: int) -> None:
+    """Otherwise the path would turn straight back for a few nanometers, and gouge there."""
+    part = drawing(seed)
+    best = part.best(decimals)
+    assert_clean(part.rounded(decimals), part.side, part.radius, best)
+    for loop in best.loops:
+        leaving = np.roll(loop.start_directions, -1, axis=0)
+        assert (loop.end_directions * leaving).sum(axis=1).min() > -0.9
+
+
 @pytest.mark.parametrize("side", Side)
 def test_an_inside_radius_as_large_as_the_tool_s_to_a_rounding_closes(side):
     """The offset of such an arc is shorter than the gaps on both its sides."""
