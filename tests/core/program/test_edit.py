@@ -24,6 +24,7 @@ from core.program.model import (
     PathChoice,
     Program,
     ProgramParameters,
+    Relative,
     Segment,
     Tool,
     Unread,
@@ -116,6 +117,43 @@ def test_choose_sets_choice_fields():
         )
         == curved
     )
+
+
+RELATIVE = (
+    LineSegment(angle=Relative(30.0)),
+    ArcSegment(Direction.CW, radius=Number(1.0), start_angle=Relative(30.0)),
+)
+
+
+@pytest.mark.parametrize("segment", RELATIVE)
+def test_tangent_replaces_an_angle_relative_to_the_segment_before(segment: Segment) -> None:
+    part = program(line(x_end=2.0, y_end=0.0), segment)
+    tangent = accepted(edit.choose(part, FormPlace(1, 2), "tangent", "YES")).blocks[0].segments[1]
+    plain = line() if isinstance(segment, LineSegment) else arc("CW", radius=1.0)
+    assert tangent == replace(plain, tangent=True)
+    fixed = program(line(x_end=2.0, y_end=0.0), line(angle=30.0))
+    for picked in ("YES", "NO"):
+        (_, now) = accepted(edit.choose(fixed, FormPlace(1, 2), "tangent", picked)).blocks[0].segments
+        assert now == replace(line(angle=30.0), tangent=picked == "YES")
+
+
+def test_a_picked_joint_is_kept_with_its_segment() -> None:
+    picked = accepted(edit.pick_joint(SQUARE, FormPlace(1, 2), 2.5, -1.0)).blocks[0].segments[1]
+    assert picked == changed(SQUARE.blocks[0].segments[1], {"pick_x": Number(2.5), "pick_y": Number(-1.0)})
+    assert edit.pick_joint(SQUARE, FormPlace(1, 4), 0.0, 0.0) == Refused("Segment 4 does not exist; the last is 3.")
+
+
+def test_a_segment_with_nothing_but_a_feed_is_empty() -> None:
+    assert edit.is_empty(line())
+    assert edit.is_empty(line(feed=9.0))
+    assert not edit.is_empty(line(x_end=0.0))
+
+
+def test_words_and_relative_numbers_do_not_fit_every_field() -> None:
+    refused = edit.type_field(SQUARE, FormPlace(1), "cutter_comp", Number(1.0))
+    assert refused == Refused("CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT.")
+    refused = edit.type_field(SQUARE, FormPlace(1), "x_start", Relative(1.0))
+    assert refused == Refused("X START takes no relative number: type it without I.")
 
 
 @pytest.mark.parametrize(

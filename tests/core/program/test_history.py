@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from core.program.edit import (
     FormPlace,
+    choose,
     copy_block,
     delete_segment,
     delete_tool,
@@ -20,7 +21,7 @@ from core.program.edit import (
     type_field,
 )
 from core.program.history import History, differences, splice
-from core.program.model import ArcSegment, CutterComp, LineSegment, Number, PartSetup, Program, Tool, Unread
+from core.program.model import ArcSegment, CutterComp, LineSegment, Number, PartSetup, Program, Relative, Tool, Unread
 from core.units import Unit
 from tests.core.program.parts import line, program, programs
 
@@ -94,6 +95,15 @@ def test_differences_name_changed_fields() -> None:
 def test_differences_name_changed_choices() -> None:
     block = replace(PART.blocks[0], cutter_comp=CutterComp.RIGHT)
     assert differences_to(replace(PART, blocks=(block,))) == ("Block 1: CUTTER COMP. RIGHT, was LEFT.",)
+
+
+def test_differences_say_what_a_field_takes_besides_numbers() -> None:
+    relative = type_field(PART, FormPlace(1, 1), "x_end", Relative(2.0))
+    assert differences_to(relative) == ("Block 1, segment 1: X END I2.0000, was 1.0000.",)
+    tangent = choose(PART, FormPlace(1, 2), "tangent", "YES")
+    assert differences_to(tangent) == ("Block 1, segment 2: TANGENT YES, was NO.",)
+    picked = choose(PART, FormPlace(1, 2), "choice", 1)
+    assert differences_to(picked) == ("Block 1, segment 2: solution changed.",)
 
 
 def test_differences_name_changed_segments() -> None:

@@ -16,6 +16,7 @@ from core.program.tools import (
     decode_table,
     find_tool,
     read_tool_table,
+    table_faults,
 )
 from core.units import Unit
 from tests.properties import exercised, must_exercise
@@ -215,3 +216,10 @@ def test_the_reader_of_the_control_finds_the_same_tools(text):
         control_tool = control.get(tool.number)
         assert control_tool is not None
         assert control_tool.diameter == (tool.diameter.value if tool.diameter else 0.0)
+
+
+@pytest.mark.parametrize(("count", "more"), [(3, []), (4, ["t.tbl: 1 more fault."]), (5, ["t.tbl: 2 more faults."])])
+def test_the_first_faults_of_a_table_are_listed_and_the_others_counted(count: int, more: list[str]) -> None:
+    faults = [Finding("TOOL", Severity.ERROR, f"Fault {line}.", line=line, column=2) for line in range(1, count + 1)]
+    listed = [f"t.tbl, line {line}, column 2: Fault {line}." for line in (1, 2, 3)]
+    assert table_faults("t.tbl", faults).splitlines() == listed + more

@@ -9,12 +9,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.piece import Arc, Piece
+from core.geometry.piece import Arc, Piece, Turn
 from core.program.edit import Refused
 from core.program.file.read import loads_bytes
-from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program
+from core.program.model import ArcSegment, BlendSegment, CutterComp, Direction, LineSegment, Number, Program, Segment
 from core.program.solve.block import solve_block
-from core.program.transform import Motion, mirrored, moved, no_longer_typed, repeat_segments, rotated, transform_block
+from core.program.transform import (
+    MAX_COPIES,
+    Motion,
+    mirrored,
+    moved,
+    no_longer_typed,
+    repeat_segments,
+    rotated,
+    transform_block,
+)
 from tests.core.program.run_files import Case, program_of
 
 GOLDEN = json.loads((Path(__file__).parents[2] / "data/calculated_runs/golden.json").read_text(encoding="utf-8"))
@@ -28,7 +37,7 @@ def example(name: str) -> Program:
 NAMES = ("pocket", "notch", "flange", "plate-mm", "overrun-square")
 
 
-def in_block(*segments: LineSegment) -> Program:
+def in_block(*segments: Segment) -> Program:
     """A program in millimeters with one contour of these segments from X 0 Y 0, on the line at Z -5."""
     program = example("plate-mm")
     block = replace(program.blocks[0], cutter_comp=CutterComp.ON, finish_tool=None, segments=segments)
@@ -218,3 +227,40 @@ def test_every_calculated_run_lies_where_the_motion_puts_it(case: Case, motion: 
         held_against(before, after, motion)
         if motion == moved(3.0, -2.0):
             assert no_longer_typed(before.blocks[0], after.blocks[0]) == []
+
+
+CORNER = (LineSegment(Number(10.0), Number(0.0)), BlendSegment(Number(1.0)), LineSegment(Number(10.0), Number(9.0)))
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "copies", "motion", "text"),
+    [
+        (2, 1, 1, moved(5.0, 0.0), "The last segment, 1, is before the first, 2."),
+        (0, 1, 1, moved(5.0, 0.0), "This block has segments 1 to 3, not 0 to 1."),
+        (1, 4, 1, moved(5.0, 0.0), "This block has segments 1 to 3, not 1 to 4."),
+        (1, 3, 0, moved(5.0, 0.0), f"Type a number of copies from 1 to {MAX_COPIES}."),
+        (1, 3, MAX_COPIES + 1, moved(5.0, 0.0), f"Type a number of copies from 1 to {MAX_COPIES}."),
+        (1, 3, 2, mirrored((0.0, 0.0), 0.0), "A mirrored copy is made once."),
+        (2, 3, 1, moved(5.0, 0.0), "Begin and end the copied segments with a LINE or an ARC."),
+        (1, 2, 1, moved(5.0, 0.0), "Begin and end the copied segments with a LINE or an ARC."),
+    ],
+)
+def test_copies_that_cannot_be_made_are_refused(first: int, last: int, copies: int, motion: Motion, text: str) -> None:
+    assert repeat_segments(in_block(*CORNER), 1, first, last, motion, copies) == Refused(text)
+
+
+def test_a_block_without_its_start_is_neither_moved_nor_copied() -> None:
+    program = in_block(*CORNER)
+    block = program.blocks[0]
+    for blank in (replace(block, x_start=None), replace(block, y_start=None)):
+        part = replace(program, blocks=(blank,))
+        assert transform_block(part, 1, moved(1.0, 0.0)) == Refused("Type X START and Y START first.")
+        assert repeat_segments(part, 1, 1, 3, moved(5.0, 0.0), 1) == Refused("Type X START and Y START first.")
+
+
+def test_a_full_circle_stays_one_where_it_is_moved_and_mirrored() -> None:
+    circle = ArcSegment(Direction.CW, x_center=Number(5.0), y_center=Number(0.0), sweep=Number(360.0))
+    before = in_block(circle)
+    after = transform_block(before, 1, mirrored((0.0, 0.0), 90.0))
+    assert isinstance(after, Program)
+    assert shapes(after) == [Arc((0.0, 0.0), (0.0, 0.0), (-5.0, 0.0), Turn.CCW)]
